@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Let tests import `core` from the repository's root and the extension as `rough_spectra`."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+sys.path.insert(0, str(ROOT))
+if "rough_spectra" not in sys.modules:
+    spec = importlib.util.spec_from_file_location(
+        "rough_spectra", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
+    assert spec is not None and spec.loader is not None
+    package = importlib.util.module_from_spec(spec)
+    sys.modules["rough_spectra"] = package
+    spec.loader.exec_module(package)
