@@ -27,5 +27,5 @@ class OutputError(RoughSpectraError):
     """A result cannot be written; whatever stood at its target is as it was."""
 
 
-class Cancelled(RoughSpectraError):
+class CancelledError(RoughSpectraError):
     """The user stopped a long task; nothing was written."""

@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Cycles computes for its rough Diffuse closure, and matching it to a target.
+
+Holds for the Diffuse BSDF, and for the Principled BSDF at Specular IOR Level 0, in Blender 4.5
+and 5.2: the energy-preserving Oren-Nayar closure of `kernel/closure/bsdf_oren_nayar.h`, itself
+after Y. Fujii, "A tiny improvement of Oren-Nayar reflectance model" (2012), with a term for
+multiple scattering.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, polar_angle, precision, spectrum
+from .errors import DomainError
+from .reading import INSTRUMENT_ANGLES
+
+_ALBEDO_SPAN = np.pi / 2 - 2 / 3
+"""How much a rough surface's directional albedo can lose; Fujii's normalization."""
+_MEAN_SPAN = _ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
+"""The same, averaged over the hemisphere; 5.6 is Cycles' rounded constant."""
+
+_NEWTON_STEPS = 12
+"""Newton on a convex cubic from above needs at most 7 steps to full double precision for c ≤ 1."""
+
+_GOLDEN = (5**0.5 - 1) / 2
+_SECTIONS = 9
+"""Sections of the roughness interval: 0.618^10 leaves 0.008, over which no ΔE00 changes by 0.01."""
+
+
+def reflectance(
+    color: npt.ArrayLike,
+    roughness: npt.ArrayLike,
+    theta_i: npt.ArrayLike,
+    theta_r: npt.ArrayLike,
+    delta_phi: npt.ArrayLike,
+) -> Array:
+    """Reflectance factor of Cycles' Diffuse BSDF.
+
+    Parameters
+    ----------
+    color
+        Color socket in scene-linear RGB, shape (..., 3); any number of channels works.
+    roughness
+        The socket Roughness (Diffuse Roughness in the Principled BSDF), 0 to 1. Not σ.
+    theta_i, theta_r, delta_phi
+        Geometry, radians; these and `roughness` broadcast against the leading axes of `color`.
+
+    Returns
+    -------
+    Array of shape (..., 3), in the precision of `color`.
+
+    Raises
+    ------
+    DomainError
+        If a polar angle lies outside [0, π/2] or the roughness outside 0 to 1.
+    """
+    c = spectrum(color, "the color")
+    single, multiple, ratio = (
+        term[..., np.newaxis]
+        for term in _lobe(
+            *(np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
+        )
+    )
+    return np.asarray(c * (single + c * c * multiple / (1 - c * ratio)))
+
+
+def color_for_reading(
+    reading: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str = "45a:0"
+) -> Array:
+    """Socket color whose reading in Cycles is the given one, channel by channel.
+
+    Parameters
+    ----------
+    reading
+        Reflectance factor in scene-linear RGB, shape (..., 3).
+    roughness
+        Cycles' roughness, broadcast against the leading axes of `reading`.
+    instrument
+        Where the reading is taken.
+
+    Returns
+    -------
+    Color, shape (..., 3). Above 1 where no color reaches the reading, negative where the reading
+    is: nothing is clipped.
+    """
+    r = spectrum(reading, "the reading")
+    angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
+    single, multiple, ratio = (term[..., np.newaxis] for term in _lobe(*angles))
+    # r (1 - D c) = A c (1 - D c) + B c³. The start lies above the root and the cubic is convex
+    # there, so Newton comes down to the root without overshooting.
+    c = r / single
+    for _ in range(_NEWTON_STEPS):
+        value = ((multiple * c - single * ratio) * c + single + r * ratio) * c - r
+        slope = (3 * multiple * c - 2 * single * ratio) * c + single + r * ratio
+        c = c - value / slope
+    return np.asarray(c)
+
+
+def match(
+    reading: npt.ArrayLike,
+    targets: npt.ArrayLike,
+    geometries: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike],
+    perceive: Callable[[Array], Array],
+    difference: Callable[[Array, Array], Array],
+    instrument: str = "45a:0",
+) -> tuple[Array, Array]:
+    """Choose color and roughness so that Cycles reads the same as the target.
+
+    The reading at the instrument is met exactly; the one scalar roughness then brings the other
+    geometries closest, in the mean of `difference`. A roughness that would need a color above 1
+    for a reading of at most 1 is not taken.
+
+    Parameters
+    ----------
+    reading
+        Target reading at the instrument in scene-linear RGB, shape (materials, 3).
+    targets
+        Target reflectance factor at other geometries, shape (materials, geometries, 3).
+    geometries
+        θi, θr and Δφ of those geometries, radians, each of shape (geometries,).
+    perceive
+        Turns scene-linear RGB (..., 3) into the coordinates that `difference` compares.
+    difference
+        Color difference of two arrays of such coordinates, (..., 3) and (..., 3) -> (...).
+
+    Returns
+    -------
+    color, roughness
+        Shapes (materials, 3) and (materials,). The color is unclipped, as in
+        `color_for_reading`.
+    """
+    r = spectrum(reading, "the reading")
+    wanted = perceive(spectrum(targets, "the targets"))
+
+    def cost(roughness: Array) -> Array:
+        color = color_for_reading(r, roughness, instrument)
+        seen = reflectance(color[:, np.newaxis, :], roughness[:, np.newaxis], *geometries)
+        unreachable = ((color > 1) & (r <= 1)).any(axis=-1)
+        return np.where(unreachable, np.inf, difference(perceive(seen), wanted).mean(axis=-1))
+
+    roughness = _golden_section(cost, np.zeros(len(r), r.dtype), np.ones(len(r), r.dtype))
+    return color_for_reading(r, roughness, instrument), roughness
+
+
+def _golden_section(cost: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Minimize `cost` in each element's interval; the ends themselves are tried too.
+
+    Where cost is infinite towards the upper end, the search moves down.
+    """
+    ends = (low, high)
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    cost_left, cost_right = cost(left), cost(right)
+    for _ in range(_SECTIONS):
+        down = cost_left <= cost_right
+        low, high = np.where(down, low, left), np.where(down, right, high)
+        probe = np.where(down, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+        cost_probe = cost(probe)
+        left, right = np.where(down, probe, right), np.where(down, left, probe)
+        cost_left, cost_right = (
+            np.where(down, cost_probe, cost_right),
+            np.where(down, cost_left, cost_probe),
+        )
+    tried = np.stack((*ends, left, right))
+    costs = np.stack((cost(ends[0]), cost(ends[1]), cost_left, cost_right))
+    best = np.argmin(costs, axis=0)
+    return np.asarray(np.take_along_axis(tried, best[np.newaxis], axis=0)[0])
+
+
+def _lobe(
+    roughness: Array, theta_i: Array, theta_r: Array, delta_phi: Array
+) -> tuple[Array, Array, Array]:
+    """Compute A, B and D of r = c (A + c² B / (1 - c D)).
+
+    The closure weight multiplies a term that already holds c², hence c³ in the second term.
+    Written so that roughness 0 is not 0/0: 1 - E = a s (k - G) with k the albedo span.
+    """
+    dtype = precision(roughness, theta_i, theta_r, delta_phi)
+    outside = (roughness < 0) | (roughness > 1)
+    if np.any(outside):
+        first = float(roughness[outside].flat[0])
+        msg = f"Cycles' diffuse roughness holds {first:.6g}; it runs from 0 to 1 and is not σ."
+        raise DomainError(msg)
+    light = polar_angle(theta_i, "theta_i", dtype)
+    view = polar_angle(theta_r, "theta_r", dtype)
+    tilt = np.sin(light) * np.sin(view) * np.cos(delta_phi)
+    tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(light), np.cos(view)), tilt)
+    a = 1 / (np.pi + roughness * dtype.type(_ALBEDO_SPAN))
+    single = np.pi * a * (1 + roughness * tilt)
+    lost = a * roughness
+    mean_lost = lost * dtype.type(_MEAN_SPAN)
+    multiple = (
+        lost
+        * (_ALBEDO_SPAN - _albedo_shape(light))
+        * (_ALBEDO_SPAN - _albedo_shape(view))
+        * (1 - mean_lost)
+        / dtype.type(_MEAN_SPAN)
+    )
+    return single, multiple, mean_lost
+
+
+def _albedo_shape(theta: Array) -> Array:
+    """G(θ): how the directional albedo rises towards grazing.
+
+    (sin θ / cos θ)(1 - sin³ θ) is ∞ · 0 at θ = π/2; with 1 - sin θ = cos² θ / (1 + sin θ) the
+    cosine cancels.
+    """
+    sin, cos = np.sin(theta), np.cos(theta)
+    tail = sin * cos * (1 + sin + sin * sin) / (1 + sin)
+    return np.asarray(sin * (theta - 2 / 3 - sin * cos) + 2 / 3 * tail)
