@@ -1,0 +1,313 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every developer command of Rough Spectra: `python3 dev.py --help`.
+
+Needs a Python of any version from 3.9 on to start. It finds the Pythons that Blender's LTS versions
+stand on and makes environments of its own in .venv/ with pinned versions, so nothing has to be
+installed or activated beforehand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools.ground import environments, package, wheels
+from tools.ground.environments import Environment
+from tools.ground.errors import GroundError
+
+ROOT = Path(__file__).resolve().parent
+BUILD = ROOT / "build"
+CACHE = ROOT / ".cache"
+
+UNUSABLE = 2
+INTERRUPTED = 130
+
+BLENDER_5_2 = Environment(
+    ROOT, "bpy-5.2", ("3.13",), "Blender 5.2 LTS as a module, about 400 MB to fetch, once"
+)
+BLENDER_4_5 = Environment(
+    ROOT, "bpy-4.5", ("3.11",), "Blender 4.5 LTS as a module, about 400 MB to fetch, once"
+)
+TOOLS = Environment(
+    ROOT, environments.TOOLS, ("3.13", "3.11"), "ruff, mypy, matplotlib and mkdocs, once"
+)
+BLENDERS = {"5.2": BLENDER_5_2, "4.5": BLENDER_4_5}
+
+NO_PYTHON = (
+    "Neither Python 3.13 (for Blender 5.2 LTS) nor Python 3.11 (for Blender 4.5 LTS) was found "
+    "among those that run: install one of them, for instance from python.org, with "
+    "'pyenv install 3.13' or with 'uv python install 3.13', and run the same command again."
+)
+
+
+def say(sentence: str) -> None:
+    """Tell the user what is going on, in order with what child processes print."""
+    print(sentence, flush=True)
+
+
+# Environments ------------------------------------------------------------------------------------
+
+
+def prepare_blenders(wanted: Sequence[str]) -> dict[str, Environment]:
+    """Prepare the Blender versions asked for and return those whose Python exists."""
+    ready = {name: BLENDERS[name] for name in wanted if environments.prepare(BLENDERS[name], say)}
+    if not ready and len(wanted) == len(BLENDERS):
+        raise GroundError(NO_PYTHON)
+    return ready
+
+
+def prepare_blender() -> Environment:
+    """Prepare one Blender, the newest whose Python exists."""
+    for environment in BLENDERS.values():
+        if environments.prepare(environment, say):
+            return environment
+    raise GroundError(NO_PYTHON)
+
+
+def prepare_tools() -> Environment:
+    """Prepare ruff, mypy and the rest."""
+    if not environments.prepare(TOOLS, say):
+        raise GroundError(NO_PYTHON)
+    return TOOLS
+
+
+def missing(name: str) -> str:
+    """Say that a Blender version is left out, and what to install."""
+    python = BLENDERS[name].versions[0]
+    return (
+        f"Blender {name} was not tested: no Python {python} that runs was found; install it, for "
+        f"instance with 'pyenv install {python}' or 'uv python install {python}'."
+    )
+
+
+# Children ----------------------------------------------------------------------------------------
+
+
+def call(command: Sequence[str | Path], cwd: Path | None = ROOT, **extra: str) -> int:
+    """Run a child with our streams and return its exit status; `extra` adds to its environment."""
+    sys.stdout.flush()
+    words = [str(word) for word in command]
+    return subprocess.run(words, cwd=cwd, env={**os.environ, **extra}, check=False).returncode
+
+
+def module(environment: Environment, name: str, *arguments: str | Path) -> list[str | Path]:
+    """Return the command that runs a module of an environment."""
+    return [environment.python, "-m", name, *arguments]
+
+
+def script(name: str) -> Path:
+    """Return a script of the repository or say that it isn't there."""
+    path = ROOT / name
+    if not path.is_file():
+        raise GroundError(f"{name} does not exist in this version of the repository yet.")
+    return path
+
+
+# Commands ----------------------------------------------------------------------------------------
+
+
+@dataclass
+class Step:
+    """One line of the summary that closes a test run."""
+
+    name: str
+    result: str
+    seconds: float = 0.0
+    failed: bool = False
+
+
+def timed(name: str, command: Sequence[str | Path], cwd: Path = ROOT, **extra: str) -> Step:
+    """Run one step of the tests."""
+    say(f"\n=== {name}")
+    start = time.monotonic()
+    status = call(command, cwd, **extra)
+    result = "ok" if status == 0 else f"FAILED (exit status {status})"
+    return Step(name, result, time.monotonic() - start, status != 0)
+
+
+def test_blender(name: str, environment: Environment, arguments: Sequence[str]) -> Step:
+    """Run pytest over a bpy module, away from the user's own Blender settings."""
+    wheels.ensure(ROOT, environment.python)
+    user = CACHE / f"blender-user-{name}"
+    user.mkdir(parents=True, exist_ok=True)
+    pytest = module(environment, "pytest", "--durations=10", *arguments)
+    return timed(f"tests, Blender {name}", pytest, BLENDER_USER_RESOURCES=str(user))
+
+
+def lint() -> list[Step]:
+    """Run both halves of ruff."""
+    ruff = module(prepare_tools(), "ruff")
+    return [
+        timed("lint (ruff check)", [*ruff, "check"]),
+        timed("layout (ruff format)", [*ruff, "format", "--check"]),
+    ]
+
+
+def types() -> list[Step]:
+    """Check types of a copy of what ships, named as Blender names it.
+
+    The extension's relative imports climb to its package, and a clone's folder may have any name.
+    """
+    config = ("--config-file", ROOT / "pyproject.toml", "--cache-dir", CACHE / "mypy")
+    mypy = module(prepare_tools(), "mypy", *config)
+    shipped = CACHE / "types"
+    package.stage(ROOT, shipped / "rough_spectra", ["__init__.py"], package.CODE_FOLDERS)
+    parts = ["-p", "rough_spectra.core", "-p", "rough_spectra.addon"]
+    return [
+        timed("types of core and addon (mypy)", [*mypy, *parts], shipped),
+        timed("types of dev.py and tools (mypy)", mypy),
+    ]
+
+
+def command_test(options: argparse.Namespace) -> int:
+    """Run the tests over each Blender, then lint, layout and types."""
+    wanted = options.only or [*BLENDERS, "lint", "types"]
+    names = [name for name in BLENDERS if name in wanted]
+    ready = prepare_blenders(names)
+    if "lint" in wanted or "types" in wanted:
+        prepare_tools()
+    steps = [test_blender(name, ready[name], options.arguments) for name in ready]
+    for name in names:
+        if name not in ready:
+            strict = bool(os.environ.get("CI")) or bool(options.only)
+            steps.append(Step(f"tests, Blender {name}", missing(name), failed=strict))
+    if "lint" in wanted:
+        steps += lint()
+    if "types" in wanted:
+        steps += types()
+    say("\n=== summary")
+    for step in steps:
+        say(f"{step.seconds:7.1f} s  {step.name}: {step.result}")
+    failed = sum(step.failed for step in steps)
+    say(f"{failed} of {len(steps)} steps failed." if failed else "All steps passed.")
+    return 1 if failed else 0
+
+
+def command_build(_options: argparse.Namespace) -> int:
+    """Build the extension zip and have Blender validate it."""
+    python = prepare_blender().python
+    wheel = wheels.ensure(ROOT, python)
+    output = BUILD / f"rough_spectra-{package.version(ROOT)}.zip"
+    package.build(ROOT, python, wheel, BUILD / "stage" / "rough_spectra", output)
+    size = output.stat().st_size / 1e6
+    say(f"Built {output} ({size:.1f} MB), accepted by Blender's own validator.")
+    return 0
+
+
+def command_run(arguments: Sequence[str]) -> int:
+    """Run the extension's command line in the caller's folder."""
+    # What a verb prints may be piped on: set-up talks elsewhere.
+    with contextlib.redirect_stdout(sys.stderr):
+        python = prepare_blender().python
+    command = [str(python), str(script("tools/run_command_line.py")), *arguments]
+    if sys.platform != "win32":
+        # Give our place to the child, so that a signal to this process reaches the work itself.
+        os.execv(command[0], command)
+    return call(command, cwd=None)
+
+
+def command_demo(_options: argparse.Namespace) -> int:
+    """Make the demo scene, its readings and its pictures in build/demo."""
+    demo, sheet = script("tools/demo.py"), script("tools/contact_sheet.py")
+    blender, tools = prepare_blender(), prepare_tools()
+    wheels.ensure(ROOT, blender.python)
+    output = BUILD / "demo"
+    output.mkdir(parents=True, exist_ok=True)
+    return call([blender.python, demo, output]) or call([tools.python, sheet, output])
+
+
+def command_bench(options: argparse.Namespace) -> int:
+    """Measure speed against copies and peers."""
+    return call([prepare_blender().python, script("tools/bench.py"), *options.arguments])
+
+
+def command_figures(options: argparse.Namespace) -> int:
+    """Draw the figures of the manual."""
+    return call([prepare_tools().python, script("docs/figures.py"), *options.arguments])
+
+
+def command_docs(_options: argparse.Namespace) -> int:
+    """Build the manual into site/; a dead link fails."""
+    script("mkdocs.yml")
+    site = ROOT / "site"
+    return call(module(prepare_tools(), "mkdocs", "build", "--strict", "--site-dir", site))
+
+
+def command_setup(_options: argparse.Namespace) -> int:
+    """Prepare every environment and do nothing else."""
+    ready = prepare_blenders(list(BLENDERS))
+    prepare_tools()
+    for name, environment in BLENDERS.items():
+        if name in ready:
+            wheels.ensure(ROOT, environment.python)
+            say(f"Blender {name}: {environment.python}")
+        else:
+            say(missing(name).replace("was not tested", "is left out"))
+    say(f"Tools: {TOOLS.python}")
+    return 0
+
+
+COMMANDS = {
+    "setup": (command_setup, "prepare the environments, nothing else"),
+    "demo": (command_demo, "make the demo scene, its readings and its pictures"),
+    "test": (command_test, "tests over both Blender LTS versions, lint, layout and types"),
+    "build": (command_build, "build and validate the extension zip"),
+    "docs": (command_docs, "build the manual into site/"),
+    "figures": (command_figures, "draw the figures of the manual"),
+    "bench": (command_bench, "measure speed"),
+}
+TAKES_ARGUMENTS = {"test": "pytest", "bench": "tools/bench.py", "figures": "docs/figures.py"}
+
+
+def parser() -> argparse.ArgumentParser:
+    """Describe the command line."""
+    top = argparse.ArgumentParser(prog="dev.py", description="Rough Spectra's developer commands.")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, (function, about) in COMMANDS.items():
+        epilog = None
+        if name in TAKES_ARGUMENTS:
+            epilog = f"Other arguments go to {TAKES_ARGUMENTS[name]}."
+        sub = commands.add_parser(name, help=about, description=function.__doc__, epilog=epilog)
+        sub.set_defaults(function=function)
+        if name == "test":
+            sub.add_argument(
+                "--only",
+                action="append",
+                choices=[*BLENDERS, "lint", "types"],
+                help="just this step; may be given several times",
+            )
+    commands.add_parser("run", help="the extension's command line: run VERB ... (run --help)")
+    return top
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run one command and return its exit status."""
+    if argv and argv[0] == "run":
+        return command_run(argv[1:])
+    top = parser()
+    options, rest = top.parse_known_args(argv)
+    if rest and options.command not in TAKES_ARGUMENTS:
+        top.error(f"unrecognized arguments: {' '.join(rest)}")
+    options.arguments = rest
+    status: int = options.function(options)
+    return status
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except GroundError as error:
+        print(error, file=sys.stderr)
+        sys.exit(UNUSABLE)
+    except KeyboardInterrupt:
+        print("Interrupted.", file=sys.stderr)
+        sys.exit(INTERRUPTED)

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run the extension's command line over the bpy module, without a Blender executable.
+
+`dev.py run VERB ...` starts this file in an environment that has bpy. The repository's root is
+loaded as the package `rough_spectra`, because a clone's folder may have any name.
+"""
+
+import importlib
+import importlib.util
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = "rough_spectra"
+
+
+def load_extension() -> None:
+    """Make `import rough_spectra` find the repository's root."""
+    spec = importlib.util.spec_from_file_location(
+        PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
+    )
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{ROOT / '__init__.py'} is missing: put it back from git.")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[PACKAGE] = module
+    spec.loader.exec_module(module)
+
+
+def main() -> int:
+    """Hand the arguments to the extension and return its exit status."""
+    load_extension()
+    importlib.import_module("bpy")  # before the extension: it brings mathutils and the like along
+    command_line = importlib.import_module(f"{PACKAGE}.addon.command_line")
+    return int(command_line.main(sys.argv[1:]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
