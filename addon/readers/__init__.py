@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of measured spectra in, samples out, whatever the file's name ends with.
+
+A format is one module of this package, and nothing else has to know of it:
+
+    NAME = "Nix export"                             what messages call it
+    PRIORITY = 100                                  who is asked first; specific formats above 0
+    def sniff(document: Document) -> bool           by content; quick, and never raises
+    def read(document: Document) -> list[Sample]    raises InputError, nothing else
+
+Modules whose name begins with an underscore are help for the readers, not formats.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import os
+import pkgutil
+from typing import Protocol, cast
+
+from ...core.errors import InputError
+from ..sample import Sample
+from ._document import Document, open_document
+
+__all__ = ["Document", "Reader", "formats", "read", "readers"]
+
+
+class Reader(Protocol):
+    """What a module of this package offers."""
+
+    NAME: str
+    PRIORITY: int
+
+    def sniff(self, document: Document) -> bool:
+        """Return whether the content looks like this format."""
+
+    def read(self, document: Document) -> list[Sample]:
+        """Return the samples of the file, in its order."""
+
+
+def read(path: str | os.PathLike[str]) -> list[Sample]:
+    """Return all samples of a file, in the file's order.
+
+    Parameters
+    ----------
+    path
+        Any file; the format follows from its content.
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, no format recognizes it, or the one that does finds a fault.
+    """
+    document = open_document(path)
+    for reader in readers():
+        if reader.sniff(document):
+            samples = reader.read(document)
+            if not samples:
+                raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
+            return samples
+    raise _unrecognized(document)
+
+
+@functools.cache
+def readers() -> tuple[Reader, ...]:
+    """Return the format modules in the order in which they are asked."""
+    found = []
+    for module in pkgutil.iter_modules(__path__):
+        if not module.name.startswith("_"):
+            found.append(importlib.import_module(f"{__name__}.{module.name}"))
+    # The module's name breaks ties, so that the order never depends on the file system.
+    found.sort(key=lambda module: (-module.PRIORITY, module.__name__))
+    return tuple(cast(Reader, module) for module in found)
+
+
+def formats() -> list[str]:
+    """Return the names of all formats that can be read."""
+    return [reader.NAME for reader in readers()]
+
+
+def _unrecognized(document: Document) -> InputError:
+    fault = f"it is not text ({document.fault}) and " if document.fault else ""
+    return document.error(
+        "", f"{fault}no format recognizes it; export it as one of: {', '.join(formats())}"
+    )

@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A file on its way to a reader: its bytes, and its text decoded once."""
+
+from __future__ import annotations
+
+import codecs
+import os
+import re
+import stat
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ...core.errors import InputError
+
+LARGEST_FILE = 256 * 2**20  # bytes; a table of 100,000 spectra takes about 30 MB
+HEAD = 2**16  # how much a sniffer sees; metadata before a table is a few kB at most
+
+# Never part of text. Tab, line feed, form feed, return and the DOS end-of-file mark are.
+_CONTROL = re.compile("[\x00-\x08\x0e-\x19\x1b-\x1f]")
+
+
+@dataclass(frozen=True)
+class Document:
+    """One whole file in memory.
+
+    Parameters
+    ----------
+    path
+        As the user gave it: messages repeat it.
+    data
+        The bytes.
+    """
+
+    path: Path
+    data: bytes
+
+    @property
+    def head(self) -> bytes:
+        """The first bytes, for sniffers of binary formats."""
+        return self.data[:HEAD]
+
+    @property
+    def head_text(self) -> str:
+        """The first characters, for sniffers of text formats; empty when this is not text."""
+        return self._decoded[0][:HEAD]
+
+    @property
+    def text(self) -> str:
+        r"""The whole text with ``\n`` between lines.
+
+        Raises
+        ------
+        InputError
+            The file is not text.
+        """
+        text, fault = self._decoded
+        if fault:
+            raise self.error("", f"this is not text: {fault}; export the measurement as text")
+        return text
+
+    @property
+    def fault(self) -> str:
+        """Why this is not text, or an empty string."""
+        return self._decoded[1]
+
+    def error(self, place: str, sentence: str) -> InputError:
+        """Return the error that names this file and a place in it (either may be all there is)."""
+        where = f"{self.path}, {place}" if place else str(self.path)
+        return InputError(f"{where}: {sentence}.")
+
+    @cached_property
+    def _decoded(self) -> tuple[str, str]:
+        if self.data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            try:
+                text = self.data.decode("utf-16")
+            except UnicodeDecodeError as error:
+                return "", f"its UTF-16 breaks off at byte {error.start + 1}"
+        else:
+            zero = self.data.find(b"\0")
+            if zero >= 0:
+                return "", f"byte {zero + 1} is zero"
+            try:
+                text = self.data.decode("utf-8-sig")
+            except UnicodeDecodeError:
+                # Every byte is a Latin-1 character, so this cannot fail; older instruments'
+                # software writes µ, ° and umlauts this way.
+                text = self.data.decode("latin-1")
+        control = _CONTROL.search(text)
+        if control:
+            line = text.count("\n", 0, control.start()) + 1
+            return "", f"line {line} holds the control character 0x{ord(control[0]):02x}"
+        return text.replace("\r\n", "\n").replace("\r", "\n"), ""
+
+
+def open_document(path: str | os.PathLike[str]) -> Document:
+    """Read a file whole.
+
+    Raises
+    ------
+    InputError
+        It is missing, a folder, something else than a file, empty, larger than `LARGEST_FILE`, or
+        the system refuses to read it.
+    """
+    file = Path(path)
+    name = str(file).replace("\0", "\\0")
+    try:
+        mode = file.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise InputError(f"{name}: this is a folder; choose a file in it.")
+        if not stat.S_ISREG(mode):
+            # A pipe or a device could make the read below wait forever.
+            raise InputError(f"{name}: this is no regular file; copy its content into one.")
+        size = file.stat().st_size
+        if size > LARGEST_FILE:
+            raise InputError(
+                f"{name}: the file has {size / 2**20:.0f} MB, more than the "
+                f"{LARGEST_FILE // 2**20} MB that are read; split it."
+            )
+        data = file.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError(f"{name}: there is no such file; check its name and folder.") from None
+    except PermissionError:
+        raise InputError(f"{name}: no permission to read it; change the file's rights.") from None
+    except (OSError, ValueError) as error:
+        # ValueError: a name with a null character in it.
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name}: it cannot be read ({reason}); check the name.") from error
+    if not data or data.isspace():
+        raise InputError(f"{name}: the file is empty; export the measurement again.")
+    return Document(file, data)
+
+
+def quote(text: str) -> str:
+    """Return a piece of a file fit for a sentence: short, printable, in quotation marks."""
+    return repr(text if len(text) <= 40 else text[:39] + "…")

@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One measured spectrum, as every reader returns it.
+
+A `Sample` that exists is valid: its wavelengths increase, its values lie between 0 and 1. Whatever
+breaks that is refused here in one sentence that names the file, the place and the remedy, so that
+no later code has to ask again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.errors import InputError
+
+Kind = Literal["reading", "albedo"]
+KINDS: tuple[str, ...] = get_args(Kind)
+
+# Wavelengths below are taken for micrometers, not for nanometers: reflectance is not measured in
+# the extreme ultraviolet, and in micrometers these are the visible and the infrared.
+SHORTEST_NM = 20.0
+LONGEST_NM = 1e6  # 1 mm: the far end of the infrared
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """One spectrum with everything its file says about it.
+
+    Parameters
+    ----------
+    name
+        What the user calls the sample.
+    wavelengths
+        Nanometers, increasing, shape ``(bands,)``, at least two; kept as a read-only float64 array.
+    values
+        Fractions 0..1, shape ``(bands,)``; kept as a read-only float64 array.
+    kind
+        ``"reading"`` for the reflectance factor at the instrument's geometry, ``"albedo"`` for the
+        reflectance of one facet.
+    instrument
+        Geometry of the reading, as `core.reading` names it.
+    sigma_degrees
+        Roughness, or None where the file does not say.
+    sigma_source
+        Where the roughness comes from.
+    source
+        Citation, or the path of the file.
+    license
+        Terms of the data, an SPDX identifier where there is one.
+    position
+        Place in the file, such as ``"line 5"``.
+    device
+        The instrument's model.
+    condition
+        Measurement condition of ISO 13655, ``"M0"`` to ``"M3"``.
+    illuminant, observer
+        Of the file's own colorimetry; the observer is 2 or 10 (degrees).
+    lab
+        The file's own CIE L*, a*, b*.
+    xyz
+        The file's own tristimulus values, scaled so that the perfect white diffuser has Y = 1.
+    notes
+        Sentences that the reader wants the user to see.
+
+    Raises
+    ------
+    InputError
+        The spectrum cannot be used; see `check_spectrum`.
+    """
+
+    name: str
+    wavelengths: NDArray[np.float64]
+    values: NDArray[np.float64]
+    kind: Kind
+    instrument: str = "45a:0"
+    sigma_degrees: float | None = None
+    sigma_source: str = ""
+    source: str = ""
+    license: str = ""
+    position: str = ""
+    device: str = ""
+    condition: str = ""
+    illuminant: str = ""
+    observer: int | None = None
+    lab: tuple[float, float, float] | None = None
+    xyz: tuple[float, float, float] | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        where = ", ".join(part for part in (self.source or self.name, self.position) if part)
+        if self.kind not in KINDS:
+            raise InputError(f"{where}: kind is {self.kind!r}; make it 'reading' or 'albedo'.")
+        wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
+        object.__setattr__(self, "wavelengths", wavelengths)
+        object.__setattr__(self, "values", values)
+
+
+def check_spectrum(
+    wavelengths: ArrayLike,
+    values: ArrayLike,
+    where: str,
+    place: Callable[[int], str] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the spectrum as read-only float64 arrays, or say why it cannot be one.
+
+    Parameters
+    ----------
+    wavelengths
+        Nanometers, shape ``(bands,)``.
+    values
+        Fractions, shape ``(bands,)``.
+    where
+        File and place, as the sentence begins.
+    place
+        Names the place of band `i` in the file, such as ``"line 7"``; the default counts bands.
+
+    Raises
+    ------
+    InputError
+        Fewer than two bands; a wavelength or a value that is NaN or infinite; wavelengths that
+        decrease, repeat or cannot be nanometers; a value below 0 or above 1.
+    """
+    place = place or (lambda band: f"band {band + 1}")
+    nm = _read_only(wavelengths)
+    fractions = _read_only(values)
+    if nm.ndim != 1 or nm.shape != fractions.shape:
+        raise InputError(
+            f"{where}: {nm.size} wavelengths stand against {fractions.size} values; "
+            "give one value a wavelength."
+        )
+    if nm.size < 2:
+        count = "only one band" if nm.size else "no band"
+        raise InputError(f"{where}: the spectrum has {count}; export at least two wavelengths.")
+    # Comparisons are written so that NaN fails them; the order check covers NaN between the ends.
+    if not (nm[0] >= SHORTEST_NM and nm[-1] <= LONGEST_NM and (nm[1:] > nm[:-1]).all()):
+        raise InputError(f"{where}: {_fault_of_wavelengths(nm, place)}.")
+    if not (fractions.min() >= 0.0 and fractions.max() <= 1.0):
+        raise InputError(f"{where}: {_fault_of_values(nm, fractions, place)}.")
+    return nm, fractions
+
+
+def _read_only(numbers: ArrayLike) -> NDArray[np.float64]:
+    array = np.asarray(numbers, dtype=np.float64)
+    if array.flags.writeable:
+        array = array.copy()
+        array.flags.writeable = False
+    return array
+
+
+def _fault_of_wavelengths(nm: NDArray[np.float64], place: Callable[[int], str]) -> str:
+    bad = np.flatnonzero(~np.isfinite(nm))
+    if bad.size:
+        band = int(bad[0])
+        return (
+            f"the wavelength at {place(band)} is {_number(nm[band])}; "
+            "give each band its wavelength in nm"
+        )
+    steps = np.flatnonzero(nm[1:] <= nm[:-1])
+    if steps.size:
+        band = int(steps[0])
+        first, second = _number(nm[band]), _number(nm[band + 1])
+        if nm[band] == nm[band + 1]:
+            return (
+                f"the wavelength {first} nm stands twice, at {place(band)} and at "
+                f"{place(band + 1)}; keep one of the two"
+            )
+        return (
+            f"the wavelength {second} nm at {place(band + 1)} follows {first} nm at {place(band)}; "
+            "sort the bands by increasing wavelength"
+        )
+    if nm[-1] < SHORTEST_NM and nm[0] > 0.0:
+        return (
+            f"the wavelengths, {_number(nm[0])} to {_number(nm[-1])}, look like micrometers; "
+            "give them in nanometers, or state the unit µm where the format has a place for it"
+        )
+    band = 0 if nm[0] < SHORTEST_NM else nm.size - 1
+    return (
+        f"{_number(nm[band])} at {place(band)} cannot be a wavelength in nm; "
+        "give wavelengths in nanometers"
+    )
+
+
+def _fault_of_values(
+    nm: NDArray[np.float64], fractions: NDArray[np.float64], place: Callable[[int], str]
+) -> str:
+    def at(band: int) -> str:
+        return f"the value at {_number(nm[band])} nm, {place(band)}, is {_number(fractions[band])}"
+
+    bad = np.flatnonzero(~np.isfinite(fractions))
+    if bad.size:
+        return f"{at(int(bad[0]))}; measure again or leave the sample out"
+    bad = np.flatnonzero(fractions < 0.0)
+    if bad.size:
+        return f"{at(int(bad[0]))}, which is negative; reflectance starts at 0, so correct it"
+    band = int(np.flatnonzero(fractions > 1.0)[0])
+    return (
+        f"{at(band)}, above 1; if the values are percent, let the column name or the file's unit "
+        "option say so, and otherwise correct it"
+    )
+
+
+def _number(value: float) -> str:
+    return f"{float(value):.7g}".replace("nan", "NaN").replace("inf", "infinite")
