@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What column names and comments of a plain table say: wavelengths, units, quantities."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from ..sample import Kind
+from ._document import Document, quote
+from ._table import lines
+
+T = TypeVar("T")
+
+NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0}
+
+_BAND = re.compile(r"(?:r|nm)?[ _]?(\d+(?:[.,]\d+)?)\s*(?:nm)?\s*[\[(]?%?[\])]?", re.IGNORECASE)
+_WAVELENGTH = re.compile(r"(?:wave[ _-]?lengths?|wl|lambda|λ|nm)(?![a-z])", re.IGNORECASE)
+_MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\b", re.IGNORECASE)
+# "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
+_PERCENT = re.compile(r"(?<!\d)(?<!\d )(?:%|\bpercent\b|\bpct\b)", re.IGNORECASE)
+_ABOUT_VALUES = re.compile(r"reflectance|values?\b|units?\b|scale\b|spectr", re.IGNORECASE)
+_KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
+
+_UNITS = {
+    **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),
+    **dict.fromkeys(("percent", "%", "pct"), 100.0),
+}
+_KINDS: dict[str, Kind] = {"reading": "reading", "albedo": "albedo"}
+_WAVELENGTH_UNITS = {
+    **dict.fromkeys(("nm", "nanometer", "nanometers", "nanometre", "nanometres"), "nm"),
+    **dict.fromkeys(("um", "µm", "μm", "micron", "microns", "micrometer", "micrometers"), "µm"),
+}
+
+
+@dataclass
+class Comments:
+    """What the comment lines state; `scale` is None where they say nothing of percent."""
+
+    kind: Kind = "reading"
+    scale: float | None = None
+    wavelength_unit: str = ""
+    texts: dict[str, str] = field(default_factory=dict)
+
+
+def band(label: str) -> float | None:
+    """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states."""
+    match = _BAND.fullmatch(label.strip())
+    return float(match[1].replace(",", ".")) if match else None
+
+
+def is_wavelength(label: str) -> bool:
+    """Return whether a column is named as the one with the wavelengths."""
+    return bool(_WAVELENGTH.match(label.strip()))
+
+
+def unit_of_wavelengths(label: str) -> str:
+    """Return the unit that the wavelength column's name states, or an empty string."""
+    if _MICROMETERS.search(label):
+        return "µm"
+    return "nm" if re.search(r"\bnm\b|nanomet", label, re.IGNORECASE) else ""
+
+
+def says_percent(label: str) -> bool:
+    """Return whether a column name states that its values are percent."""
+    return "%" in label if band(label) is not None else bool(_PERCENT.search(label))
+
+
+def comments(document: Document) -> Comments:
+    """Return what the lines that begin with ``#`` state.
+
+    Raises
+    ------
+    InputError
+        A key that is honored has a value that is not known.
+    """
+    found = Comments()
+    if "#" not in document.text:
+        return found
+    stated = False
+    for number, line in enumerate(lines(document), start=1):
+        text = line.strip()
+        if not text.startswith("#"):
+            continue
+        text = text.lstrip("#")
+        pair = _KEY.fullmatch(text)
+        key = pair[1].lower().replace(" ", "_") if pair else ""
+        value = pair[2] if pair else ""
+        if key == "units":
+            found.scale = _one_of(document, number, key, value, _UNITS)
+            stated = True
+        elif key == "wavelength_unit":
+            found.wavelength_unit = _one_of(document, number, key, value, _WAVELENGTH_UNITS)
+        elif key == "kind":
+            found.kind = _one_of(document, number, key, value, _KINDS)
+        elif key in ("instrument", "source", "license", "device", "condition"):
+            found.texts[key] = value
+        # A name or a citation may well hold a percent sign, so only talk about the values counts.
+        elif not stated and says_percent(text) and _ABOUT_VALUES.search(key or text):
+            found.scale = 100.0
+    return found
+
+
+def _one_of(document: Document, line: int, key: str, value: str, known: dict[str, T]) -> T:
+    try:
+        return known[value.lower()]
+    except KeyError:
+        raise document.error(
+            f"line {line}",
+            f"{key} is {quote(value)}; make it one of: {', '.join(known)}",
+        ) from None

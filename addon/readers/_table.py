@@ -1,0 +1,221 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Delimited text as rows of fields and blocks of numbers, each with its place in the file."""
+
+from __future__ import annotations
+
+import csv
+from array import array
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._document import Document, quote
+
+SPACES = " "
+# In the order in which they are preferred: a comma may be a decimal comma, a space part of a name.
+DELIMITERS = {"\t": "tabs", ";": "semicolons", ",": "commas", SPACES: "spaces"}
+EXPECTED = "commas, semicolons, tabs or spaces between the columns"
+
+# What instruments' software writes where nothing was measured.
+_MISSING = {"", "-", "--", "n/a", "na", "none", "null", "undefined"}
+
+
+class Row(NamedTuple):
+    """One record: the line it starts at, counted from 1, and its fields."""
+
+    line: int
+    fields: list[str]
+
+
+@dataclass
+class Block:
+    """The numeric columns of a table.
+
+    Parameters
+    ----------
+    values
+        float64, shape ``(rows, columns)``.
+    lines
+        The line of each row.
+    texts
+        Of each row, the fields of the columns that were asked for as text.
+    """
+
+    values: NDArray[np.float64]
+    lines: list[int] = field(default_factory=list)
+    texts: list[list[str]] = field(default_factory=list)
+
+
+def lines(document: Document) -> Iterator[str]:
+    """Return the lines of a text one by one, without holding a list of them all.
+
+    Not `str.splitlines`: it also splits at form feeds and rare separators, and the line numbers
+    in messages would no longer be those of an editor.
+    """
+    text = document.text
+    start = 0
+    while start < len(text):
+        end = text.find("\n", start)
+        end = len(text) if end < 0 else end
+        yield text[start:end]
+        start = end + 1
+
+
+def announced(line: str) -> str:
+    """Return the delimiter that a first line such as ``sep=;`` announces to Excel, or nothing."""
+    line = line.strip(' "')
+    if not line.lower().startswith("sep="):
+        return ""
+    return "\t" if line[4:6] == "\\t" else line[4:5]
+
+
+def rows(document: Document, delimiter: str, skip: int = 0) -> Iterator[Row]:
+    """Return the records of a table without blank lines and without comments (``#``).
+
+    Parameters
+    ----------
+    document
+        The file.
+    delimiter
+        A key of `DELIMITERS`, or any single character.
+    skip
+        How many lines to leave out at the top.
+
+    Raises
+    ------
+    InputError
+        A field is longer than `csv` allows, which an unclosed quotation mark brings about.
+    """
+    # A line left out goes to the csv module as an empty one, so that its count stays right.
+    kept = (
+        "" if number < skip or line.lstrip().startswith("#") else line
+        for number, line in enumerate(lines(document))
+    )
+    if delimiter == SPACES:
+        for number, line in enumerate(kept, start=1):
+            fields = line.split()
+            if fields:
+                yield Row(number, fields)
+        return
+    reader = csv.reader(kept, delimiter=delimiter, skipinitialspace=True)
+    start = 1
+    try:
+        for fields in reader:
+            if any(map(str.strip, fields)):
+                yield Row(start, fields)
+            start = reader.line_num + 1
+    except csv.Error:
+        raise document.error(
+            f"line {start}", "a quotation mark is not closed; close it or remove it"
+        ) from None
+
+
+def numbers(
+    document: Document,
+    table: Iterable[Row],
+    header: Sequence[str],
+    columns: Sequence[int],
+    texts: Sequence[int] = (),
+    *,
+    decimal_comma: bool = False,
+) -> Block:
+    """Return the given columns of a table as numbers.
+
+    Parameters
+    ----------
+    document
+        The file, for messages.
+    table
+        The records below the header.
+    header
+        One label a column, for messages.
+    columns
+        Which columns hold the numbers.
+    texts
+        Which columns to return as stripped text.
+    decimal_comma
+        Whether ``0,5`` is a number: only where commas do not separate columns.
+
+    Raises
+    ------
+    InputError
+        A record has more or fewer fields than the header, or a field is not a number.
+    """
+    flat = array("d")  # 8 bytes a number, where a list of floats takes 32
+    block = Block(np.empty((0, len(columns))))
+    for row in table:
+        fields = row.fields
+        if len(fields) != len(header):
+            fields = _fit(document, row, header, decimal_comma)
+        cells = [fields[column] for column in columns]
+        if decimal_comma:
+            # "1.234,5" becomes no number, and `_number` below says what is wrong with the original.
+            cells = [cell.replace(",", ".") for cell in cells]
+        try:
+            found = [float(cell) for cell in cells]
+            exact = "_" not in "".join(cells)  # Python reads 1_0 as ten
+        except ValueError:
+            exact = False
+        if not exact:
+            found = [
+                _number(document, row.line, header[column], fields[column], decimal_comma)
+                for column in columns
+            ]
+        flat.extend(found)
+        block.lines.append(row.line)
+        if texts:
+            block.texts.append([fields[column].strip() for column in texts])
+    if flat:
+        # Copied out of the array, whose memory must not move while numpy looks at it.
+        block.values = np.array(flat, dtype=np.float64).reshape(-1, len(columns))
+    return block
+
+
+def _fit(document: Document, row: Row, header: Sequence[str], decimal_comma: bool) -> list[str]:
+    """Return the fields without empty ones at the end, if that makes them as many as the header."""
+    fields = list(row.fields)
+    while len(fields) > len(header) and not fields[-1].strip():
+        fields.pop()
+    if len(fields) < len(header):
+        label = header[len(fields)]
+        raise document.error(
+            f"line {row.line}",
+            f"the line ends before column {quote(label)}, with {len(fields)} of {len(header)} "
+            "columns; complete it or leave it out",
+        )
+    if len(fields) > len(header):
+        comma = "" if decimal_comma else " (decimal commas need semicolons or tabs between columns)"
+        raise document.error(
+            f"line {row.line}",
+            f"the line has {len(fields)} columns where the header has {len(header)}; "
+            f"make them agree{comma}",
+        )
+    return fields
+
+
+def _number(document: Document, line: int, label: str, cell: str, decimal_comma: bool) -> float:
+    place = f"line {line}, column {quote(label)}"
+    text = cell.strip()
+    if text.lower() in _MISSING:
+        found = "the value is missing" if not text else f"{quote(text)} stands for a missing value"
+        raise document.error(place, f"{found}; measure again or leave the sample out")
+    if decimal_comma and text.count(",") == 1 and "." not in text:
+        text = text.replace(",", ".")
+    try:
+        if "_" not in text:
+            return float(text)
+    except ValueError:
+        pass
+    foreign = [name for mark, name in DELIMITERS.items() if mark != "," and mark in text]
+    foreign += ["vertical bars"] if "|" in text else []
+    if foreign:
+        raise document.error(
+            place,
+            f"{quote(text)} seems to be separated by {foreign[0]}, other than the header; "
+            f"use the same delimiter throughout: {EXPECTED}",
+        )
+    raise document.error(place, f"{quote(text)} is not a number; correct it")
