@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The materials that come with the extension, found by whatever a person calls them.
+
+A preset is a file ``presets/<collection>/<number>-<name>.json``; its id is that path without the
+ending, such as ``colorchecker/14-green``. Ids and names come from the folder alone: a file is read
+only when its spectrum is wanted.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from pathlib import Path
+
+from ..core.errors import InputError
+from . import readers
+from .sample import Sample
+
+
+def folder() -> Path:
+    """Return the folder of the bundled presets."""
+    return Path(__file__).resolve().parents[1] / "presets"
+
+
+def names() -> list[str]:
+    """Return the ids of all presets, such as ``"colorchecker/14-green"``, sorted.
+
+    Lists folders and reads no file.
+    """
+    root = folder()
+    return sorted(path.relative_to(root).with_suffix("").as_posix() for path in _files(root))
+
+
+def path_of(preset: str) -> Path:
+    """Return the file of a preset.
+
+    Parameters
+    ----------
+    preset
+        Its id (``"colorchecker/14-green"``), its name (``"ColorChecker 14 Green"``), the color's
+        name (``"green"``) or its number (``"14"``); case and punctuation do not matter.
+
+    Raises
+    ------
+    InputError
+        No preset is called so, or several are.
+    """
+    wanted = _slug(preset)
+    known = names()
+    found = [name for name in known if wanted in _slugs(name)]
+    if len(found) == 1:
+        return folder() / f"{found[0]}.json"
+    if found:
+        raise InputError(
+            f"{folder()}: preset {preset!r} could be any of {', '.join(found)}; give the whole id."
+        )
+    if not known:
+        raise InputError(f"{folder()}: no presets are there; install the extension again.")
+    by_slug = {slug: name for name in reversed(known) for slug in _slugs(name)}
+    close = difflib.get_close_matches(wanted, by_slug, n=3, cutoff=0.5)
+    near = list(dict.fromkeys(by_slug[slug] for slug in close))
+    hint = f"the closest are {', '.join(near)}" if near else f"the first is {known[0]}"
+    raise InputError(f"{folder()}: there is no preset {preset!r}; {hint}.")
+
+
+def load(preset: str | os.PathLike[str]) -> Sample:
+    """Return a preset.
+
+    Parameters
+    ----------
+    preset
+        What `path_of` takes, or the path of a preset file anywhere (``….json``).
+
+    Raises
+    ------
+    InputError
+        It cannot be found, or its file has a fault.
+    """
+    given = os.fspath(preset)
+    path = Path(given) if given.lower().endswith(".json") else path_of(given)
+    return readers.read(path)[0]
+
+
+def load_all() -> list[Sample]:
+    """Return all presets in the order of `names`.
+
+    Raises
+    ------
+    InputError
+        A file has a fault.
+    """
+    return [load(folder() / f"{name}.json") for name in names()]
+
+
+def _files(root: Path) -> list[Path]:
+    return list(root.glob("*/*.json"))
+
+
+def _slug(name: str) -> str:
+    """Return a name in lower case with hyphens; what stands in parentheses at its end is left out.
+
+    So "ColorChecker 20 Neutral 8 (.23 D)" and colorchecker/20-neutral-8 are the same.
+    """
+    name = re.sub(r"\s*\([^()]*\)\s*$", "", name)
+    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
+
+
+def _slugs(name: str) -> set[str]:
+    """Return all that a preset with this id is called."""
+    collection, _, stem = name.rpartition("/")
+    number, _, color = stem.partition("-")
+    found = {_slug(name), _slug(stem)}
+    if number.isdecimal():
+        found |= {_slug(color)}
+        for digits in (number, str(int(number))):
+            found |= {digits, _slug(f"{collection} {digits}")}
+    return found - {""}
