@@ -69,10 +69,10 @@ class Environment:
         """Whether it was made whole from the present pins and its interpreter still exists."""
         try:
             stamp = json.loads((self.folder / STAMP).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            pins, interpreter = stamp["pins"], Path(stamp["interpreter"])
+        except (OSError, ValueError, KeyError, TypeError):
             return False
-        whole = stamp.get("pins") == self.pins() and Path(stamp["interpreter"]).exists()
-        return whole and self.python.exists()
+        return pins == self.pins() and interpreter.exists() and self.python.exists()
 
 
 def interpreter_for(environment: Environment) -> interpreters.Interpreter | None:
