@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Give materials their measured spectra: solve, write the sockets, store, stamp."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ..core.errors import DomainError, MaterialError
+from . import nodes, storage, target, working_space
+from .target import Request, Solution
+
+
+def assign(pairs: Sequence[tuple[Any, Request]], shader: nodes.Shader = "AUTO") -> list[Solution]:
+    """Assign measured spectra to materials, all of them or none.
+
+    Parameters
+    ----------
+    pairs
+        Each a `bpy.types.Material` and what it is to become.
+    shader
+        Which node to set; see `nodes.find`.
+
+    Returns
+    -------
+    What was matched, in the order of `pairs`; look at each one's `warnings`.
+
+    Raises
+    ------
+    MaterialError
+        If a material cannot be written; nothing was changed then.
+    DomainError
+        If a spectrum or a setting cannot be used; nothing was changed then.
+    """
+    return _apply([(nodes.find(material, shader), request) for material, request in pairs], shader)
+
+
+def renew(materials: Iterable[Any]) -> list[Solution]:
+    """Derive color and roughness again from what the materials store.
+
+    Raises
+    ------
+    MaterialError
+        If a material stores no spectrum or cannot be written; nothing was changed then.
+    """
+    chosen = list(materials)
+    solutions = {}
+    for shader in sorted({material.rough_spectra.shader for material in chosen}):
+        members = [m for m in chosen if m.rough_spectra.shader == shader]
+        work = [(nodes.find(m, shader), storage.load(m)) for m in members]
+        solutions.update(zip(members, _apply(work, shader), strict=True))
+    return [solutions[material] for material in chosen]
+
+
+def _apply(work: list[tuple[nodes.Place, Request]], shader: str) -> list[Solution]:
+    materials = [place.material for place, _ in work]
+    if len(set(materials)) < len(materials):
+        twice = next(m for m in materials if materials.count(m) > 1)
+        msg = f"Material {twice.name!r} is named twice; give it one spectrum."
+        raise MaterialError(msg)
+    for _, request in work:
+        if request.sample.instrument != "45a:0":
+            msg = (
+                f"{request.sample.name!r} was read with {request.sample.instrument}; only 45a:0 "
+                "is known so far."
+            )
+            raise DomainError(msg)
+    space = working_space.current()
+    solutions = target.solve([request for _, request in work], space)
+    for (place, request), solution in zip(work, solutions, strict=True):
+        red, green, blue = solution.color.tolist()
+        node = nodes.write(place, (red, green, blue), solution.roughness)
+        storage.store(place.material, request, shader)
+        storage.set_stamp(place.material, solution, space.name, node)
+    return solutions

@@ -1,0 +1,251 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find, make and write the shader node that a material's surface comes from.
+
+Finding never changes anything, so a whole selection is checked before the first is written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import bpy
+
+from ..core.errors import MaterialError
+
+Shader = Literal["AUTO", "DIFFUSE", "PRINCIPLED"]
+
+_NODE_TYPES = {"DIFFUSE": "ShaderNodeBsdfDiffuse", "PRINCIPLED": "ShaderNodeBsdfPrincipled"}
+_COLOR_SOCKETS = {"ShaderNodeBsdfDiffuse": "Color", "ShaderNodeBsdfPrincipled": "Base Color"}
+_ROUGHNESS_SOCKETS = {
+    "ShaderNodeBsdfDiffuse": "Roughness",
+    "ShaderNodeBsdfPrincipled": "Diffuse Roughness",
+}
+_SPECULAR_SOCKET = "Specular IOR Level"
+_PURE_DIFFUSE = {
+    "Metallic": 0.0,
+    "Alpha": 1.0,
+    "Subsurface Weight": 0.0,
+    "Transmission Weight": 0.0,
+    "Coat Weight": 0.0,
+    "Sheen Weight": 0.0,
+    "Emission Strength": 0.0,
+}
+"""Principled sockets that have to keep these values for the surface to be the Diffuse closure."""
+_NODE_DISTANCE = 300.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a material's color goes.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`.
+    node_name
+        The shader node that is there already, or an empty string where one has to be made.
+    make
+        Type of the node to make, or an empty string.
+    """
+
+    material: Any
+    node_name: str
+    make: str
+
+
+def find(material: Any, shader: Shader = "AUTO") -> Place:
+    """Find where the color of a material's surface is set, changing nothing.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`.
+    shader
+        "AUTO" takes the Diffuse or Principled BSDF that is there, or a new Diffuse BSDF where
+        there is none. "DIFFUSE" and "PRINCIPLED" ask for that node; where the other one is in
+        use a new node takes its link, and the old one stays in the tree.
+
+    Raises
+    ------
+    MaterialError
+        If the material is linked or read-only, or its surface is made of nodes whose reading
+        nobody could predict; the message says what to do.
+    """
+    _refuse_read_only(material)
+    output = _output(material)
+    link = _surface_link(output)
+    if link is None:
+        return Place(material, "", _NODE_TYPES["DIFFUSE" if shader == "AUTO" else shader])
+    node = link.from_node
+    if node.bl_idname not in _COLOR_SOCKETS:
+        msg = (
+            f"Material {material.name!r}: its surface comes from {node.name!r} "
+            f"({node.bl_label}), which Rough Spectra cannot set; link a Diffuse or Principled "
+            "BSDF to the material output."
+        )
+        raise MaterialError(msg)
+    if shader != "AUTO" and node.bl_idname != _NODE_TYPES[shader]:
+        return Place(material, "", _NODE_TYPES[shader])
+    _refuse_unpredictable(material, node)
+    return Place(material, node.name, "")
+
+
+def shader_node(material: Any) -> Any | None:
+    """Give the Diffuse or Principled BSDF behind the active output, or None."""
+    link = _surface_link(_output(material))
+    if link is None or link.from_node.bl_idname not in _COLOR_SOCKETS:
+        return None
+    return link.from_node
+
+
+def write(place: Place, color: tuple[float, float, float], roughness: float) -> str:
+    """Set color and roughness at a place that `find` gave; returns the node's name."""
+    node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
+    alpha = color_socket(node).default_value[3]
+    color_socket(node).default_value = (*color, alpha)
+    roughness_socket(node).default_value = roughness
+    if _SPECULAR_SOCKET in node.inputs:
+        node.inputs[_SPECULAR_SOCKET].default_value = 0.0
+    return str(node.name)
+
+
+def color_socket(node: Any) -> Any:
+    """Give the socket that holds a Diffuse or Principled BSDF's color."""
+    return node.inputs[_COLOR_SOCKETS[node.bl_idname]]
+
+
+def roughness_socket(node: Any) -> Any:
+    """Give the socket that holds Cycles' diffuse roughness."""
+    return node.inputs[_ROUGHNESS_SOCKETS[node.bl_idname]]
+
+
+def _refuse_read_only(material: Any) -> None:
+    if material.library is not None:
+        msg = (
+            f"Material {material.name!r} is linked from {material.library.filepath!r}; make it "
+            "local first, or assign in that file."
+        )
+        raise MaterialError(msg)
+    if material.override_library is not None:
+        msg = (
+            f"Material {material.name!r} is a library override, whose nodes Blender resets on "
+            "load; make it local first, or assign in its own file."
+        )
+        raise MaterialError(msg)
+    if not material.is_editable:
+        msg = f"Material {material.name!r} is read-only; make it local first."
+        raise MaterialError(msg)
+    if getattr(material, "is_grease_pencil", False):
+        msg = f"Material {material.name!r} is for Grease Pencil; choose a surface material."
+        raise MaterialError(msg)
+
+
+def _refuse_unpredictable(material: Any, node: Any) -> None:
+    where = f"Material {material.name!r}, node {node.name!r}"
+    if node.mute:
+        msg = f"{where} is muted; unmute it first."
+        raise MaterialError(msg)
+    written = [_COLOR_SOCKETS[node.bl_idname], _ROUGHNESS_SOCKETS[node.bl_idname]]
+    if node.bl_idname == "ShaderNodeBsdfPrincipled":
+        written.append(_SPECULAR_SOCKET)
+    for name in written:
+        if node.inputs[name].is_linked:
+            msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
+            raise MaterialError(msg)
+        if _is_animated(material.node_tree, node.inputs[name]):
+            msg = f"{where}: {name} is animated or driven; clear that, so that it can be set."
+            raise MaterialError(msg)
+    if node.bl_idname != "ShaderNodeBsdfPrincipled":
+        return
+    for name, neutral in _PURE_DIFFUSE.items():
+        socket = node.inputs[name]
+        if socket.is_linked or socket.default_value != neutral:
+            msg = (
+                f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
+                f"for; set it to {neutral:g}, or choose Diffuse as the shader."
+            )
+            raise MaterialError(msg)
+
+
+def _is_animated(tree: Any, socket: Any) -> bool:
+    data = tree.animation_data
+    if data is None:
+        return False
+    path = socket.path_from_id("default_value")
+    curves = list(data.drivers)
+    if data.action is not None:
+        curves += _action_curves(data)
+    return any(curve.data_path == path for curve in curves)
+
+
+def _action_curves(data: Any) -> list[Any]:
+    """F-curves of the action's slot."""
+    from bpy_extras import anim_utils
+
+    bag = anim_utils.action_get_channelbag_for_slot(data.action, data.action_slot)
+    return [] if bag is None else list(bag.fcurves)
+
+
+def _uses_nodes(material: Any) -> bool:
+    """Up to Blender 4.5 a material may do without nodes; later the property only warns."""
+    if bpy.app.version >= (5, 0, 0):
+        return material.node_tree is not None
+    return bool(material.use_nodes)
+
+
+def _output(material: Any) -> Any | None:
+    if not _uses_nodes(material):
+        return None
+    return material.node_tree.get_output_node("CYCLES")
+
+
+def _surface_link(output: Any | None) -> Any | None:
+    """Give the link that reaches the output's Surface, seen through reroutes."""
+    if output is None:
+        return None
+    socket = output.inputs["Surface"]
+    while socket.is_linked:
+        link = socket.links[0]
+        if link.from_node.bl_idname != "NodeReroute":
+            return link if link.is_valid and not link.is_muted else None
+        socket = link.from_node.inputs[0]
+    return None
+
+
+def _make(place: Place) -> Any:
+    material = place.material
+    if not _uses_nodes(material):
+        material.use_nodes = True
+    tree = material.node_tree
+    output = tree.get_output_node("CYCLES")
+    if output is None:
+        output = tree.nodes.new("ShaderNodeOutputMaterial")
+    node = tree.nodes.new(place.make)
+    x, y = output.location
+    node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
+    tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
+    return node
+
+
+def selected_materials(context: Any) -> list[Any]:
+    """Materials of the selected objects' slots, each once, in a stable order."""
+    objects = [*context.selected_objects]
+    found = {slot.material for obj in objects for slot in obj.material_slots if slot.material}
+    return sorted(found, key=lambda material: str(material.name_full))
+
+
+def material_by_name(name: str) -> Any:
+    """Give the local material of that name.
+
+    Raises
+    ------
+    MaterialError
+        If there is none.
+    """
+    material = bpy.data.materials.get(name)
+    if material is None:
+        msg = f"There is no material {name!r} in {bpy.data.filepath or 'the open file'!r}."
+        raise MaterialError(msg)
+    return material

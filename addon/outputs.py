@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write result files whole or not at all.
+
+Every file is written beside its target and takes its name only when all of them are complete. A
+full disk, a kill or a crash leaves the old files as they were.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..core.errors import OutputError
+
+
+class Publication:
+    """A set of files that appear together. Made by `publication`."""
+
+    def __init__(self) -> None:
+        self._staged: dict[Path, Path] = {}
+
+    def stage(self, target: Path) -> Path:
+        """Give the path to write to in place of `target`.
+
+        Raises
+        ------
+        OutputError
+            If the folder cannot be written.
+        """
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if target.is_dir():
+                msg = f"{target} is a folder; choose a file name."
+                raise OutputError(msg)
+            handle, name = tempfile.mkstemp(
+                prefix=f".{target.name}.", suffix=".part", dir=target.parent
+            )
+        except OSError as error:
+            raise _cannot_write(target, error) from error
+        os.close(handle)
+        self._staged[target] = Path(name)
+        return Path(name)
+
+    def write(self, target: Path, content: bytes) -> None:
+        """Stage a whole file.
+
+        Raises
+        ------
+        OutputError
+            If the disk is full or the folder cannot be written.
+        """
+        part = self.stage(target)
+        try:
+            part.write_bytes(content)
+        except OSError as error:
+            raise _cannot_write(target, error) from error
+
+    def _finish(self) -> None:
+        for target, part in self._staged.items():
+            try:
+                with part.open("rb") as written:
+                    os.fsync(written.fileno())
+                part.chmod(0o666 & ~_umask())
+            except OSError as error:
+                raise _cannot_write(target, error) from error
+        for target, part in self._staged.items():
+            try:
+                part.replace(target)
+            except OSError as error:
+                raise _cannot_write(target, error) from error
+
+    def _discard(self) -> None:
+        for part in self._staged.values():
+            part.unlink(missing_ok=True)
+
+
+@contextmanager
+def publication() -> Iterator[Publication]:
+    """Collect files, and give them their names at the end of the block if nothing failed.
+
+    Raises
+    ------
+    OutputError
+        If a file cannot be written; no target was touched by then.
+    """
+    files = Publication()
+    try:
+        yield files
+        files._finish()
+    finally:
+        files._discard()
+
+
+def _cannot_write(target: Path, error: OSError) -> OutputError:
+    return OutputError(
+        f"{target} cannot be written ({error.strerror or error}); nothing was changed. Free the "
+        "disk or choose another place."
+    )
+
+
+def _umask() -> int:
+    """Temporary files are private; results get the permissions of any new file."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

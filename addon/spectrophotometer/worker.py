@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure materials: the script that runs inside a second Blender.
+
+It imports nothing of the extension, so it runs in a Blender with factory settings and in Python
+with the bpy module alike. It gets the path of a job (JSON, written by `measure`) as its last
+argument and leaves an array beside it.
+
+Light comes from suns without width and goes to a camera without perspective, so every pixel of a
+flat sample sees one exact geometry, and Cycles has nothing to estimate.
+"""
+
+import json
+import math
+import os
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+PIXELS = 6
+"""Width of a sample in the picture; its outer ring is left out, where neighbors may show."""
+SAMPLES_PER_RENDER = 1024
+
+
+def main(job_path: Path) -> None:
+    """Measure all materials of the job in all its geometries."""
+    parent = os.getppid()
+    job = json.loads(job_path.read_text(encoding="utf-8"))
+    folder = job_path.parent
+    bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
+    materials = [find(*key) for key in job["materials"]]
+    batches = [
+        materials[start : start + SAMPLES_PER_RENDER]
+        for start in range(0, len(materials), SAMPLES_PER_RENDER)
+    ]
+    total, done = len(batches) * len(job["geometries"]), 0
+    results = []
+    for batch in batches:
+        scene, camera, plane = build(batch)
+        of_batch = []
+        for geometry in job["geometries"]:
+            aim(scene, camera, plane, geometry)
+            of_batch.append(render(scene, folder / "render.exr", len(batch)))
+            done += 1
+            report(folder, done, total)
+            if os.getppid() != parent:
+                sys.exit("the Blender that asked for this measurement is gone")
+        results.append(np.stack(of_batch))
+    np.save(folder / "result.npy", np.concatenate(results, axis=1))
+
+
+def find(name, library):
+    """Give a material by name and the path of the library it is linked from."""
+    if library is None:
+        return bpy.data.materials[name, None]
+    for material in bpy.data.materials:
+        linked = material.library
+        if linked is not None and material.name == name:
+            if os.path.samefile(bpy.path.abspath(linked.filepath), library):
+                return material
+    raise KeyError(name)
+
+
+def build(materials):
+    """Lay the samples side by side on a plane, each a square with its own material."""
+    scene = bpy.data.scenes.new("Spectrophotometer")
+    columns = math.ceil(math.sqrt(len(materials)))
+    rows = math.ceil(len(materials) / columns)
+    corners, faces, uvs = [], [], []
+    for index in range(len(materials)):
+        x, y = index % columns - columns / 2, index // columns - rows / 2
+        square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        faces.append([len(corners) + corner for corner in range(4)])
+        corners += [(x + u, y + v, 0) for u, v in square]
+        uvs += square
+    mesh = bpy.data.meshes.new("Samples")
+    mesh.from_pydata(corners, [], faces)
+    layer = mesh.uv_layers.new(name="UVMap")
+    layer.data.foreach_set("uv", np.array(uvs, np.float32).ravel())
+    for index, material in enumerate(materials):
+        mesh.materials.append(material)
+        mesh.polygons[index].material_index = index
+    plane = bpy.data.objects.new("Samples", mesh)
+    lens = bpy.data.cameras.new("View")
+    lens.type, lens.sensor_fit, lens.ortho_scale = "ORTHO", "HORIZONTAL", columns
+    lens.clip_end = 1000 * columns
+    camera = bpy.data.objects.new("View", lens)
+    for thing in (plane, camera):
+        scene.collection.objects.link(thing)
+    scene.camera = camera
+    settings = scene.render
+    settings.engine = "CYCLES"
+    settings.resolution_x, settings.resolution_y = columns * PIXELS, rows * PIXELS
+    settings.resolution_percentage = 100
+    settings.use_compositing = settings.use_sequencer = False
+    settings.film_transparent = False
+    settings.image_settings.file_format = "OPEN_EXR"
+    settings.image_settings.color_mode = "RGBA"
+    settings.image_settings.color_depth = "32"
+    cycles = scene.cycles
+    cycles.device, cycles.seed, cycles.samples = "CPU", 0, 16
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+    cycles.max_bounces = 0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+    return scene, camera, plane
+
+
+def aim(scene, camera, plane, geometry):
+    """Set lights and view; the plane is stretched by as much as the view foreshortens it."""
+    view = geometry["view"]
+    distance = 100.0 * camera.data.ortho_scale
+    camera.location = (distance * math.sin(view), 0, distance * math.cos(view))
+    camera.rotation_euler = (0, view, 0)
+    plane.scale = (1 / math.cos(view), 1, 1)
+    for old in [thing for thing in scene.objects if thing.type == "LIGHT"]:
+        bpy.data.objects.remove(old)
+    for theta, phi in geometry["lights"]:
+        sun = bpy.data.lights.new("Light", "SUN")
+        sun.angle = 0.0
+        # The irradiances add up to π, so the radiance is the reflectance factor.
+        sun.energy = math.pi / math.cos(theta) / len(geometry["lights"])
+        lamp = bpy.data.objects.new("Light", sun)
+        lamp.rotation_euler = (0, theta, phi)
+        scene.collection.objects.link(lamp)
+
+
+def render(scene, path, count):
+    """Render and give each sample's mean and standard deviation, shape (samples, 2, 3)."""
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    pixels = read_exr(path)[::-1, :, :3].astype(np.float64)
+    rows, columns = pixels.shape[0] // PIXELS, pixels.shape[1] // PIXELS
+    tiles = pixels.reshape(rows, PIXELS, columns, PIXELS, 3)[:, 1:-1, :, 1:-1]
+    return np.stack((tiles.mean(axis=(1, 3)), tiles.std(axis=(1, 3))), axis=2).reshape(-1, 2, 3)[
+        :count
+    ]
+
+
+def read_exr(path):
+    """Pixels of an EXR file as they are stored."""
+    if hasattr(bpy.utils, "expose_bundled_modules"):
+        bpy.utils.expose_bundled_modules()
+    import OpenImageIO
+
+    image = OpenImageIO.ImageInput.open(str(path))
+    try:
+        return image.read_image(OpenImageIO.FLOAT)
+    finally:
+        image.close()
+
+
+def report(folder, done, total):
+    """Tell the progress to whoever polls; replaced whole, so it is never read half-written."""
+    part = folder / "progress.part"
+    part.write_text(f"{done} {total}", encoding="ascii")
+    part.replace(folder / "progress")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[-1]))

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene-linear space that the .blend works in, as a matrix."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Color
+
+from ..core.arrays import Array
+from . import colorimetry
+
+
+@dataclass(frozen=True, eq=False)
+class WorkingSpace:
+    """A scene-linear RGB space.
+
+    Parameters
+    ----------
+    name
+        Blender's name of it, such as "Linear Rec.709" or "ACEScg".
+    from_xyz
+        Matrix, shape (3, 3): `xyz @ from_xyz.T` for XYZ seen under D65, Y = 1.
+    warning
+        What the user has to know about it, or an empty string.
+    """
+
+    name: str
+    from_xyz: Array
+    warning: str = ""
+
+    @property
+    def white(self) -> Array:
+        """XYZ of RGB (1, 1, 1), shape (3,)."""
+        return np.asarray(np.linalg.solve(self.from_xyz, np.ones(3)))
+
+    def rgb_weights(self, wavelengths: Array, illuminant: str) -> Array:
+        """Give the matrix, shape (bands, 3), that turns reflectance into scene-linear RGB.
+
+        Seen by the 2° observer under `illuminant` and adapted with Bradford, so that a neutral
+        spectrum has equal R, G and B. Scene RGB is always of the 2° observer: 10° values passed
+        through a 2° matrix are another color.
+        """
+        weights = colorimetry.weights(wavelengths, illuminant, observer=2)
+        adapt = colorimetry.adaptation(weights.sum(axis=0), self.white)
+        return np.asarray(weights @ adapt.T @ self.from_xyz.T)
+
+    def to_lab(self, rgb: Array, illuminant: str) -> Array:
+        """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
+        white = colorimetry.white(illuminant)
+        adapt = colorimetry.adaptation(self.white, white)
+        to_xyz = adapt @ np.linalg.inv(self.from_xyz)
+        return colorimetry.xyz_to_lab(np.asarray(rgb, np.float64) @ to_xyz.T, white)
+
+
+def current() -> WorkingSpace:
+    """Give the working space of the open file.
+
+    Up to Blender 4.5 the name is that of the role in the OCIO configuration; from 5.0 the file
+    says it.
+    """
+    unit_colors = (Color(unit).from_xyz_d65_to_scene_linear() for unit in np.eye(3).tolist())
+    matrix = np.array([list(color) for color in unit_colors], np.float64).T
+    data = getattr(bpy.data, "colorspace", None)
+    name = data.working_space if data is not None else "Linear Rec.709"
+    return WorkingSpace(name=name, from_xyz=matrix, warning=_interchange_warning())
+
+
+def _interchange_warning() -> str:
+    """Say when Blender only assumes Rec.709, because a custom OCIO file does not tell."""
+    path = os.environ.get("OCIO", "")
+    if not path:
+        return ""
+    try:
+        text = Path(path).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+    if "aces_interchange" in text:
+        return ""
+    return (
+        f"{path}: the OCIO configuration has no role aces_interchange, so Blender takes scene "
+        "linear for Rec.709; add the role, or expect wrong colors in another space."
+    )
