@@ -308,6 +308,9 @@ if __name__ == "__main__":
     except GroundError as error:
         print(error, file=sys.stderr)
         sys.exit(UNUSABLE)
+    except OSError as error:
+        print(f"dev.py cannot go on: {error}", file=sys.stderr)
+        sys.exit(UNUSABLE)
     except KeyboardInterrupt:
         print("Interrupted.", file=sys.stderr)
         sys.exit(INTERRUPTED)

@@ -71,32 +71,46 @@ def test_failed_setup_is_redone(environment, error):
     assert any("broke off" in sentence for sentence in said)
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
-def test_killed_setup_is_redone_and_leaves_no_lock(environment):
-    """The process dies while pip is at work; nothing in it gets a chance to tidy up."""
-    code = f"""
-import sys, time
+KILLED = """
+import sys
 from pathlib import Path
-sys.path.insert(0, {str(ROOT)!r})
+sys.path.insert(0, {root!r})
 from tools.ground import environments, interpreters
-found = interpreters.Interpreter(Path(sys.executable), {HERE!r})
+found = interpreters.Interpreter(Path(sys.executable), {here!r})
 interpreters.find = lambda _version: found
 environments._create = lambda folder, *_: folder.mkdir()
-made = environments.Environment(Path({str(environment.root)!r}), "tools", ({HERE!r},), "")
+made = environments.Environment(Path({at!r}), environments.TOOLS, ({here!r},), "")
+pip = "print('at work', flush=True); import sys; sys.stdin.read(); open({done!r}, 'w')"
 def install(*_):
-    print("installing", flush=True)
-    time.sleep(60)
+    environments._child([sys.executable, "-c", pip])
 environments.prepare(made, lambda _sentence: None, install)
 """
-    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    assert child.stdout.readline() == "installing\n"
-    child.send_signal(signal.SIGKILL)
-    child.communicate()
-    assert environment.folder.exists()
-    assert not environment.is_ready()
-    pip = Installer()
-    # A lock that outlived its holder would make this wait forever.
-    assert environments.prepare(environment, lambda _sentence: None, pip)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
+def test_killed_setup_is_redone_once_its_pip_has_ended(environment):
+    """dev.py dies while pip is at work: nothing gets a chance to tidy up, and pip goes on."""
+    done = environment.root / "orphan-done"
+    code = KILLED.format(root=str(ROOT), here=HERE, at=str(environment.root), done=str(done))
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen([sys.executable, "-c", code], **pipes) as child:
+        assert child.stdout.readline() == "at work\n"
+        child.send_signal(signal.SIGKILL)
+        child.wait()
+        assert environment.folder.exists()
+        assert not environment.is_ready()
+        said = []
+
+        def say(sentence):
+            said.append(sentence)
+            if "waiting" in sentence:
+                assert not done.exists()
+                child.stdin.close()
+
+        pip = Installer()
+        assert environments.prepare(environment, say, pip)
+    assert done.exists()
+    assert "waiting" in said[0]
     assert pip.calls == 1
     assert environment.is_ready()
 

@@ -11,10 +11,11 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
+import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -24,6 +25,7 @@ from .errors import GroundError
 
 STAMP = "rough-spectra-ready.json"
 TOOLS = "tools"
+PIP = "pip==24.2"  # where an interpreter brings none along for its environments
 
 Say = Callable[[str], None]
 
@@ -139,19 +141,17 @@ def _create(folder: Path, interpreter: interpreters.Interpreter, python: Path) -
     Linux distributions ship Pythons without ensurepip. Those get pip from the interpreter's own.
     """
     base = [str(interpreter.path), "-m"]
-    made = subprocess.run([*base, "venv", str(folder)], capture_output=True, check=False)
+    made = _child([*base, "venv", str(folder)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if made.returncode == 0:
         return
     shutil.rmtree(folder, ignore_errors=True)
-    bare = subprocess.run(
-        [*base, "venv", "--without-pip", str(folder)], capture_output=True, text=True, check=False
-    )
-    pip = [*base, "pip", "--python", str(python), "install", "--quiet", "pip"]
-    if bare.returncode != 0 or subprocess.run(pip, check=False).returncode != 0:
+    bare = _child([*base, "venv", "--without-pip", str(folder)], stdout=subprocess.PIPE)
+    pip = [*base, "pip", "--python", str(python), "install", "--quiet", PIP]
+    if bare.returncode != 0 or _child(pip).returncode != 0:
         raise GroundError(
             f"{interpreter.path} cannot make a virtual environment in {folder}: install its venv "
             "module (on Debian and Ubuntu the package python3-venv) and check that the disk has "
-            f"room. {bare.stderr.strip()}"
+            "room."
         )
 
 
@@ -167,7 +167,7 @@ def _install(environment: Environment, say: Say) -> None:
 def _pip(environment: Environment, *arguments: str) -> None:
     command = [str(environment.python), "-m", "pip", "install", "--quiet", "--no-input"]
     command += ["--disable-pip-version-check", *arguments]
-    if subprocess.run(command, check=False).returncode != 0:
+    if _child(command).returncode != 0:
         raise GroundError(
             f"pip could not fill .venv/{environment.name} (it says why above): check the "
             "connection to the package index and the room on the disk, then run the same command "
@@ -175,11 +175,23 @@ def _pip(environment: Environment, *arguments: str) -> None:
         )
 
 
+def _child(
+    command: Sequence[str], stdout: int | None = None, stderr: int | None = None
+) -> subprocess.CompletedProcess[bytes]:
+    """Run a child that holds our lock too.
+
+    Otherwise a pip that outlives a killed dev.py would go on writing into the folder that the next
+    dev.py clears away.
+    """
+    return subprocess.run(command, stdout=stdout, stderr=stderr, close_fds=False, check=False)
+
+
 @contextlib.contextmanager
 def _alone(environment: Environment, say: Say) -> Iterator[None]:
-    """Hold the environment's lock, which the system lets go even when this process is killed."""
+    """Hold the environment's lock; the system lets it go once we and our children have ended."""
     environment.folder.parent.mkdir(parents=True, exist_ok=True)
     with open(environment.folder.with_name(f"{environment.name}.lock"), "a+b") as handle:
+        os.set_inheritable(handle.fileno(), True)
         if not _lock(handle, wait=False):
             say(f"Another dev.py is setting up .venv/{environment.name}: waiting for it.")
             _lock(handle, wait=True)

@@ -14,6 +14,7 @@ import hashlib
 import io
 import re
 import subprocess
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -130,14 +131,15 @@ def _download(root: Path, python: Path, wanted: Pin) -> Path:
     if source.is_file() and _sha256(source) == wanted.sha256:
         return source
     folder.mkdir(exist_ok=True)
-    source.unlink(missing_ok=True)
     requirements = root / "requirements" / "wheels.txt"
     command = [str(python), "-m", "pip", "download", "--quiet", "--disable-pip-version-check"]
     command += ["--no-deps", "--only-binary=:all:", "--require-hashes"]
-    command += ["--dest", str(folder), "--requirement", str(requirements)]
-    if subprocess.run(command, check=False).returncode != 0 or not source.is_file():
-        raise GroundError(
-            f"colour-science {wanted.version} could not be downloaded (pip says why above): "
-            "check the connection to the package index and run the same command again."
-        )
+    with tempfile.TemporaryDirectory(dir=folder) as fresh:
+        command += ["--dest", fresh, "--requirement", str(requirements)]
+        if subprocess.run(command, check=False).returncode != 0:
+            raise GroundError(
+                f"colour-science {wanted.version} could not be downloaded (pip says why above): "
+                "check the connection to the package index and run the same command again."
+            )
+        Path(fresh, wanted.upstream).replace(source)
     return source
