@@ -164,7 +164,7 @@ def types() -> list[Step]:
     parts = ["-p", "rough_spectra.core", "-p", "rough_spectra.addon"]
     return [
         timed("types of core and addon (mypy)", [*mypy, *parts], shipped),
-        timed("types of dev.py and tools (mypy)", mypy),
+        timed("types of dev.py and tools (mypy)", mypy, MYPYPATH=str(shipped)),
     ]
 
 
