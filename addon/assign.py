@@ -45,7 +45,7 @@ def renew(materials: Iterable[Any]) -> list[Solution]:
         If a material stores no spectrum or cannot be written; nothing was changed then.
     """
     chosen = list(materials)
-    solutions = {}
+    solutions: dict[Any, Solution] = {}
     for shader in sorted({material.rough_spectra.shader for material in chosen}):
         members = [m for m in chosen if m.rough_spectra.shader == shader]
         work = [(nodes.find(m, shader), storage.load(m)) for m in members]

@@ -227,25 +227,3 @@ def _make(place: Place) -> Any:
     node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
     return node
-
-
-def selected_materials(context: Any) -> list[Any]:
-    """Materials of the selected objects' slots, each once, in a stable order."""
-    objects = [*context.selected_objects]
-    found = {slot.material for obj in objects for slot in obj.material_slots if slot.material}
-    return sorted(found, key=lambda material: str(material.name_full))
-
-
-def material_by_name(name: str) -> Any:
-    """Give the local material of that name.
-
-    Raises
-    ------
-    MaterialError
-        If there is none.
-    """
-    material = bpy.data.materials.get(name)
-    if material is None:
-        msg = f"There is no material {name!r} in {bpy.data.filepath or 'the open file'!r}."
-        raise MaterialError(msg)
-    return material

@@ -205,4 +205,4 @@ def _fault_of_values(
 
 
 def _number(value: float) -> str:
-    return f"{float(value):.7g}".replace("nan", "NaN").replace("inf", "infinite")
+    return f"{float(value):.12g}".replace("nan", "NaN").replace("inf", "infinite")

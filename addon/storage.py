@@ -1,65 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Read and write what a material stores, and tell whether its derived color still holds.
+"""Read and write what a material stores.
 
 The truth is the spectrum; color and roughness in the shader node are derived from it. The stamp
-says from what, so that a changed setting, working space or socket is noticed.
+says from what; `stamp` tells whether that still holds.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
-import math
-from dataclasses import dataclass
 from typing import Any
 
 from ..core.errors import MaterialError
-from . import nodes
 from .properties import SCHEMA
 from .sample import Sample
+from .stamp import inputs_digest, sigma
 from .target import Request, Solution
 
-_SOCKET_TOLERANCE = 1e-6
-"""Sockets are single precision; a difference below this is not an edit by hand."""
 _DETAILS = ("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz")
-
-
-@dataclass(frozen=True)
-class Stamp:
-    """What was written to the shader node, and from what.
-
-    Parameters
-    ----------
-    inputs
-        Digest of spectrum and settings.
-    working_space
-        Name of the working space the color is in.
-    node, color, roughness
-        The shader node and the values written to it.
-    model
-        The model that gave the target.
-    delta_e_instrument, delta_e_mean, delta_e_95
-        Predicted ΔE00 at the instrument and over the hemisphere.
-    warnings
-        Sentences for the user.
-    """
-
-    inputs: str
-    working_space: str
-    node: str
-    color: tuple[float, float, float]
-    roughness: float
-    model: str
-    delta_e_instrument: float
-    delta_e_mean: float
-    delta_e_95: float
-    warnings: tuple[str, ...]
-
-
-def has_spectrum(material: Any) -> bool:
-    """Whether a spectrum was assigned to the material."""
-    return bool(material.rough_spectra.spectrum)
 
 
 def store(material: Any, request: Request, shader: str) -> None:
@@ -132,25 +90,11 @@ def load(material: Any) -> Request:
     )
 
 
-def sigma(group: Any) -> float:
-    """σ in radians, from the degrees that the user entered.
-
-    The property is single precision: 15° comes back as 15.0000004°. Five decimals of a degree are
-    what it can hold, and restore what was entered.
-    """
-    return math.radians(round(math.degrees(group.sigma), 5))
-
-
-def sigma_degrees(group: Any) -> float:
-    """σ in degrees as the user entered it."""
-    return round(math.degrees(group.sigma), 5)
-
-
 def set_stamp(material: Any, solution: Solution, working_space: str, node: str) -> None:
     """Note what was derived and from what."""
     group = material.rough_spectra
     stamp = {
-        "inputs": _inputs(group),
+        "inputs": inputs_digest(group),
         "working_space": working_space,
         "node": node,
         "color": solution.color.tolist(),
@@ -162,58 +106,3 @@ def set_stamp(material: Any, solution: Solution, working_space: str, node: str) 
         "warnings": list(solution.warnings),
     }
     group.stamp = json.dumps(stamp)
-
-
-def get_stamp(material: Any) -> Stamp | None:
-    """Give the stamp, or None where nothing was derived yet or it is of another version."""
-    try:
-        data = json.loads(material.rough_spectra.stamp)
-        return Stamp(**(data | {key: tuple(data[key]) for key in ("color", "warnings")}))
-    except (ValueError, KeyError, TypeError):
-        return None
-
-
-def stale_reasons(material: Any, working_space: str) -> list[str]:
-    """Say why the color in the shader node no longer follows from the spectrum; empty if it does.
-
-    Only compares what is stored: cheap enough for a panel.
-    """
-    group = material.rough_spectra
-    stamp = get_stamp(material)
-    if stamp is None:
-        return ["nothing was derived from the spectrum yet"]
-    reasons = []
-    if stamp.inputs != _inputs(group):
-        reasons.append("the spectrum or a setting was changed")
-    if stamp.working_space != working_space:
-        reasons.append(f"the working space changed from {stamp.working_space} to {working_space}")
-    node = nodes.shader_node(material)
-    if node is None or node.name != stamp.node:
-        reasons.append(f"the surface no longer comes from {stamp.node!r}")
-    elif not reasons and _edited(node, stamp):
-        reasons.append("color or roughness was edited by hand")
-    return reasons
-
-
-def _edited(node: Any, stamp: Stamp) -> bool:
-    written = (*stamp.color, stamp.roughness)
-    found = (
-        *nodes.color_socket(node).default_value[:3],
-        nodes.roughness_socket(node).default_value,
-    )
-    linked = nodes.color_socket(node).is_linked or nodes.roughness_socket(node).is_linked
-    apart = max(abs(a - b) for a, b in zip(written, found, strict=True))
-    return linked or apart > _SOCKET_TOLERANCE
-
-
-def _inputs(group: Any) -> str:
-    settings = (
-        group.spectrum,
-        group.kind,
-        group.instrument,
-        f"{sigma_degrees(group):.5f}",
-        group.illuminant,
-        group.model,
-        group.shader,
-    )
-    return hashlib.sha256("\n".join(settings).encode()).hexdigest()[:16]

@@ -8,12 +8,11 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-import bpy
 import numpy as np
 from mathutils import Color
 
 from ..core.arrays import Array
-from . import colorimetry
+from . import colorimetry, stamp
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +49,14 @@ class WorkingSpace:
         adapt = colorimetry.adaptation(weights.sum(axis=0), self.white)
         return np.asarray(weights @ adapt.T @ self.from_xyz.T)
 
+    def to_xyz(self, rgb: Array, illuminant: str) -> Array:
+        """XYZ (2° observer, Y = 1 for white) of scene-linear RGB (..., 3) under `illuminant`."""
+        adapt = colorimetry.adaptation(self.white, colorimetry.white(illuminant))
+        return np.asarray(np.asarray(rgb, np.float64) @ (adapt @ np.linalg.inv(self.from_xyz)).T)
+
     def to_lab(self, rgb: Array, illuminant: str) -> Array:
         """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
-        white = colorimetry.white(illuminant)
-        adapt = colorimetry.adaptation(self.white, white)
-        to_xyz = adapt @ np.linalg.inv(self.from_xyz)
-        return colorimetry.xyz_to_lab(np.asarray(rgb, np.float64) @ to_xyz.T, white)
+        return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
 
 
 def current() -> WorkingSpace:
@@ -66,9 +67,9 @@ def current() -> WorkingSpace:
     """
     unit_colors = (Color(unit).from_xyz_d65_to_scene_linear() for unit in np.eye(3).tolist())
     matrix = np.array([list(color) for color in unit_colors], np.float64).T
-    data = getattr(bpy.data, "colorspace", None)
-    name = data.working_space if data is not None else "Linear Rec.709"
-    return WorkingSpace(name=name, from_xyz=matrix, warning=_interchange_warning())
+    return WorkingSpace(
+        name=stamp.working_space_name(), from_xyz=matrix, warning=_interchange_warning()
+    )
 
 
 def _interchange_warning() -> str:

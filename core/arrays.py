@@ -56,7 +56,7 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
     """
     array = np.asarray(angle, dtype=dtype)
     half_pi = dtype.type(np.pi / 2)
-    _check_range(array, what, float(half_pi) * (1 + _ROUNDING_STEPS * np.finfo(dtype).eps), dtype)
+    _check_range(array, what, dtype)
     if float(half_pi) > np.pi / 2:
         half_pi = np.nextafter(half_pi, dtype.type(0))
     return np.asarray(np.minimum(array, half_pi))
@@ -65,12 +65,12 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
 def slope_deviation(sigma: npt.ArrayLike, dtype: np.dtype[Any]) -> Array:
     """Check that the roughness σ lies in [0, π/2] radians. NaN passes."""
     array = np.asarray(sigma, dtype=dtype)
-    limit = np.pi / 2 * (1 + _ROUNDING_STEPS * np.finfo(dtype).eps)
-    _check_range(array, "the roughness sigma", limit, dtype)
+    _check_range(array, "the roughness sigma", dtype)
     return array
 
 
-def _check_range(array: Array, what: str, limit: float, dtype: np.dtype[Any]) -> None:
+def _check_range(array: Array, what: str, dtype: np.dtype[Any]) -> None:
+    limit = np.pi / 2 * (1 + _ROUNDING_STEPS * float(np.finfo(dtype).eps))
     outside = (array < 0) | (array > limit)
     if np.any(outside):
         worst = float(array[outside].flat[0])

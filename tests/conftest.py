@@ -13,7 +13,8 @@ if "rough_spectra" not in sys.modules:
     spec = importlib.util.spec_from_file_location(
         "rough_spectra", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
     )
-    assert spec is not None and spec.loader is not None
+    assert spec is not None
+    assert spec.loader is not None
     package = importlib.util.module_from_spec(spec)
     sys.modules["rough_spectra"] = package
     spec.loader.exec_module(package)

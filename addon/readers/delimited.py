@@ -41,14 +41,21 @@ _LEAST_BAND = 100.0
 
 
 def sniff(document: Document) -> bool:
-    """Return whether some line has two numbers or begins with a word for wavelength."""
+    """Return whether some line is a row of numbers or begins with a word for wavelength."""
     head = document.head_text
     if head.lstrip()[:1] in ("<", "{", "["):
         return False  # XML or JSON: full of numbers, but no table
-    content = (line for line in head.split("\n") if not line.lstrip().startswith("#"))
-    return any(
-        _labels.is_wavelength(line) or next(itertools.islice(_NUMBER.finditer(line), 1, 2), None)
-        for line in content
+    return any(map(_may_be_row, head.split("\n")))
+
+
+def _may_be_row(line: str) -> bool:
+    if line.lstrip().startswith("#"):
+        return False
+    found = len(list(itertools.islice(_NUMBER.finditer(line), 2)))
+    return (
+        found > 1
+        or (found == 1 and any(mark in line for mark in "\t;,"))
+        or _labels.is_wavelength(line)
     )
 
 
@@ -65,6 +72,8 @@ def read(document: Document) -> list[Sample]:
     delimiter, skip = find_delimiter(document)
     table = _table.rows(document, delimiter, skip)
     top = list(itertools.islice(table, _PEEK))
+    if not top:
+        raise document.error("", "its rows are empty; export the table with its values")
     table = itertools.chain(top, table)
     comma = delimiter != ","
     header = [label.strip() for label in top[0].fields]

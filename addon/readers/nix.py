@@ -108,7 +108,9 @@ def _header_line(text: str) -> int:
     first = text.rfind("\n", 0, start) + 1
     end = text.find("\n", start)
     line = text[first : end if end >= 0 else len(text)]
-    return text.count("\n", 0, first) if _MARKS[1] in line else -1
+    if _MARKS[1] not in line or line.lstrip().startswith("#"):
+        return -1
+    return text.count("\n", 0, first)
 
 
 def _delimiter(document: Document, skip: int) -> str:

@@ -85,6 +85,23 @@ class Measurement:
             pass  # the other Blender is still starting
         return ended
 
+    def wait(self, progress: Callable[[int, int], None] | None = None) -> None:
+        """Wait for the end.
+
+        Raises
+        ------
+        CancelledError
+            On an interrupt from the keyboard.
+        """
+        try:
+            while not self.poll():
+                if progress is not None:
+                    progress(self.done, self.total)
+                time.sleep(_POLL_SECONDS)
+        except KeyboardInterrupt as error:
+            msg = "Measuring was interrupted; nothing was written."
+            raise CancelledError(msg) from error
+
     def result(self) -> Array:
         """Give what was measured, once `poll` says that it has ended.
 
@@ -173,14 +190,8 @@ def measure(
         return np.empty((len(geometries), 0, 2, 3))
     measurement = Measurement(materials, geometries)
     try:
-        while not measurement.poll():
-            if progress is not None:
-                progress(measurement.done, measurement.total)
-            time.sleep(_POLL_SECONDS)
+        measurement.wait(progress)
         return measurement.result()
-    except KeyboardInterrupt as error:
-        msg = "Measuring was interrupted; nothing was written."
-        raise CancelledError(msg) from error
     finally:
         measurement.close()
 

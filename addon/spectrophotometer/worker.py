@@ -15,6 +15,7 @@ import math
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -51,24 +52,27 @@ def main(job_path: Path) -> None:
     np.save(folder / "result.npy", np.concatenate(results, axis=1))
 
 
-def find(name, library):
+def find(name: str, library: str | None) -> Any:
     """Give a material by name and the path of the library it is linked from."""
     if library is None:
         return bpy.data.materials[name, None]
     for material in bpy.data.materials:
         linked = material.library
-        if linked is not None and material.name == name:
-            if os.path.samefile(bpy.path.abspath(linked.filepath), library):
-                return material
+        if linked is None or material.name != name:
+            continue
+        if os.path.samefile(bpy.path.abspath(linked.filepath), library):
+            return material
     raise KeyError(name)
 
 
-def build(materials):
+def build(materials: list[Any]) -> tuple[Any, Any, Any]:
     """Lay the samples side by side on a plane, each a square with its own material."""
     scene = bpy.data.scenes.new("Spectrophotometer")
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
-    corners, faces, uvs = [], [], []
+    corners: list[tuple[float, float, float]] = []
+    faces: list[list[int]] = []
+    uvs: list[tuple[int, int]] = []
     for index in range(len(materials)):
         x, y = index % columns - columns / 2, index // columns - rows / 2
         square = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -108,7 +112,7 @@ def build(materials):
     return scene, camera, plane
 
 
-def aim(scene, camera, plane, geometry):
+def aim(scene: Any, camera: Any, plane: Any, geometry: dict[str, Any]) -> None:
     """Set lights and view; the plane is stretched by as much as the view foreshortens it."""
     view = geometry["view"]
     distance = 100.0 * camera.data.ortho_scale
@@ -127,7 +131,7 @@ def aim(scene, camera, plane, geometry):
         scene.collection.objects.link(lamp)
 
 
-def render(scene, path, count):
+def render(scene: Any, path: Path, count: int) -> Any:
     """Render and give each sample's mean and standard deviation, shape (samples, 2, 3)."""
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True, scene=scene.name)
@@ -139,7 +143,7 @@ def render(scene, path, count):
     ]
 
 
-def read_exr(path):
+def read_exr(path: Path) -> Any:
     """Pixels of an EXR file as they are stored."""
     if hasattr(bpy.utils, "expose_bundled_modules"):
         bpy.utils.expose_bundled_modules()
@@ -152,7 +156,7 @@ def read_exr(path):
         image.close()
 
 
-def report(folder, done, total):
+def report(folder: Path, done: int, total: int) -> None:
     """Tell the progress to whoever polls; replaced whole, so it is never read half-written."""
     part = folder / "progress.part"
     part.write_text(f"{done} {total}", encoding="ascii")

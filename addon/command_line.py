@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: `blender -b scene.blend --command rough_spectra VERB …`.
+
+Exit status: 0 done, 1 a check failed, 2 the input is unusable, 130 interrupted. A failure is one
+line on standard error; results go to files, since Blender itself prints on standard output.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+NAME = "rough_spectra"
+VERBS = ("assign", "bake", "check", "merge")
+
+_UNUSABLE = 2
+_INTERRUPTED = 130
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run one verb.
+
+    Parameters
+    ----------
+    arguments
+        The words after `rough_spectra`.
+
+    Returns
+    -------
+    The exit status.
+    """
+    from ..core.errors import CancelledError, RoughSpectraError
+
+    parser = _parser()
+    try:
+        options = parser.parse_args(list(arguments))
+    except SystemExit as stop:  # argparse printed help or the fault
+        return stop.code if isinstance(stop.code, int) else _UNUSABLE
+    try:
+        if options.blend is not None:
+            _open(options.blend)
+        return int(options.run(options))
+    except CancelledError as error:
+        status, sentence = _INTERRUPTED, str(error)
+    except KeyboardInterrupt:
+        status, sentence = _INTERRUPTED, "Interrupted; nothing was written."
+    except RoughSpectraError as error:
+        status, sentence = _UNUSABLE, str(error)
+    print(f"{NAME} {options.verb}: {sentence}", file=sys.stderr)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog=f"blender -b scene.blend --command {NAME}",
+        description="Measured rough materials that read the same when measured again.",
+    )
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
+    for verb in VERBS:
+        module = importlib.import_module(f".verbs.{verb}", __package__)
+        sub = verbs.add_parser(verb, help=module.SUMMARY, description=module.DESCRIPTION)
+        sub.add_argument(
+            "--blend",
+            type=Path,
+            metavar="FILE",
+            help="open this file first; the same as naming it before --command",
+        )
+        module.add_arguments(sub)
+        sub.set_defaults(run=module.run)
+    return parser
+
+
+def _open(path: Path) -> None:
+    import bpy
+
+    from ..core.errors import InputError
+
+    if not path.is_file():
+        msg = f"{path} does not exist; check the path after --blend."
+        raise InputError(msg)
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+    except RuntimeError as error:
+        msg = f"{path} cannot be opened as a .blend ({_one_line(error)}); check the file."
+        raise InputError(msg) from error
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
+
+
+_handles: list[Any] = []
+
+
+def register() -> None:
+    """Add the command to Blender's `--command`."""
+    import bpy
+
+    _handles.append(bpy.utils.register_cli_command(NAME, main))
+
+
+def unregister() -> None:
+    """Take the command away."""
+    import bpy
+
+    while _handles:
+        bpy.utils.unregister_cli_command(_handles.pop())

@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which material gets which sample: mapping files, and matching by name."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, cast
+
+import bpy
+
+from ..core.errors import InputError, MaterialError
+from . import presets, readers, selection
+from .sample import KINDS, Kind, Sample
+from .target import Request
+
+_FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One assignment as asked for; `sigma_degrees` is None where nothing says it."""
+
+    material: str
+    sample: Sample
+    sigma_degrees: float | None
+
+
+def rows(options: argparse.Namespace) -> list[Row]:
+    """Give the assignments that the options of the verb `assign` ask for.
+
+    Raises
+    ------
+    InputError
+        If a file or a row of it cannot be used.
+    """
+    if options.mapping is not None:
+        return read_mapping(options.mapping)
+    if options.preset is not None:
+        sample = presets.load(options.preset)
+        if not options.material:
+            msg = f"Name the materials that get {sample.name!r}, with --material NAME."
+            raise InputError(msg)
+        return [Row(name, sample, sample.sigma_degrees) for name in options.material]
+    samples = [sample for path in options.by_name for sample in readers.read(path)]
+    known = {material.name for material in bpy.data.materials}
+    wanted = set(options.material or (known if not options.create else {s.name for s in samples}))
+    chosen = [Row(s.name, s, s.sigma_degrees) for s in samples if s.name in wanted]
+    if not chosen:
+        names = ", ".join(sample.name for sample in samples[:5])
+        msg = f"No material is named like a sample ({names}, …); rename, or use --mapping."
+        raise InputError(msg)
+    return chosen
+
+
+def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, Request]]:
+    """Find the materials and settle σ and kind; makes materials only with --create.
+
+    Raises
+    ------
+    InputError, MaterialError
+        If σ is out of range or a material is missing; none was made then.
+    """
+    requests = []
+    for row in chosen:
+        degrees = row.sigma_degrees if options.sigma is None else options.sigma
+        requests.append(_request(row, 0.0 if degrees is None else degrees, options))
+    missing = [row.material for row in chosen if row.material not in bpy.data.materials]
+    if missing and not options.create:
+        msg = (
+            f"There is no material {missing[0]!r}"
+            + (f" nor {len(missing) - 1} others" if len(missing) > 1 else "")
+            + "; correct the names, or add --create to make them."
+        )
+        raise MaterialError(msg)
+    for name in dict.fromkeys(missing):
+        bpy.data.materials.new(name).use_fake_user = True
+    return [
+        (selection.by_name(row.material), request)
+        for row, request in zip(chosen, requests, strict=True)
+    ]
+
+
+def read_mapping(path: Path) -> list[Row]:
+    """Read a mapping file, CSV or JSON.
+
+    Raises
+    ------
+    InputError
+        Naming file, row and remedy.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        msg = f"{path} cannot be read ({error}); give a CSV or JSON file in UTF-8."
+        raise InputError(msg) from error
+    is_json = text.lstrip()[:1] in ("[", "{")
+    records = _json_records(path, text) if is_json else _csv_records(path, text)
+    if not records:
+        msg = f"{path} has no rows; give one a material."
+        raise InputError(msg)
+    cache: dict[Path, list[Sample]] = {}
+    return [_row(path, place, record, cache) for place, record in records]
+
+
+def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+    try:
+        data = json.loads(text)
+    except ValueError as error:
+        msg = f"{path} is not valid JSON ({error}); correct it."
+        raise InputError(msg) from error
+    if not isinstance(data, list) or not all(isinstance(record, dict) for record in data):
+        msg = f"{path} must be a list of objects with the keys {', '.join(_FIELDS)}."
+        raise InputError(msg)
+    return [(f"entry {number}", record) for number, record in enumerate(data, 1)]
+
+
+def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    header = lines[0] if lines else ""
+    delimiter = max(",;\t", key=header.count)
+    table = csv.DictReader(lines, delimiter=delimiter)
+    names = [name.strip() for name in table.fieldnames or ()]
+    if "material" not in names or "sample" not in names:
+        msg = (
+            f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
+            f"{', '.join(_FIELDS)}, of which material and sample are needed."
+        )
+        raise InputError(msg)
+    table.fieldnames = names
+    return [(f"row {number}", dict(record)) for number, record in enumerate(table, 1)]
+
+
+def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[Sample]]) -> Row:
+    where = f"{path}, {place}"
+    unknown = [key for key in record if key not in _FIELDS]
+    if unknown:
+        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(_FIELDS)}."
+        raise InputError(msg)
+    cells = {key: str(record.get(key) or "").strip() for key in _FIELDS}
+    if not cells["material"] or not cells["sample"]:
+        msg = f"{where}: material and sample must both be given."
+        raise InputError(msg)
+    sample = _sample(path, where, cells, cache)
+    if cells["kind"] and cells["kind"] not in KINDS:
+        msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
+        raise InputError(msg)
+    if cells["kind"]:
+        sample = replace(sample, kind=cast(Kind, cells["kind"]))
+    sigma = sample.sigma_degrees
+    if cells["sigma_deg"]:
+        try:
+            sigma = float(cells["sigma_deg"])
+        except ValueError as error:
+            msg = f"{where}: sigma_deg is {cells['sigma_deg']!r}; give degrees as a number."
+            raise InputError(msg) from error
+    return Row(cells["material"], sample, sigma)
+
+
+def _sample(
+    path: Path, where: str, cells: dict[str, str], cache: dict[Path, list[Sample]]
+) -> Sample:
+    if not cells["file"]:
+        try:
+            return presets.load(cells["sample"])
+        except InputError as error:
+            msg = f"{where}: {error}"
+            raise InputError(msg) from error
+    source = path.parent / cells["file"]
+    if source not in cache:
+        cache[source] = readers.read(source)
+    for sample in cache[source]:
+        if sample.name == cells["sample"]:
+            return sample
+    names = ", ".join(sample.name for sample in cache[source][:5])
+    msg = f"{where}: {source} has no sample {cells['sample']!r}; it has {names}."
+    raise InputError(msg)
+
+
+def _request(row: Row, degrees: float, options: argparse.Namespace) -> Request:
+    if not 0 <= degrees <= 90:
+        msg = f"Material {row.material!r}: σ is {degrees:g}°; give 0 to 90 degrees."
+        raise InputError(msg)
+    sample = row.sample if options.kind is None else replace(row.sample, kind=options.kind)
+    return Request(
+        sample=sample,
+        sigma=math.radians(degrees),
+        model=options.model,
+        illuminant=options.illuminant,
+        observer=options.observer,
+    )

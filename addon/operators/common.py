@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the operators share: the materials they work on, and how they report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty
+
+from ...core.errors import RoughSpectraError
+from ..properties import SHADER_ITEMS
+
+SCOPE_ITEMS = (
+    ("ACTIVE", "Active Material", "Only the active object's active material"),
+    ("SELECTED", "Selected Objects", "Every material on the selected objects"),
+)
+
+
+class AssignOptions:
+    """Properties of every operator that assigns a spectrum."""
+
+    sigma: FloatProperty(
+        name="σ",
+        description="Roughness: standard deviation of the slope angle of the surface's facets",
+        subtype="ANGLE",
+        min=0.0,
+        max=1.5707963,
+    )
+    shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
+    scope: EnumProperty(name="For", description="Materials that get it", items=SCOPE_ITEMS)
+
+
+def active_object(context: Any) -> Any | None:
+    """Give the object whose material is being edited, which may be pinned."""
+    pinned = getattr(context, "object", None)
+    return pinned if pinned is not None else context.view_layer.objects.active
+
+
+def active_material(context: Any) -> Any | None:
+    """Give the material that the Material tab shows."""
+    shown = getattr(context, "material", None)
+    if shown is not None:
+        return shown
+    thing = active_object(context)
+    return None if thing is None else thing.active_material
+
+
+def materials_in_scope(context: Any, scope: str) -> list[Any]:
+    """Give the materials that an operator is to work on; makes one for an object without any.
+
+    Raises
+    ------
+    RoughSpectraError
+        If there is nothing to work on.
+    """
+    if scope == "SELECTED":
+        from .. import selection
+
+        found = selection.of_objects(context.selected_objects)
+        if not found:
+            msg = "No selected object has a material; select objects with materials."
+            raise RoughSpectraError(msg)
+        return found
+    material = active_material(context)
+    if material is not None:
+        return [material]
+    thing = active_object(context)
+    if thing is None or not hasattr(thing.data, "materials"):
+        msg = "There is no object that can carry a material; select a mesh first."
+        raise RoughSpectraError(msg)
+    material = bpy.data.materials.new(thing.name)
+    thing.active_material = material
+    return [material]
+
+
+def can_have_material(operator: Any, context: Any) -> bool:
+    """Poll for operators that assign to the active material."""
+    thing = active_object(context)
+    if active_material(context) is not None or hasattr(getattr(thing, "data", None), "materials"):
+        return True
+    operator.poll_message_set("Select an object that can carry a material")
+    return False
+
+
+def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:
+    """Report every warning of the solutions, with the material's name."""
+    for material, solution in pairs:
+        for warning in solution.warnings:
+            operator.report({"WARNING"}, f"{material.name}: {warning}")

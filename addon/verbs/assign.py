@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`assign`: give materials of the file measured spectra."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+SUMMARY = "give materials of the file measured spectra"
+DESCRIPTION = (
+    "Give materials measured spectra, from a mapping file, from a preset, or from measurement "
+    "files by equal names, and save the file."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `assign`."""
+    from ..colorimetry import ILLUMINANTS, OBSERVERS
+
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument(
+        "--mapping",
+        type=Path,
+        metavar="FILE",
+        help="CSV or JSON with a row a material: material, sample, and optionally file, "
+        "sigma_deg, kind; a sample without a file is a preset",
+    )
+    source.add_argument(
+        "--by-name",
+        type=Path,
+        nargs="+",
+        metavar="FILE",
+        help="measurement files; materials get the sample of the same name",
+    )
+    source.add_argument("--preset", metavar="NAME", help="a preset for the materials of --material")
+    parser.add_argument("--material", action="append", default=[], metavar="NAME")
+    parser.add_argument(
+        "--sigma", type=float, metavar="DEGREES", help="roughness where no file gives it (0)"
+    )
+    parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
+    parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
+    parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument(
+        "--model", choices=("first-order", "two-bounce", "closure"), default="two-bounce"
+    )
+    parser.add_argument("--shader", choices=("auto", "diffuse", "principled"), default="auto")
+    parser.add_argument(
+        "--create", action="store_true", help="make the materials that are not there"
+    )
+    parser.add_argument("--output", type=Path, metavar="FILE", help="save here, not over the file")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Assign and save; exit status 0."""
+    from .. import assign, mapping
+    from ..blend_file import save
+
+    rows = mapping.rows(options)
+    pairs = mapping.pair(rows, options)
+    solutions = assign.assign(pairs, options.shader.upper())
+    for (material, _), solution in zip(pairs, solutions, strict=True):
+        for warning in solution.warnings:
+            print(f"warning: material {material.name!r}: {warning}", file=sys.stderr)
+    path = save(options.output)
+    worst = max(solution.delta_e_instrument for solution in solutions)
+    print(
+        f"assigned {len(pairs)} materials, largest predicted ΔE00 at 45°/0° {worst:.4f}; "
+        f"saved {path}",
+        file=sys.stderr,
+    )
+    return 0

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`bake`: virtual spectrophotometer readings into files."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..readings import Readings
+
+SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
+DESCRIPTION = (
+    "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "
+    "samples at 45°a:0°, and write both. The .blend itself is not changed."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `bake`."""
+    add_surface_arguments(parser)
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="BASE",
+        help="folder and base name: BASE.json, BASE.predicted.csv, BASE.measured.csv …",
+    )
+    add_format_argument(parser)
+    parser.add_argument("--predicted-only", action="store_true", help="do not render")
+    parser.add_argument(
+        "--shard",
+        type=_shard,
+        default=(1, 1),
+        metavar="I/N",
+        help="bake only every N-th material, from the I-th on, into BASE.part-I-of-N.json; "
+        "join the parts with merge",
+    )
+
+
+def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare which materials are meant."""
+    parser.add_argument(
+        "--material",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="a material, repeatable; without any, all that store a spectrum",
+    )
+    parser.add_argument(
+        "--object",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="the materials on this object's surface, repeatable",
+    )
+
+
+def add_format_argument(parser: argparse.ArgumentParser) -> None:
+    """Declare which files are written."""
+    parser.add_argument(
+        "--format",
+        action="append",
+        choices=("csv", "cgats", "exr"),
+        help="write only these beside the JSON; repeatable",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Bake and write; exit status 0."""
+    from .. import outputs, readings, writers
+
+    result = measure(options, not options.predicted_only)
+    index, count = options.shard
+    if count > 1:
+        part = replace(result, shard=index, shards=count)
+        target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
+        with outputs.publication() as files:
+            files.write(target, readings.to_json(part))
+        written = [target]
+    else:
+        written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+    largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
+    names = ", ".join(path.name for path in written)
+    print(f"{len(result.entries)} readings{largest}; wrote {names}", file=sys.stderr)
+    return 0
+
+
+def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readings:
+    """Take the readings that the options ask for, with a progress line."""
+    from .. import readings, selection
+    from ..progress import ProgressLine
+
+    surfaces = selection.surfaces(options.material, options.object)
+    index, count = getattr(options, "shard", (1, 1))
+    progress = ProgressLine("measuring")
+    try:
+        return readings.bake(surfaces[index - 1 :: count], with_measurement, progress)
+    finally:
+        progress.close()
+
+
+def _shard(text: str) -> tuple[int, int]:
+    try:
+        index, count = (int(word) for word in text.split("/"))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is not I/N, as in 2/8") from error
+    if not 1 <= index <= count:
+        raise argparse.ArgumentTypeError(f"{text!r}: I runs from 1 to N")
+    return index, count

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`merge`: join the parts of a sharded bake."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from .bake import add_format_argument
+
+SUMMARY = "join the parts that bake --shard wrote"
+DESCRIPTION = (
+    "Join the parts of a bake into the files that one bake of everything would have written, byte "
+    "for byte."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `merge`."""
+    parser.add_argument("parts", type=Path, nargs="+", metavar="PART.json")
+    parser.add_argument("--output", type=Path, required=True, metavar="BASE")
+    add_format_argument(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Join and write; exit status 0."""
+    from .. import readings, writers
+
+    result = readings.merge(readings.from_json(path) for path in options.parts)
+    written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+    names = ", ".join(path.name for path in written)
+    print(f"{len(result.entries)} readings; wrote {names}", file=sys.stderr)
+    return 0

@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write readings to files. Predicted and measured never share one.
+
+From the base name `out/chart` come `chart.json` with everything, `chart.predicted.*` and
+`chart.measured.*`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .. import outputs
+from ..readings import Readings, to_json
+from . import cgats, images, tables
+
+FORMATS = ("csv", "cgats", "exr")
+"""Written beside the JSON document, which is always written."""
+
+
+def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) -> list[Path]:
+    """Write all files of a bake, or none.
+
+    Parameters
+    ----------
+    readings
+        What to write.
+    base
+        Folder and base name; endings are added to the name.
+    formats
+        Any of `FORMATS`.
+
+    Returns
+    -------
+    The files written.
+
+    Raises
+    ------
+    OutputError
+        If one cannot be written; no file was touched then.
+    """
+    written: list[Path] = []
+    with outputs.publication() as files:
+
+        def put(ending: str, content: bytes) -> None:
+            target = base.with_name(f"{base.name}.{ending}")
+            files.write(target, content)
+            written.append(target)
+
+        if "csv" in formats:
+            put("predicted.csv", tables.predicted(readings))
+            put("measured.csv", tables.measured(readings))
+        if "cgats" in formats:
+            put("predicted.cgats.txt", cgats.predicted(readings))
+            put("measured.cgats.txt", cgats.measured(readings))
+        if "exr" in formats:
+            for ending, image in images.predicted(readings) + images.measured(readings):
+                target = base.with_name(f"{base.name}.{ending}")
+                images.write(image, files.stage(target), target)
+                written.append(target)
+        put("json", to_json(readings))
+    return written
