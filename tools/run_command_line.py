@@ -10,13 +10,14 @@ import importlib
 import importlib.util
 import sys
 from pathlib import Path
+from types import ModuleType
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "rough_spectra"
 
 
-def load_extension() -> None:
-    """Make `import rough_spectra` find the repository's root."""
+def load_extension() -> ModuleType:
+    """Make `import rough_spectra` find the repository's root, and return that package."""
     spec = importlib.util.spec_from_file_location(
         PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
     )
@@ -25,12 +26,14 @@ def load_extension() -> None:
     module = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = module
     spec.loader.exec_module(module)
+    return module
 
 
 def main() -> int:
     """Hand the arguments to the extension and return its exit status."""
-    load_extension()
+    extension = load_extension()
     importlib.import_module("bpy")  # before the extension: it brings mathutils and the like along
+    extension.register()  # without it materials have no place to store a spectrum in
     command_line = importlib.import_module(f"{PACKAGE}.addon.command_line")
     return int(command_line.main(sys.argv[1:]))
 
