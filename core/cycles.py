@@ -200,7 +200,12 @@ def _lobe(
         * (1 - mean_lost)
         / dtype.type(_MEAN_SPAN)
     )
-    return single, multiple, mean_lost
+    # numpy 1.26 promotes scalars on the way.
+    return (
+        np.asarray(single, dtype),
+        np.asarray(multiple, dtype),
+        np.asarray(mean_lost, dtype),
+    )
 
 
 def _albedo_shape(theta: Array) -> Array:

@@ -69,8 +69,10 @@ def bounce_ratio(sigma: npt.ArrayLike) -> Array:
     g = 1 - q with q = f2 / (1 - f1), the ratio that gives r(ρ = 1) = 1. f2 / (1 - f1) is 0/0 at
     σ = 0, so q is written as the quotient of the two fits, where σ² cancels.
     """
-    s2 = slope_deviation(sigma, precision(sigma)) ** 2
-    return 1 - 0.34 * (s2 + 0.33) / (s2 + 0.13)
+    dtype = precision(sigma)
+    s2 = slope_deviation(sigma, dtype) ** 2
+    # numpy 1.26 promotes scalars on the way.
+    return np.asarray(1 - 0.34 * (s2 + 0.33) / (s2 + 0.13), dtype)
 
 
 def from_albedo(
@@ -184,7 +186,8 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
         x = np.where(b < 0, 2 * c / (root - b), (b + root) / (-2 * a))
     half_pi = dtype.type(np.pi / 2)
     sigma = np.where(bounded, np.sqrt(np.clip(x, 0, half_pi**2)), half_pi)
-    return np.where(r <= 1, sigma, dtype.type(np.nan))
+    # numpy 1.26 promotes scalars on the way.
+    return np.asarray(np.where(r <= 1, sigma, np.nan), dtype)
 
 
 def _model_coefficients(
