@@ -138,8 +138,11 @@ def _weights(wavelengths: tuple[float, ...], illuminant: str, observer: int) -> 
 
 def _weights_of_grid(measured: Array, illuminant: str, observer: int) -> Array:
     step = grid.step(measured) if measured.size > 1 else None
-    if step is not None and _is_e308_step(step) and float(measured[0]) % round(step) == 0:
-        return _e308(measured, illuminant, observer)
+    # colour-science refuses a grid that is a millionth of a nanometer from even.
+    nominal = np.round(measured)
+    close = np.allclose(measured, nominal, rtol=0, atol=1e-3)
+    if step is not None and close and _is_e308_step(step) and nominal[0] % round(step) == 0:
+        return _e308(nominal, illuminant, observer)
     fine = np.arange(_VISIBLE[0], _VISIBLE[1] + 1)
     units = np.eye(measured.size)
     to_fine = grid.resample(units, measured, fine, method="cubic", ends="hold")
@@ -147,7 +150,7 @@ def _weights_of_grid(measured: Array, illuminant: str, observer: int) -> Array:
 
 
 def _is_e308_step(step: float) -> bool:
-    return any(abs(step - known) < 1e-6 * known for known in _E308_STEPS)
+    return any(abs(step - known) < 1e-4 * known for known in _E308_STEPS)
 
 
 def _integration(wavelengths: Array, illuminant: str, observer: int) -> Array:

@@ -19,7 +19,7 @@ from .errors import DomainError
 Method = Literal["linear", "cubic"]
 Ends = Literal["nan", "hold", "error"]
 
-_STEP_TOLERANCE = 1e-6
+_STEP_TOLERANCE = 1e-4
 """Relative unevenness that still counts as even: files print steps such as 3.3333 nm."""
 
 
