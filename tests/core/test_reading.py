@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+
 from core import oren_nayar, reading
 from core.errors import DomainError
 
