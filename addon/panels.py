@@ -23,7 +23,6 @@ class ROUGHSPECTRA_PT_material(bpy.types.Panel):
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "material"
-    bl_options = {"DEFAULT_CLOSED"}
     COMPAT_ENGINES = _ENGINES
 
     @classmethod
@@ -55,6 +54,8 @@ class ROUGHSPECTRA_PT_material(bpy.types.Panel):
         column.prop(group, "model")
         column.prop(group, "shader")
         _state(layout, material)
+        if context.scene.render.engine != "CYCLES":
+            layout.label(text="Only Cycles shows the roughness", icon="INFO")
         layout.operator("rough_spectra.bake", icon="RENDER_STILL")
 
 

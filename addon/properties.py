@@ -57,6 +57,8 @@ class RoughSpectraMaterial(PropertyGroup):
         name="σ",
         description="Roughness: standard deviation of the slope angle of the surface's facets",
         subtype="ANGLE",
+        precision=1,
+        step=100,
         min=0.0,
         max=pi / 2,
     )

@@ -26,6 +26,8 @@ class AssignOptions:
         name="σ",
         description="Roughness: standard deviation of the slope angle of the surface's facets",
         subtype="ANGLE",
+        precision=1,
+        step=100,
         min=0.0,
         max=1.5707963,
     )
