@@ -96,7 +96,8 @@ def comments(document: Document) -> Comments:
         elif key == "kind":
             found.kind = _one_of(document, number, key, value, _KINDS)
         elif key in ("instrument", "source", "license", "device", "condition"):
-            found.texts[key] = value
+            if value:
+                found.texts[key] = value
         # A name or a citation may well hold a percent sign, so only talk about the values counts.
         elif not stated and says_percent(text) and _ABOUT_VALUES.search(key or text):
             found.scale = 100.0
@@ -104,8 +105,10 @@ def comments(document: Document) -> Comments:
 
 
 def _one_of(document: Document, line: int, key: str, value: str, known: dict[str, T]) -> T:
+    # What follows the first word explains it: "fraction (1 = perfect white diffuser)".
+    word = re.split(r"[\s(;,]", value.lower(), maxsplit=1)[0]
     try:
-        return known[value.lower()]
+        return known[word]
     except KeyError:
         raise document.error(
             f"line {line}",
