@@ -1,0 +1,209 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plain tables: layouts, delimiters, units, and what is refused."""
+
+from pathlib import Path
+
+import pytest
+from rough_spectra.addon import readers
+from rough_spectra.core.errors import InputError
+
+FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "delimited"
+
+
+def read(tmp_path, text, encoding="utf-8"):
+    path = tmp_path / "chalk.csv"
+    path.write_bytes(text.encode(encoding))
+    return readers.read(path)
+
+
+def refusal(tmp_path, text):
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, text)
+    sentence = str(caught.value)
+    assert "chalk.csv" in sentence
+    assert sentence.endswith(".")
+    assert "\n" not in sentence
+    return sentence
+
+
+def summary(samples):
+    return [(s.name, s.wavelengths.tolist(), s.values.tolist()) for s in samples]
+
+
+def test_samples_in_rows_percent_by_column_name():
+    samples = readers.read(FOLDER / "across-percent-tabs.txt")
+    nm = [400, 410, 420, 430]
+    assert summary(samples) == [
+        ("Chalk", nm, [0.7125, 0.745, 0.77, 0.78125]),
+        ("Brick dust", nm, [0.0625, 0.065, 0.0775, 0.09]),
+    ]
+    assert [sample.position for sample in samples] == ["line 2", "line 3"]
+    assert samples[0].notes == ("Columns not read: Batch.",)
+
+
+def test_comments_state_what_a_table_cannot():
+    gray, plaster = readers.read(FOLDER / "bake-style.csv")
+    assert summary([gray, plaster]) == [
+        ("50% gray", [400, 410, 420], [0.5, 0.5, 0.5]),
+        ("plaster", [400, 410, 420], [0.875, 0.8828125, 0.890625]),
+    ]
+    assert (gray.kind, gray.instrument, gray.license) == ("albedo", "45a:0", "CC0-1.0")
+    assert gray.source.endswith("bake-style.csv")
+    assert plaster.position == "column 'plaster'"
+
+
+def test_decimal_commas():
+    nm = [400, 410, 420]
+    assert summary(readers.read(FOLDER / "decimal-comma.csv")) == [
+        ("Tür", nm, [0.0625, 0.0703125, 0.078125]),
+        ("Wand, außen", nm, [0.5, 0.515625, 0.53125]),
+    ]
+
+
+def test_two_columns_without_a_header():
+    (clay,) = readers.read(FOLDER / "spaces.txt")
+    assert summary([clay]) == [("spaces", [400, 410, 420, 430], [0.125, 0.1406, 0.1563, 0.1719])]
+
+
+def test_micrometers_and_percent_where_the_header_says_so():
+    (sample,) = readers.read(FOLDER / "micrometers.tsv")
+    # 2.01 * 1000 is 2009.9999999999998 in floating point.
+    nm = [570, 580, 590, 2010]
+    assert summary([sample]) == [("micrometers", nm, [0.11486, 0.1175, 0.12, 0.125])]
+
+
+BANDS = [400.0, 410.0, 420.0]
+VALUES = [0.125, 0.25, 0.5]
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " ", ", "])
+@pytest.mark.parametrize("header", ["wavelength{}reflectance\n", "nm{}R\n", "x{}y\n", ""])
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+def test_down_in_every_dress(tmp_path, delimiter, header, newline):
+    rows = "".join(f"{b:g}{delimiter}{v}\n" for b, v in zip(BANDS, VALUES, strict=True))
+    text = (header.format(delimiter) + rows).replace("\n", newline)
+    (sample,) = read(tmp_path, text)
+    assert (sample.wavelengths.tolist(), sample.values.tolist()) == (BANDS, VALUES)
+    assert sample.name.startswith("chalk")
+
+
+@pytest.mark.parametrize("label", ["{}", "{}nm", "R{} nm", "nm{}", "{}.0", "R_{}"])
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+@pytest.mark.parametrize("corner", ["name", "wavelength", "", "Sample ID"])
+def test_across_in_every_dress(tmp_path, label, delimiter, corner):
+    header = delimiter.join([corner, *(label.format(int(band)) for band in BANDS)])
+    rows = [delimiter.join([name, "0.125", "0.25", "0.5"]) for name in ("a", "b_1")]
+    samples = read(tmp_path, "\n".join([header, *rows]))
+    assert summary(samples) == [("a", BANDS, VALUES), ("b_1", BANDS, VALUES)]
+
+
+def test_a_header_of_numbers_with_and_without_names_below(tmp_path):
+    assert summary(read(tmp_path, "400,410,420\n0.125,0.25,0.5\n")) == [("chalk", BANDS, VALUES)]
+    assert summary(read(tmp_path, "400 410 420\nred 0.125 0.25 0.5\n")) == [("red", BANDS, VALUES)]
+
+
+def test_numbered_samples_down_and_across_are_told_apart(tmp_path):
+    down = read(tmp_path, "wavelength,1,2\n400,0.125,0\n410,0.25,0\n420,0.5,0\n")
+    assert summary(down)[0] == ("1", BANDS, VALUES)
+    across = read(tmp_path, "wavelength,400,410,420\n1,0.125,0.25,0.5\n2,0,0,0\n")
+    assert summary(across)[0] == ("1", BANDS, VALUES)
+    sentence = refusal(tmp_path, "wavelength,400,410,420\n400,0.1,0.2,0.5\n410,0,0,0\n")
+    assert "first row or in the first column" in sentence
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_encodings(tmp_path, encoding):
+    text = "wavelength;Tür\n400;0,125\n410;0,25\n420;0,5\n"
+    assert summary(read(tmp_path, text, encoding)) == [("Tür", BANDS, VALUES)]
+
+
+def test_a_byte_order_mark_is_no_part_of_the_first_number(tmp_path):
+    assert summary(read(tmp_path, "400,0.125\n410,0.25\n420,0.5\n", "utf-8-sig")) == [
+        ("chalk", BANDS, VALUES)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("top", "scale"),
+    [
+        ("wavelength,reflectance\n", 1),
+        ("wavelength,R [%]\n", 100),
+        ("wavelength,% reflectance\n", 100),
+        ("wavelength,Reflectance (percent)\n", 100),
+        ("wavelength,gray 50%\n", 1),
+        ("wavelength,50 % gray\n", 1),
+        ("# units: percent\nwavelength,R\n", 100),
+        ("# units: fraction\nwavelength,R\n", 1),
+        ("# Units: Fraction (100 percent = 1); others differ\nwavelength,R\n", 1),
+        ("# units: %\nwavelength,R\n", 100),
+        ("# reflectance in percent\nwavelength,R\n", 100),
+        ("# name: 20 percent gray\nwavelength,R\n", 1),
+        ("# humidity: 40 %\nwavelength,R\n", 1),
+        ("# error bars: percent\nwavelength,R\n", 1),
+        ("# title: reflectance in % against time\nwavelength,R\n", 1),
+    ],
+)
+def test_scale_follows_words_and_never_size(tmp_path, top, scale):
+    # All below 1: whoever looks at the size takes these for fractions.
+    (sample,) = read(tmp_path, top + "400,0.5\n410,0.25\n")
+    assert sample.values.tolist() == [0.5 / scale, 0.25 / scale]
+
+
+def test_large_values_are_refused_rather_than_scaled(tmp_path):
+    sentence = refusal(tmp_path, "wavelength,R\n400,50\n410,25\n")
+    for part in ("column 'R'", "line 2", "above 1", "percent", "column name"):
+        assert part in sentence
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("wavelength,R\n400,nan\n410,0.5\n", ["line 2", "NaN"]),
+        ("wavelength,R\n400,0.5\n410,1e999\n", ["line 3", "infinite"]),
+        ("wavelength,R\n400,0.5\n410,-0.5\n", ["line 3", "410 nm", "negative"]),
+        ("wavelength,R\n400,0.5\n420,0.5\n\n410,0.5\n", ["line 5", "line 3", "410 nm", "sort"]),
+        ("wavelength,R\n400,0.5\n400,0.5\n", ["line 2", "line 3", "twice"]),
+        ("wavelength,R\n400,0.5\n", ["only one band"]),
+        ("wavelength,R\n", ["no band"]),
+        ("name,400\na,0.5\n", ["line 2", "only one band"]),
+        ("name,400 nm,420 nm,410 nm\na,0,0,0\n", ["'410 nm'", "'420 nm'", "sort"]),
+        ("name,400 nm,400 nm\na,0,0\n", ["twice"]),
+        ("name,400 nm,410 nm\na,0.5,\n", ["line 2", "'410 nm'", "missing"]),
+        ("name,400 nm,410 nm\na,0.5\n", ["line 2", "before column '410 nm'"]),
+        ("name,400 nm,410 nm\n", ["holds no sample"]),
+        ("wavelength,R\n0.4,0.5\n0.5,0.5\n", ["0.4 to 0.5", "micrometers"]),
+        ("wavelength,R\n400,half\n410,0.5\n", ["line 2", "column 'R'", "'half'", "not a number"]),
+        ("wavelength,R\n400,1_0\n410,0.5\n", ["line 2", "'1_0'", "not a number"]),
+        ("wavelength,R,S\n400,.5,.5\n410,.5\n", ["line 3", "before column 'S'", "2 of 3"]),
+        ("wavelength,R\n400,0.5\n410,0.5,0.5\n", ["line 3", "3 columns", "2"]),
+        ("wavelength,R\n400,0,5\n410,0,6\n", ["line 2", "decimal commas", "semicolons"]),
+        ("400,0,5\n410,0,6\n", ["line 1", "decimal commas", "semicolons"]),
+        ("wavelength|R\n400|0.5\n410|0.5\n", ["line 1", "expected commas", "found vertical bars"]),
+        ("wavelength | R\n400 | 0.5\n410 | 0.5\n", ["line 1", "found vertical bars"]),
+        ("wavelength,R\n400;0.5\n410;0.5\n", ["line 2", "semicolons", "header by commas"]),
+        ("wavelength;R\n400,0.5\n410,0.5\n", ["line 2", "commas", "header by semicolons"]),
+        ("wavelength,R\n400;0,5\n410;0,5\n", ["line 2", "'400;0'", "semicolons", "header"]),
+        ("sep=;\nwavelength,R\n400,0.5\n", ["line 2", "expected semicolons", "found commas"]),
+        ("Name: x\nFirst: y\n400 0.5\n410 0.5\n", ["line 1", "no wavelengths found", "'#'"]),
+        ("# units: furlongs\n400,0.5\n410,0.5\n", ["line 1", "'furlongs'", "fraction"]),
+        ("# kind: color\n400,0.5\n410,0.5\n", ["line 1", "'color'", "reading", "albedo"]),
+        ("# units: fraction\nnm,R %\n400,0.5\n410,0.5\n", ["column 'R %'", "percent", "agree"]),
+        ("# wavelength_unit: um\nwavelength nm,R\n.4,0.5\n.5,.5\n", ["unit", "agree"]),
+        ("sep=;1\n;;\n", ["rows are empty"]),
+        ('wavelength,R\n400,"0.5\n410,0.5\n', ["line 2", "not a number"]),
+    ],
+)
+def test_each_fault_is_named_with_its_place(tmp_path, text, parts):
+    sentence = refusal(tmp_path, text)
+    for part in parts:
+        assert part in sentence
+
+
+def test_an_unclosed_quotation_mark_in_a_long_file(tmp_path):
+    rows = "".join(f"{400 + i},0.5\n" for i in range(30000))
+    assert "quotation mark" in refusal(tmp_path, 'wavelength,R\n399,0.5\n"' + rows)
+
+
+def test_trailing_delimiters_are_no_columns(tmp_path):
+    assert summary(read(tmp_path, "wavelength,R,\n400,0.5,\n410,0.25,\n"))[0][2] == [0.5, 0.25]

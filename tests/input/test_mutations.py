@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whatever happens to a file on its way: samples that are valid, or one InputError, and soon."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from rough_spectra.addon import readers
+from rough_spectra.addon.readers._document import Document
+from rough_spectra.core.errors import InputError
+
+ROOT = Path(__file__).resolve().parents[2]
+FIXTURES = [
+    *sorted((ROOT / "tests" / "fixtures").glob("nix/*.csv"))[:2],
+    *sorted((ROOT / "tests" / "fixtures" / "delimited").glob("*.[ct]*")),
+    ROOT / "presets" / "colorchecker" / "14-green.json",
+]
+SLOW = 5.0  # seconds; a reader takes about a millisecond, so only a hang comes near
+
+# Bytes that mean something to a reader, beside all others.
+TOKENS = [b"\n", b"\r", b",", b";", b"\t", b'"', b"#", b"-", b".", b"%", b"\0", b"\xff", b"nan"]
+TOKENS += [b"1e999", b"{", b"[", b"sep=|\n", b"# units: percent\n", b"\xff\xfe", b"9" * 400]
+PIECES = st.one_of(st.sampled_from(TOKENS), st.binary(max_size=8))
+
+
+@st.composite
+def mutated(draw, data):
+    for _ in range(draw(st.integers(1, 4))):
+        at = draw(st.integers(0, len(data)))
+        cut = draw(st.sampled_from([0, 1, 1, 5, 50, len(data)]))
+        data = data[:at] + draw(PIECES) + data[at + cut :]
+    return data
+
+
+def read(path, data):
+    """Do what `readers.read` does once the bytes are there."""
+    document = Document(path, data)
+    for reader in readers.readers():
+        if reader.sniff(document):
+            return reader.read(document)
+    return []
+
+
+def read_or_refuse(path, data):
+    """Read, and look at the samples or at the refusal: any other exception fails the test."""
+    try:
+        samples = read(path, data)
+    except InputError as error:
+        sentence, samples = str(error), []
+    else:
+        sentence = f"{path.name}: read."
+    assert path.name in sentence
+    assert sentence.endswith(".")
+    assert sentence.isprintable()
+    for sample in samples:
+        assert sample.name
+        assert (np.diff(sample.wavelengths) > 0).all()
+        assert sample.values.min() >= 0
+        assert sample.values.max() <= 1
+
+
+@pytest.mark.parametrize("path", FIXTURES, ids=lambda path: path.name)
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@given(draw=st.data())
+def test_no_mutation_brings_anything_but_an_input_error(path, draw):
+    data = draw.draw(mutated(path.read_bytes()))
+    start = time.perf_counter()
+    read_or_refuse(path, data)
+    assert time.perf_counter() - start < SLOW
+
+
+@given(st.binary(max_size=300))
+@settings(max_examples=300, deadline=None)
+def test_noise_brings_nothing_but_an_input_error(data):
+    read_or_refuse(Path("noise.csv"), data)
+
+
+@pytest.mark.parametrize("mark", [b'"', b"1", b",", b"1,", b" 1", b"a ", b"\n", b"#:", b"50 %"])
+def test_a_long_line_of_one_thing_takes_no_longer_than_its_length(mark):
+    data = b"wavelength,R\n400,0.5\n" + mark * (2**19 // len(mark))
+    start = time.perf_counter()
+    with pytest.raises(InputError):
+        read(Path("long.csv"), data)
+    # Half a megabyte: about 0.2 s; anything quadratic takes minutes.
+    assert time.perf_counter() - start < 4 * SLOW
