@@ -17,8 +17,9 @@ from .errors import DomainError
 
 Array = npt.NDArray[Any]
 
-_ROUNDING_STEPS = 4
-"""Units in the last place by which an angle may exceed π/2; np.float32(np.pi / 2) does by one."""
+_LARGEST_ANGLE = np.pi / 2 * (1 + 4 * float(np.finfo(np.float32).eps))
+"""π/2 and four of float32's last places: np.float32(np.pi / 2) lies above π/2 by half of one. It is
+the limit in float64 too, because such an angle often meets a float64 spectrum."""
 
 
 def precision(*values: npt.ArrayLike) -> np.dtype[Any]:
@@ -56,7 +57,7 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
     """
     array = np.asarray(angle, dtype=dtype)
     half_pi = dtype.type(np.pi / 2)
-    _check_range(array, what, dtype)
+    _check_range(array, what)
     if float(half_pi) > np.pi / 2:
         half_pi = np.nextafter(half_pi, dtype.type(0))
     return np.asarray(np.minimum(array, half_pi))
@@ -65,13 +66,12 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
 def slope_deviation(sigma: npt.ArrayLike, dtype: np.dtype[Any]) -> Array:
     """Check that the roughness σ lies in [0, π/2] radians. NaN passes."""
     array = np.asarray(sigma, dtype=dtype)
-    _check_range(array, "the roughness sigma", dtype)
+    _check_range(array, "the roughness sigma")
     return array
 
 
-def _check_range(array: Array, what: str, dtype: np.dtype[Any]) -> None:
-    limit = np.pi / 2 * (1 + _ROUNDING_STEPS * float(np.finfo(dtype).eps))
-    outside = (array < 0) | (array > limit)
+def _check_range(array: Array, what: str) -> None:
+    outside = (array < 0) | (array > _LARGEST_ANGLE)
     if np.any(outside):
         worst = float(array[outside].flat[0])
         msg = (
