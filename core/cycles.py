@@ -66,7 +66,9 @@ def reflectance(
             *(np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
         )
     )
-    return np.asarray(c * (single + c * c * multiple / (1 - c * ratio)))
+    # An infinite color is NaN there, and needs no warning beside it.
+    with np.errstate(invalid="ignore"):
+        return np.asarray(c * (single + c * c * multiple / (1 - c * ratio)))
 
 
 def color_for_reading(
@@ -86,7 +88,7 @@ def color_for_reading(
     Returns
     -------
     Color, shape (..., 3). Above 1 where no color reaches the reading, negative where the reading
-    is: nothing is clipped.
+    is: nothing is clipped. NaN where the reading is NaN or infinite.
     """
     r = spectrum(reading, "the reading")
     angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
@@ -94,10 +96,11 @@ def color_for_reading(
     # r (1 - D c) = A c (1 - D c) + B c³. The start lies above the root and the cubic is convex
     # there, so Newton comes down to the root without overshooting.
     c = r / single
-    for _ in range(_NEWTON_STEPS):
-        value = ((multiple * c - single * ratio) * c + single + r * ratio) * c - r
-        slope = (3 * multiple * c - 2 * single * ratio) * c + single + r * ratio
-        c = c - value / slope
+    with np.errstate(invalid="ignore"):
+        for _ in range(_NEWTON_STEPS):
+            value = ((multiple * c - single * ratio) * c + single + r * ratio) * c - r
+            slope = (3 * multiple * c - 2 * single * ratio) * c + single + r * ratio
+            c = c - value / slope
     return np.asarray(c)
 
 

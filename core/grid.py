@@ -116,8 +116,9 @@ def resample(
     weights = weights.astype(spectra.dtype)
     out = np.zeros((*spectra.shape[:-1], wanted.size), spectra.dtype)
     for index, weight in zip(indices, weights, strict=True):
-        # 0 · NaN is NaN: a neighbor without weight must not spread its NaN.
-        out += np.where(weight == 0, 0, weight * spectra[..., index])
+        # 0 · NaN and 0 · ∞ are NaN: a neighbor without weight must not spread it.
+        with np.errstate(invalid="ignore"):
+            out += np.where(weight == 0, 0, weight * spectra[..., index])
     if ends == "nan":
         out[..., ~inside] = np.nan
     return out
