@@ -31,6 +31,7 @@ _PURE_DIFFUSE = {
     "Coat Weight": 0.0,
     "Sheen Weight": 0.0,
     "Emission Strength": 0.0,
+    "Thin Film Thickness": 0.0,
 }
 """Principled sockets that have to keep these values for the surface to be the Diffuse closure."""
 _NODE_DISTANCE = 300.0
