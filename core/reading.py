@@ -8,20 +8,24 @@ Models, cheapest first:
 first-order   r = f1 ρ
 two-bounce    r = f1 ρ + f2 ρ²                     the published model
 closure       r = f1 ρ + f2 ρ² / (1 - g ρ)         all bounces, energy conserved at ρ = 1
+reference     r = Σ a_k ρ^k                        what these approximate: see `core.vcavity`
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
+from . import vcavity_tables
 from .arrays import Array, precision, slope_deviation, spectrum
+from .blocks import apply_in_blocks
 from .errors import DomainError
 from .oren_nayar import first_bounce_at_normal, second_bounce_at_normal
 
-Model = Literal["first-order", "two-bounce", "closure"]
+Model = Literal["first-order", "two-bounce", "closure", "reference"]
 MODELS: tuple[Model, ...] = get_args(Model)
 INSTRUMENTS = ("45a:0",)
 """Geometries known so far: ring light at 45°, view along the normal."""
@@ -50,10 +54,7 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
     DomainError
         If σ is out of range or the instrument unknown.
     """
-    if instrument not in INSTRUMENTS:
-        known = ", ".join(INSTRUMENTS)
-        msg = f"Instrument {instrument!r} is not known; choose one of: {known}."
-        raise DomainError(msg)
+    _check_instrument(instrument)
     dtype = precision(sigma)
     s2 = slope_deviation(sigma, dtype) ** 2
     # numpy 1.26 promotes scalars on the way.
@@ -94,7 +95,8 @@ def from_albedo(
 
     Returns
     -------
-    Reflectance factor, shape (..., bands), in the precision of `albedo`.
+    Reflectance factor, shape (..., bands), in the precision of `albedo`. A band that is NaN or
+    infinite stays NaN or infinite, and no other is touched.
 
     Raises
     ------
@@ -102,12 +104,12 @@ def from_albedo(
         If σ is out of range, or model or instrument unknown.
     """
     rho = spectrum(albedo, "the albedo")
-    f1, f2, g = _model_coefficients(sigma, model, instrument, rho)
-    if model == "first-order":
-        return np.asarray(f1 * rho)
-    if model == "two-bounce":
-        return np.asarray((f1 + f2 * rho) * rho)
-    return np.asarray((f1 + f2 * rho / (1 - g * rho)) * rho)
+    if model == "reference":
+        _check_instrument(instrument)
+        return vcavity_tables.reading_from_albedo(rho, sigma)
+    # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
+    with np.errstate(invalid="ignore"):
+        return _evaluate(_FORWARD, rho, sigma, model, instrument)
 
 
 def to_albedo(
@@ -119,7 +121,8 @@ def to_albedo(
     """Find the albedo behind a reading: the inverse of `from_albedo`.
 
     A reading above `white_reading` gives an albedo above 1. It is not clipped: compare with
-    `white_reading` and tell the user. A reading so negative that no albedo gives it is NaN.
+    `white_reading` and tell the user. A reading so negative that no albedo gives it is NaN, as
+    are NaN and infinity.
 
     Parameters
     ----------
@@ -138,15 +141,11 @@ def to_albedo(
         If σ is out of range, or model or instrument unknown.
     """
     r = spectrum(reading, "the reading")
-    f1, f2, g = _model_coefficients(sigma, model, instrument, r)
-    if model == "first-order":
-        return np.asarray(r / f1)
-    # The textbook root (-b + √(b² + 4ar)) / 2a cancels as σ → 0, where a → 0: at σ = 1e-8 it
-    # returns 0 in float64. This form of the same root has no difference in it.
-    a = f2 if model == "two-bounce" else f2 - g * f1
-    b = f1 if model == "two-bounce" else f1 + g * r
+    if model == "reference":
+        _check_instrument(instrument)
+        return vcavity_tables.albedo_from_reading(r, sigma)
     with np.errstate(invalid="ignore"):
-        return np.asarray(2 * r / (b + np.sqrt(b * b + 4 * a * r)))
+        return _evaluate(_INVERSE, r, sigma, model, instrument)
 
 
 def white_reading(
@@ -190,14 +189,82 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
     return np.asarray(np.where(r <= 1, sigma, np.nan), dtype)
 
 
-def _model_coefficients(
-    sigma: npt.ArrayLike, model: str, instrument: str, values: Array
-) -> tuple[Array, Array, Array]:
-    """f1, f2 and g with a band axis of one, in the precision of `values`."""
-    if model not in MODELS:
-        known = ", ".join(MODELS)
-        msg = f"Model {model!r} is not known; choose one of: {known}."
+def _check_instrument(instrument: str) -> None:
+    if instrument not in INSTRUMENTS:
+        known = ", ".join(INSTRUMENTS)
+        msg = f"Instrument {instrument!r} is not known; choose one of: {known}."
         raise DomainError(msg)
-    sigma_per_spectrum = np.asarray(sigma, dtype=values.dtype)[..., np.newaxis]
-    f1, f2 = coefficients(sigma_per_spectrum, instrument)
-    return f1, f2, bounce_ratio(sigma_per_spectrum)
+
+
+def _evaluate(
+    formulas: dict[str, Callable[..., None]],
+    values: Array,
+    sigma: npt.ArrayLike,
+    model: str,
+    instrument: str,
+) -> Array:
+    """Apply a model's formula to spectra, in the precision of `values`."""
+    if model not in formulas:
+        msg = f"Model {model!r} is not known; choose one of: {', '.join(MODELS)}."
+        raise DomainError(msg)
+    per_spectrum = np.asarray(sigma, dtype=values.dtype)[..., np.newaxis]
+    f1, f2 = coefficients(per_spectrum, instrument)
+    shape = np.broadcast_shapes(values.shape, per_spectrum.shape)
+    out = np.empty(shape, values.dtype)
+    apply_in_blocks(formulas[model], out, values, f1, f2, bounce_ratio(per_spectrum))
+    return out
+
+
+def _first_order(out: Array, rho: Array, f1: Array, _f2: Array, _g: Array) -> None:
+    np.multiply(f1, rho, out=out)
+
+
+def _two_bounce(out: Array, rho: Array, f1: Array, f2: Array, _g: Array) -> None:
+    np.multiply(f2, rho, out=out)
+    out += f1
+    out *= rho
+
+
+def _closure(out: Array, rho: Array, f1: Array, f2: Array, g: Array) -> None:
+    np.multiply(g, rho, out=out)
+    np.subtract(1, out, out=out)
+    np.divide(rho, out, out=out)
+    out *= f2
+    out += f1
+    out *= rho
+
+
+def _first_order_inverse(out: Array, r: Array, f1: Array, _f2: Array, _g: Array) -> None:
+    np.divide(r, f1, out=out)
+
+
+def _two_bounce_inverse(out: Array, r: Array, f1: Array, f2: Array, _g: Array) -> None:
+    """ρ = r / (f1/2 + √(f1²/4 + f2 r)).
+
+    The textbook root (-f1 + √(f1² + 4 f2 r)) / 2 f2 cancels as σ → 0, where f2 → 0: at σ = 1e-8 it
+    returns 0 in float64. This form of the same root has no difference in it.
+    """
+    np.multiply(f2, r, out=out)
+    out += f1 * f1 / 4
+    np.sqrt(out, out=out)
+    out += f1 / 2
+    np.divide(r, out, out=out)
+
+
+def _closure_inverse(out: Array, r: Array, f1: Array, f2: Array, g: Array) -> None:
+    """ρ = r / (b/2 + √(b²/4 + a r)), a = f2 - g f1, b = f1 + g r: again the root that adds."""
+    half_b = g / 2 * r
+    half_b += f1 / 2
+    np.multiply(half_b, half_b, out=out)
+    out += (f2 - g * f1) * r
+    np.sqrt(out, out=out)
+    out += half_b
+    np.divide(r, out, out=out)
+
+
+_FORWARD = {"first-order": _first_order, "two-bounce": _two_bounce, "closure": _closure}
+_INVERSE = {
+    "first-order": _first_order_inverse,
+    "two-bounce": _two_bounce_inverse,
+    "closure": _closure_inverse,
+}
