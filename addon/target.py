@@ -16,7 +16,8 @@ import numpy as np
 
 from ..core import cycles, geometry, oren_nayar, reading
 from ..core.arrays import Array
-from . import colorimetry
+from ..core.errors import DomainError
+from . import colorimetry, judgement
 from .sample import Sample
 from .working_space import WorkingSpace
 
@@ -168,7 +169,11 @@ def _colors(requests: list[Request], space: WorkingSpace) -> tuple[Array, Array]
         groups.setdefault(key, []).append(i)
     for (_, model), members in groups.items():
         first = requests[members[0]]
-        weights = space.rgb_weights(first.sample.wavelengths, first.illuminant)
+        try:
+            weights = space.rgb_weights(first.sample.wavelengths, first.illuminant)
+        except DomainError as error:
+            msg = f"{first.sample.source or 'Sample'}, {first.sample.name!r}: {error}"
+            raise DomainError(msg) from error
         sigma = np.array([requests[i].sigma for i in members])
         values = np.stack([requests[i].sample.values for i in members])
         is_albedo = np.array([requests[i].sample.kind == "albedo" for i in members])[:, None]
@@ -185,7 +190,7 @@ def _colors(requests: list[Request], space: WorkingSpace) -> tuple[Array, Array]
 def _warnings(
     request: Request, space: WorkingSpace, target: Array, color: Array, missed: float
 ) -> tuple[str, ...]:
-    found = [space.warning, _infeasible(request)]
+    found = [space.warning, judgement.contradiction(request.sample), _infeasible(request)]
     outside = np.maximum(-color, color - 1)
     channel = int(np.argmax(outside))
     if outside[channel] > _ENOUGH:
