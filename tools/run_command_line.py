@@ -35,7 +35,10 @@ def main() -> int:
     importlib.import_module("bpy")  # before the extension: it brings mathutils and the like along
     extension.register()  # without it materials have no place to store a spectrum in
     command_line = importlib.import_module(f"{PACKAGE}.addon.command_line")
-    return int(command_line.main(sys.argv[1:]))
+    try:
+        return int(command_line.main(sys.argv[1:]))
+    finally:
+        extension.unregister()  # the bpy module of 4.5 crashes at exit over what is left registered
 
 
 if __name__ == "__main__":
