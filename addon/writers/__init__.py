@@ -3,7 +3,8 @@
 """Write readings to files. Predicted and measured never share one.
 
 From the base name `out/chart` come `chart.json` with everything, `chart.predicted.*` and
-`chart.measured.*`.
+`chart.measured.*`. Where nothing was predicted, or nothing measured, those files are left out: a
+CGATS file without a table is no CGATS file.
 """
 
 from __future__ import annotations
@@ -39,7 +40,10 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
     OutputError
         If one cannot be written; no file was touched then.
     """
+    outputs.check_base(base)
     written: list[Path] = []
+    is_predicted = any(entry.predicted is not None for entry in readings.entries)
+    is_measured = any(entry.measured is not None for entry in readings.entries)
     with outputs.publication() as files:
 
         def put(ending: str, content: bytes) -> None:
@@ -47,12 +51,13 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
             files.write(target, content)
             written.append(target)
 
-        if "csv" in formats:
-            put("predicted.csv", tables.predicted(readings))
-            put("measured.csv", tables.measured(readings))
-        if "cgats" in formats:
-            put("predicted.cgats.txt", cgats.predicted(readings))
-            put("measured.cgats.txt", cgats.measured(readings))
+        for module, ending in ((tables, "csv"), (cgats, "cgats.txt")):
+            if ending.partition(".")[0] not in formats:
+                continue
+            if is_predicted:
+                put(f"predicted.{ending}", module.predicted(readings))
+            if is_measured:
+                put(f"measured.{ending}", module.measured(readings))
         if "exr" in formats:
             for ending, image in images.predicted(readings) + images.measured(readings):
                 target = base.with_name(f"{base.name}.{ending}")

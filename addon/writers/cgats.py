@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from ..readings import INSTRUMENT, Readings
 from ..version import version
+from .tables import nanometers
 
 
 def predicted(readings: Readings) -> bytes:
@@ -31,7 +32,7 @@ def predicted(readings: Readings) -> bytes:
             "predicted by the core from the stored spectrum",
             illuminant,
             observer,
-            [*_COLOR_FIELDS, *(f"SPECTRAL_NM{nm:g}" for nm in wavelengths)],
+            [*_COLOR_FIELDS, *(f"SPECTRAL_NM{nanometers(nm)}" for nm in wavelengths)],
             rows,
         )
         for (wavelengths, illuminant, observer), rows in groups.items()

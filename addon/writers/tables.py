@@ -19,7 +19,7 @@ def predicted(readings: Readings) -> bytes:
     lights = {_viewing(part) for _, part in rows}
     comments = _comments("predicted by the core from the stored spectrum", lights)
     header = ["material", "surface", "sample", "sigma_deg", "model", "illuminant", "observer"]
-    header += ["X", "Y", "Z", "L*", "a*", "b*", *(f"{nm:g} nm" for nm in bands)]
+    header += ["X", "Y", "Z", "L*", "a*", "b*", *(f"{nanometers(nm)} nm" for nm in bands)]
     lines = []
     for entry, part in rows:
         at = dict(zip(part.wavelengths, part.values, strict=True))
@@ -62,6 +62,14 @@ def measured(readings: Readings) -> bytes:
     return _csv(comments, header, lines)
 
 
+def nanometers(wavelength: float) -> str:
+    """Give a wavelength with all its digits, and none after a point where they are zero.
+
+    Fewer digits would let two bands of a fine grid share a name.
+    """
+    return repr(float(wavelength)).removesuffix(".0")
+
+
 def _viewing(part: Predicted | Measured) -> str:
     observer = part.observer if isinstance(part, Predicted) else 2
     return f"{part.illuminant}/{observer}°"
@@ -85,5 +93,8 @@ def _csv(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> 
     text.writelines(f"# {comment}\n" for comment in comments)
     table = csv.writer(text, lineterminator="\n")
     table.writerow(header)
-    table.writerows(lines)
+    # Without quotation marks a material called "#1" would read as a comment.
+    quoting = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_ALL)
+    for cells in lines:
+        (quoting if cells[0].lstrip().startswith("#") else table).writerow(cells)
     return text.getvalue().encode()
