@@ -40,6 +40,9 @@ def rows(options: argparse.Namespace) -> list[Row]:
         If a file or a row of it cannot be used.
     """
     if options.mapping is not None:
+        if options.material:
+            msg = f"{options.mapping} names the materials already; leave --material out."
+            raise InputError(msg)
         return read_mapping(options.mapping)
     if options.preset is not None:
         sample = presets.load(options.preset)
@@ -47,13 +50,22 @@ def rows(options: argparse.Namespace) -> list[Row]:
             msg = f"Name the materials that get {sample.name!r}, with --material NAME."
             raise InputError(msg)
         return [Row(name, sample, sample.sigma_degrees) for name in options.material]
+    return _by_name(options)
+
+
+def _by_name(options: argparse.Namespace) -> list[Row]:
     samples = [sample for path in options.by_name for sample in readers.read(path)]
+    names = [sample.name for sample in samples]
+    shown = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")
+    absent = [name for name in options.material if name not in names]
+    if absent:
+        msg = f"No sample is named {absent[0]!r}; the files have {shown}."
+        raise InputError(msg)
     known = {material.name for material in bpy.data.materials}
-    wanted = set(options.material or (known if not options.create else {s.name for s in samples}))
+    wanted = set(options.material or (names if options.create else known))
     chosen = [Row(s.name, s, s.sigma_degrees) for s in samples if s.name in wanted]
     if not chosen:
-        names = ", ".join(sample.name for sample in samples[:5])
-        msg = f"No material is named like a sample ({names}, …); rename, or use --mapping."
+        msg = f"No material is named like a sample ({shown}); rename, or use --mapping."
         raise InputError(msg)
     return chosen
 
@@ -111,7 +123,7 @@ def read_mapping(path: Path) -> list[Row]:
 def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     try:
         data = json.loads(text)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         msg = f"{path} is not valid JSON ({error}); correct it."
         raise InputError(msg) from error
     if not isinstance(data, list) or not all(isinstance(record, dict) for record in data):
@@ -124,16 +136,28 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     header = lines[0] if lines else ""
     delimiter = max(",;\t", key=header.count)
-    table = csv.DictReader(lines, delimiter=delimiter)
-    names = [name.strip() for name in table.fieldnames or ()]
+    table = csv.reader(lines, delimiter=delimiter)
+    try:
+        names, *rows = [[cell.strip() for cell in row] for row in table if any(row)] or [[]]
+    except csv.Error as error:
+        msg = f"{path}: a quotation mark is not closed ({error}); close or remove it."
+        raise InputError(msg) from error
     if "material" not in names or "sample" not in names:
         msg = (
             f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
             f"{', '.join(_FIELDS)}, of which material and sample are needed."
         )
         raise InputError(msg)
-    table.fieldnames = names
-    return [(f"row {number}", dict(record)) for number, record in enumerate(table, 1)]
+    records = []
+    for number, cells in enumerate(rows, 1):
+        if len(cells) > len(names) and any(cells[len(names) :]):
+            msg = (
+                f"{path}, row {number}: {len(cells)} cells stand under {len(names)} columns; put "
+                "names that hold the delimiter in quotation marks."
+            )
+            raise InputError(msg)
+        records.append((f"row {number}", dict(zip(names, cells, strict=False))))
+    return records
 
 
 def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[Sample]]) -> Row:
@@ -142,7 +166,8 @@ def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[
     if unknown:
         msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(_FIELDS)}."
         raise InputError(msg)
-    cells = {key: str(record.get(key) or "").strip() for key in _FIELDS}
+    given = {key: record.get(key) for key in _FIELDS}
+    cells = {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
     if not cells["material"] or not cells["sample"]:
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
