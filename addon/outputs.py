@@ -78,6 +78,26 @@ class Publication:
             part.unlink(missing_ok=True)
 
 
+def check_base(base: Path) -> None:
+    """Refuse a base name that no file can come from, before an hour of measuring is spent on it.
+
+    Raises
+    ------
+    OutputError
+        If the name is empty or its folder can neither be written nor made.
+    """
+    if base.name in ("", ".."):
+        msg = f"'{base}' is a folder; add a base name for the files, as in '{base / 'readings'}'."
+        raise OutputError(msg)
+    folder = next(path for path in base.absolute().parents if path.exists())
+    if not folder.is_dir():
+        msg = f"{base} cannot be written: {folder} is a file; choose another folder."
+        raise OutputError(msg)
+    if not os.access(folder, os.W_OK):
+        msg = f"{base} cannot be written: no permission in {folder}; choose another folder."
+        raise OutputError(msg)
+
+
 @contextmanager
 def publication() -> Iterator[Publication]:
     """Collect files, and give them their names at the end of the block if nothing failed.

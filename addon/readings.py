@@ -9,6 +9,7 @@ links the two, for the 2° observer that scene colors are defined with.
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -86,13 +87,17 @@ class Reading:
 
 @dataclass(frozen=True)
 class Readings:
-    """A whole bake, or the part of one that a shard made."""
+    """A whole bake, or the part of one that a shard made.
+
+    `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
+    """
 
     working_space: str
     blender: str
     entries: tuple[Reading, ...]
     shard: int = 1
     shards: int = 1
+    whole: str = ""
 
     @property
     def largest_delta_e(self) -> float | None:
@@ -200,6 +205,15 @@ def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], 
     return distinct, [index[material] for _, material in surfaces]
 
 
+def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
+    """Tell bakes apart: by what is read, and by the spectra and settings stored in it."""
+    told = [
+        (surface, material.name, stamp.inputs_digest(material.rough_spectra))
+        for surface, material in surfaces
+    ]
+    return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]
+
+
 def merge(parts: Iterable[Readings]) -> Readings:
     """Join the parts that `bake --shard i/n` wrote, in the order of the unsharded bake.
 
@@ -214,9 +228,12 @@ def merge(parts: Iterable[Readings]) -> Readings:
         raise InputError(msg)
     count = found[0].shards
     numbers = [part.shard for part in found]
-    settings = {(part.working_space, part.blender, part.shards) for part in found}
+    settings = {(part.working_space, part.blender, part.shards, part.whole) for part in found}
     if len(settings) > 1:
-        msg = "The parts come from different bakes; merge parts of one bake by one Blender."
+        msg = (
+            "The parts come from different bakes; merge parts that one version of Blender baked "
+            "with the same options from the same .blend."
+        )
         raise InputError(msg)
     if numbers != list(range(1, count + 1)):
         msg = f"Parts {numbers} do not make up 1 to {count}; give each part once."
@@ -250,6 +267,7 @@ def to_json(readings: Readings) -> bytes:
         },
         "shard": readings.shard,
         "shards": readings.shards,
+        "whole": readings.whole,
         "largest_delta_e_00": readings.largest_delta_e,
         "readings": [asdict(entry) for entry in readings.entries],
     }
@@ -269,7 +287,7 @@ def from_json(path: Path) -> Readings:
     except OSError as error:
         msg = f"{path} cannot be read ({error.strerror}); check the path."
         raise InputError(msg) from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         msg = f"{path} is not JSON ({error}); give a file that bake wrote."
         raise InputError(msg) from error
     if not isinstance(document, dict) or document.get("format") != FORMAT:
@@ -286,8 +304,9 @@ def from_json(path: Path) -> Readings:
             entries,
             int(document["shard"]),
             int(document["shards"]),
+            str(document["whole"]),
         )
-    except (KeyError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
         msg = f"{path} is damaged ({error!r}); bake it again."
         raise InputError(msg) from error
 
@@ -352,11 +371,19 @@ def _triple(values: Array, digits: int) -> Triple:
     return first, second, third
 
 
+_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview"}
+
+
 def _entry(data: dict[str, Any]) -> Reading:
     def whole(kind: Any, part: dict[str, Any] | None) -> Any:
         if part is None:
             return None
-        return kind(**{key: tuple(v) if isinstance(v, list) else v for key, v in part.items()})
+        numbers = {key: tuple(map(float, v)) for key, v in part.items() if isinstance(v, list)}
+        if any(len(numbers[key]) != 3 for key in _TRIPLES & numbers.keys()):
+            raise ValueError("a color has three numbers")
+        if kind is Predicted and len(numbers["wavelengths"]) != len(numbers["values"]):
+            raise ValueError("there is not one value a wavelength")
+        return kind(**(part | numbers))
 
     known = dict(data)
     known["predicted"] = whole(Predicted, data["predicted"])

@@ -35,9 +35,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="measurement files; materials get the sample of the same name",
     )
     source.add_argument("--preset", metavar="NAME", help="a preset for the materials of --material")
-    parser.add_argument("--material", action="append", default=[], metavar="NAME")
     parser.add_argument(
-        "--sigma", type=float, metavar="DEGREES", help="roughness where no file gives it (0)"
+        "--material",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="a material, repeatable: of --preset, or the only ones of --by-name",
+    )
+    parser.add_argument(
+        "--sigma",
+        type=float,
+        metavar="DEGREES",
+        help="roughness of all of them, whatever the files say; without it what they say, or 0",
     )
     parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")

@@ -72,12 +72,15 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0."""
-    from .. import outputs, readings, writers
+    from .. import outputs, readings, selection, writers
 
+    outputs.check_base(options.output)
     result = measure(options, not options.predicted_only)
     index, count = options.shard
     if count > 1:
-        part = replace(result, shard=index, shards=count)
+        surfaces = selection.surfaces(options.material, options.object)
+        whole = readings.digest(surfaces, not options.predicted_only)
+        part = replace(result, shard=index, shards=count, whole=whole)
         target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
         with outputs.publication() as files:
             files.write(target, readings.to_json(part))
