@@ -14,6 +14,11 @@ from ...core.errors import InputError, RoughSpectraError
 from ..properties import KIND_ITEMS
 from . import common
 
+AS_FILE = "FILE"
+_KIND_ITEMS = (
+    (AS_FILE, "As in the File", "What the file says; a reading if it says nothing"),
+    *KIND_ITEMS,
+)
 _items: list[tuple[str, str, str]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
 
@@ -34,7 +39,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
         name="File", description="Spectra that an instrument wrote", subtype="FILE_PATH"
     )
     sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
-    kind: EnumProperty(name="Kind", description="What the spectrum is", items=KIND_ITEMS)
+    kind: EnumProperty(name="Kind", description="What the spectrum is", items=_KIND_ITEMS)
 
     @classmethod
     def poll(cls, context: Any) -> bool:
@@ -48,24 +53,25 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none; ask which sample if there are several."""
-        from .. import assign, readers
+        from .. import readers
         from ..target import Request
 
         try:
             samples = readers.read(bpy.path.abspath(self.filepath))
             if len(samples) > 1 and not self.sample and not bpy.app.background:
                 return self._ask(samples)
-            sample = replace(_choose(samples, self.sample, self.filepath), kind=self.kind)
+            sample = _choose(samples, self.sample, self.filepath)
+            if self.kind != AS_FILE:
+                sample = replace(sample, kind=self.kind)
             request = Request(sample, self.sigma)
-            materials = common.materials_in_scope(context, self.scope)
-            solutions = assign.assign([(m, request) for m in materials], self.shader)
+            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         for note in sample.notes:
             self.report({"WARNING"}, f"{sample.name}: {note}")
-        common.report_warnings(self, zip(materials, solutions, strict=True))
-        names = ", ".join(material.name for material in materials[:3])
+        common.report_warnings(self, assigned)
+        names = ", ".join(material.name for material, _ in assigned[:3])
         self.report({"INFO"}, f"{names}: {sample.name} assigned")
         return {"FINISHED"}
 
@@ -92,7 +98,7 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
 
     filepath: StringProperty(name="File", description="Spectra that an instrument wrote")
     sample: EnumProperty(name="Sample", description="Sample of the file", items=sample_items)
-    kind: EnumProperty(name="Kind", description="What the spectrum is", items=KIND_ITEMS)
+    kind: EnumProperty(name="Kind", description="What the spectrum is", items=_KIND_ITEMS)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search the samples by name."""

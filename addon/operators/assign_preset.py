@@ -50,18 +50,17 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none."""
-        from .. import assign, presets
+        from .. import presets
         from ..target import Request
 
         try:
             request = Request(presets.load(self.preset), self.sigma)
-            materials = common.materials_in_scope(context, self.scope)
-            solutions = assign.assign([(m, request) for m in materials], self.shader)
+            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        common.report_warnings(self, zip(materials, solutions, strict=True))
-        names = ", ".join(material.name for material in materials[:3])
+        common.report_warnings(self, assigned)
+        names = ", ".join(material.name for material, _ in assigned[:3])
         self.report({"INFO"}, f"{names}: {request.sample.name} assigned")
         return {"FINISHED"}
 

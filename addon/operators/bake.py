@@ -21,7 +21,7 @@ class ROUGHSPECTRA_OT_bake(bpy.types.Operator):
 
     bl_idname = "rough_spectra.bake"
     bl_label = "Bake Readings"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER"}  # no undo step: nothing in the .blend changes
 
     filepath: StringProperty(
         name="Files",
@@ -58,13 +58,14 @@ class ROUGHSPECTRA_OT_bake(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Start the second Blender; in a background Blender, wait for it too."""
-        from .. import readings
+        from .. import outputs, readings
         from ..spectrophotometer import measure
 
         try:
+            self._base = Path(bpy.path.abspath(self.filepath))
+            outputs.check_base(self._base)
             surfaces = [("", material) for material in self._materials(context)]
             self._prepared = readings.prepare(surfaces)
-            self._base = Path(bpy.path.abspath(self.filepath))
             distinct, self._places = readings.distinct_materials(surfaces)
             self._measurement = measure.Measurement(distinct, (measure.RING_45_0,))
             if bpy.app.background:

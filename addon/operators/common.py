@@ -5,13 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from ...core.errors import RoughSpectraError
 from ..properties import SHADER_ITEMS
+
+if TYPE_CHECKING:
+    from ..nodes import Shader
+    from ..target import Request, Solution
 
 SCOPE_ITEMS = (
     ("ACTIVE", "Active Material", "Only the active object's active material"),
@@ -51,12 +55,12 @@ def active_material(context: Any) -> Any | None:
 
 
 def materials_in_scope(context: Any, scope: str) -> list[Any]:
-    """Give the materials that an operator is to work on; makes one for an object without any.
+    """Give the materials that an operator is to work on.
 
     Raises
     ------
     RoughSpectraError
-        If there is nothing to work on.
+        If there is none.
     """
     if scope == "SELECTED":
         from .. import selection
@@ -67,15 +71,47 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
             raise RoughSpectraError(msg)
         return found
     material = active_material(context)
-    if material is not None:
-        return [material]
+    if material is None:
+        msg = "The active object has no material; give it one first."
+        raise RoughSpectraError(msg)
+    return [material]
+
+
+def assign_in_scope(
+    context: Any, scope: str, request: Request, shader: Shader
+) -> list[tuple[Any, Solution]]:
+    """Assign to all materials in scope, or to none; an active object without one gets one.
+
+    Returns
+    -------
+    Each material and what was matched.
+
+    Raises
+    ------
+    RoughSpectraError
+        If it cannot be done; nothing was changed then.
+    """
+    from .. import assign
+
+    if scope == "SELECTED" or active_material(context) is not None:
+        materials = materials_in_scope(context, scope)
+        solutions = assign.assign([(material, request) for material in materials], shader)
+        return list(zip(materials, solutions, strict=True))
     thing = active_object(context)
     if thing is None or not hasattr(thing.data, "materials"):
         msg = "There is no object that can carry a material; select a mesh first."
         raise RoughSpectraError(msg)
+    if not (thing.is_editable and thing.data.is_editable):
+        msg = f"Object {thing.name!r} is linked; make it local first, to give it a material."
+        raise RoughSpectraError(msg)
     material = bpy.data.materials.new(thing.name)
+    try:
+        solutions = assign.assign([(material, request)], shader)
+    except RoughSpectraError:
+        bpy.data.materials.remove(material)
+        raise
     thing.active_material = material
-    return [material]
+    return [(material, solutions[0])]
 
 
 def can_have_material(operator: Any, context: Any) -> bool:

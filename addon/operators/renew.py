@@ -39,6 +39,9 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         try:
             found = common.materials_in_scope(context, self.scope)
             materials = [material for material in found if stamp.has_spectrum(material)]
+            if not materials:
+                msg = "No material in scope has a measured spectrum; assign one first."
+                raise RoughSpectraError(msg)
             solutions = assign.renew(materials)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
