@@ -9,6 +9,7 @@ line on standard error; results go to files, since Blender itself prints on stan
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib
 import sys
 from collections.abc import Sequence
@@ -37,6 +38,9 @@ def main(arguments: Sequence[str]) -> int:
     from ..core.errors import CancelledError, RoughSpectraError
 
     parser = _parser()
+    # Help texts hold letters such as Δ and σ, which not every terminal or pipe can take.
+    with contextlib.suppress(AttributeError):
+        sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     try:
         options = parser.parse_args(list(arguments))
     except SystemExit as stop:  # argparse printed help or the fault
@@ -51,6 +55,11 @@ def main(arguments: Sequence[str]) -> int:
         status, sentence = _INTERRUPTED, "Interrupted; nothing was written."
     except RoughSpectraError as error:
         status, sentence = _UNUSABLE, str(error)
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        reason = error.strerror or _one_line(error)
+        sentence = f"{place}{reason}; free the disk or choose another place."
+        status = _UNUSABLE
     print(f"{NAME} {options.verb}: {sentence}", file=sys.stderr)
     return status
 
@@ -81,7 +90,8 @@ def _open(path: Path) -> None:
     from ..core.errors import InputError
 
     if not path.is_file():
-        msg = f"{path} does not exist; check the path after --blend."
+        fault = "is no file" if path.exists() else "does not exist"
+        msg = f"{path} {fault}; check the path after --blend."
         raise InputError(msg)
     try:
         bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
