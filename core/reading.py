@@ -104,11 +104,11 @@ def from_albedo(
         If σ is out of range, or model or instrument unknown.
     """
     rho = spectrum(albedo, "the albedo")
-    if model == "reference":
-        _check_instrument(instrument)
-        return vcavity_tables.reading_from_albedo(rho, sigma)
     # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
     with np.errstate(invalid="ignore"):
+        if model == "reference":
+            _check_instrument(instrument)
+            return vcavity_tables.reading_from_albedo(rho, sigma)
         return _evaluate(_FORWARD, rho, sigma, model, instrument)
 
 
