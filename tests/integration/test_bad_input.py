@@ -1,0 +1,345 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Input that cannot be used: one clear sentence, exit status 2, and the .blend as it was."""
+
+import json
+import resource
+import signal
+
+import bpy
+import pytest
+
+from tests.integration.support import contents, rgb_material, spectrum_csv
+
+UNUSABLE = 2
+
+
+@pytest.fixture
+def blend(tmp_path):
+    """A .blend with one material that waits for the sample `paper`."""
+    rgb_material("paper")
+    path = tmp_path / "waiting.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def refused(result, *words):
+    """The sentence of a run that was refused; it holds all these words."""
+    assert result.status == UNUSABLE
+    sentence = result.sentence
+    assert sentence.startswith("rough_spectra ")
+    assert sentence.endswith(".")
+    for word in words:
+        assert str(word) in sentence
+    return sentence
+
+
+def bands(values, wavelengths=None, delimiter=","):
+    wavelengths = wavelengths or [400 + 10 * i for i in range(len(values))]
+    rows = [f"wavelength{delimiter}paper"]
+    rows += [f"{nm}{delimiter}{v}" for nm, v in zip(wavelengths, values, strict=True)]
+    return "\n".join(rows) + "\n"
+
+
+GOOD = [0.3] * 31
+FAULTS = {
+    "empty": ("", "empty"),
+    "blank": (" \n\n", "empty"),
+    "prose": ("These are not the spectra you are looking for.\n", "format"),
+    "delimiter that changes": (bands(GOOD).replace("410,", "410;"), "line 3"),
+    "bars between columns": (bands(GOOD, delimiter="|"), "file"),
+    "NaN": (bands([*GOOD[:5], "NaN", *GOOD[6:]]), "450"),
+    "infinite": (bands([*GOOD[:5], "inf", *GOOD[6:]]), "450"),
+    "negative": (bands([*GOOD[:5], -0.01, *GOOD[6:]]), "450"),
+    "above 1": (bands([*GOOD[:5], 1.01, *GOOD[6:]]), "450"),
+    "decreasing": (bands(GOOD, [700 - 10 * i for i in range(31)]), "690"),
+    "duplicate": (bands(GOOD, [*range(400, 700, 10), 690]), "690"),
+    "one band": (bands([0.3]), "one band"),
+    "no band": ("wavelength,paper\n", ""),
+    "one column": ("wavelength\n400\n410\n", "column"),
+    "hole": (bands([*GOOD[:5], "", *GOOD[6:]]), "line 7"),
+    "binary": ("\0\1\2" * 40, "text"),
+    "too short for a color": (bands([0.3, 0.3]), "'paper': The bands from 400 to 410 nm"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("way", ["by name", "mapping"])
+def test_measurement_file_with_a_fault(fault, way, blend, main, tmp_path):
+    content, word = FAULTS[fault]
+    source = tmp_path / "measured.csv"
+    source.write_text(content, encoding="utf-8")
+    words = ["--by-name", source]
+    if way == "mapping":
+        mapping = tmp_path / "mapping.csv"
+        mapping.write_text("material,sample,file\npaper,paper,measured.csv\n", encoding="utf-8")
+        words = ["--mapping", mapping]
+    before = contents(tmp_path)
+    sentence = refused(main("assign", "--blend", blend, *words), word)
+    assert "measured.csv" in sentence
+    assert contents(tmp_path) == before
+
+
+def test_measurement_file_that_is_missing(blend, main, tmp_path):
+    before = blend.read_bytes()
+    refused(main("assign", "--blend", blend, "--by-name", tmp_path / "none.csv"), "none.csv")
+    refused(main("assign", "--blend", blend, "--by-name", tmp_path), "folder")
+    mapping = tmp_path / "mapping.json"
+    row = {"material": "paper", "sample": "paper", "file": "gone.csv"}
+    mapping.write_text(json.dumps([row]), encoding="utf-8")
+    refused(main("assign", "--blend", blend, "--mapping", mapping), "gone.csv")
+    assert blend.read_bytes() == before
+
+
+def test_the_fault_of_a_process_is_one_sentence_without_traceback(blend, run, tmp_path):
+    source = tmp_path / "measured.csv"
+    source.write_text(FAULTS["NaN"][0], encoding="utf-8")
+    before = blend.read_bytes()
+    refused(run("assign", "--blend", blend, "--by-name", source), source, "line 7", "NaN")
+    assert blend.read_bytes() == before
+
+
+MAPPINGS = {
+    "empty": ("", "header", "material"),
+    "header alone": ("material,sample\n", "no rows"),
+    "unknown column": ("material,sample,gloss\npaper,14,1\n", "'gloss'", "sigma_deg"),
+    "no sample column": ("material,preset\npaper,14\n", "sample"),
+    "unknown preset": ("material,sample\npaper,no such patch\n", "row 1", "no such patch"),
+    "several presets": ("material,sample\npaper,\n", "row 1", "sample"),
+    "missing material": ("material,sample\npaper,14\nglass,14\n", "'glass'", "--create"),
+    "material twice": ("material,sample\npaper,14\npaper,15\n", "'paper'", "twice"),
+    "bad sigma": ("material,sample,sigma_deg\npaper,14,rough\n", "row 1", "'rough'"),
+    "sigma above 90": ("material,sample,sigma_deg\npaper,14,91\n", "91", "90"),
+    "sigma below 0": ("material,sample,sigma_deg\npaper,14,-1\n", "-1", "0 to 90"),
+    "sigma NaN": ("material,sample,sigma_deg\npaper,14,nan\n", "nan", "0 to 90"),
+    "bad kind": ("material,sample,kind\npaper,14,gloss\n", "row 1", "'gloss'", "albedo"),
+    "more cells than columns": ("material,sample\npaper,14,15\n", "row 1", "3 cells"),
+    "open quotation mark": (f'material,sample\npaper,"{"14" * 99999}\n', "quotation mark"),
+    "broken JSON": ('[{"material": "paper"', "JSON"),
+    "deep JSON": ("[" * 100_000, "JSON"),
+    "JSON of another form": ('{"paper": "14"}', "list"),
+    "JSON without a sample": ('[{"material": "paper"}]', "entry 1", "sample"),
+    "unknown key": ('[{"material": "paper", "sample": "14", "gloss": 1}]', "'gloss'"),
+}
+
+
+@pytest.mark.parametrize("fault", MAPPINGS)
+def test_mapping_with_a_fault(fault, blend, main, tmp_path):
+    content, *words = MAPPINGS[fault]
+    mapping = tmp_path / "mapping"
+    mapping.write_text(content, encoding="utf-8")
+    before = contents(tmp_path)
+    refused(main("assign", "--blend", blend, "--mapping", mapping), *words)
+    assert contents(tmp_path) == before
+
+
+def test_mapping_that_is_missing_or_not_text(blend, main, tmp_path):
+    refused(main("assign", "--blend", blend, "--mapping", tmp_path / "none.csv"), "none.csv")
+    refused(main("assign", "--blend", blend, "--mapping", blend), blend)
+
+
+def test_sample_that_a_file_lacks(blend, main, tmp_path):
+    spectrum_csv(tmp_path / "two.csv", "gray", "white")
+    mapping = tmp_path / "mapping.csv"
+    mapping.write_text("material,sample,file\npaper,paper,two.csv\n", encoding="utf-8")
+    words = ("row 1", "two.csv", "'paper'", "gray, white")
+    refused(main("assign", "--blend", blend, "--mapping", mapping), *words)
+    words = ("--by-name", tmp_path / "two.csv")
+    refused(main("assign", "--blend", blend, *words), "gray, white")
+    refused(main("assign", "--blend", blend, *words, "--material", "paper"), "'paper'")
+
+
+def test_preset_without_a_material(blend, main):
+    refused(main("assign", "--blend", blend, "--preset", "14"), "--material")
+
+
+def test_preset_that_is_not_there(blend, main):
+    result = main("assign", "--blend", blend, "--preset", "mauve", "--material", "paper")
+    refused(result, "'mauve'")
+
+
+def test_mapping_beside_materials_is_refused_rather_than_ignored(blend, main, tmp_path):
+    mapping = tmp_path / "mapping.csv"
+    mapping.write_text("material,sample\npaper,14\n", encoding="utf-8")
+    words = ("--mapping", mapping, "--material", "paper")
+    refused(main("assign", "--blend", blend, *words), "--material")
+
+
+@pytest.mark.parametrize("verb", ["assign", "bake", "check"])
+def test_blend_that_is_missing_or_none(verb, main, tmp_path):
+    words = {
+        "assign": ["--preset", "14", "--material", "paper"],
+        "bake": ["--output", tmp_path / "x"],
+        "check": [],
+    }[verb]
+    refused(main(verb, "--blend", tmp_path / "none.blend", *words), "none.blend", "does not exist")
+    refused(main(verb, "--blend", tmp_path, *words), tmp_path)
+    text = tmp_path / "text.blend"
+    text.write_text("no .blend at all", encoding="utf-8")
+    before = contents(tmp_path)
+    main_result = main(verb, "--blend", text, *words)
+    assert main_result.status == UNUSABLE
+    # Blender itself prints a line of its own before ours.
+    ours = [line for line in main_result.err.splitlines() if line.startswith("rough_spectra")]
+    assert len(ours) == 1
+    assert "text.blend" in ours[0]
+    assert ours[0].endswith(".")
+    assert contents(tmp_path) == before
+
+
+def test_names_that_are_not_in_the_file(scene_file, main, tmp_path):
+    words = ("bake", "--blend", scene_file, "--output", tmp_path / "x")
+    refused(main(*words, "--material", "Nobody"), "'Nobody'", "scene.blend")
+    refused(main(*words, "--object", "Nobody"), "'Nobody'", "scene.blend")
+    refused(main(*words, "--object", "Bare"), "'Bare'")
+    assert not contents(tmp_path)
+
+
+def test_nothing_to_measure(blend, main, tmp_path):
+    refused(main("check", "--blend", blend), "waiting.blend", "assign")
+    refused(main("bake", "--blend", blend, "--output", tmp_path / "x"), "assign")
+    refused(main("check", "--blend", blend, "--max-delta-e", "nan"), "--max-delta-e")
+    refused(main("check", "--blend", blend, "--max-delta-e", "-1"), "--max-delta-e")
+
+
+def test_check_of_a_material_without_a_spectrum(blend, main):
+    result = main("check", "--blend", blend, "--material", "paper")
+    assert result.status == UNUSABLE
+    assert "None of paper stores a spectrum" in result.err
+    assert "Traceback" not in result.err
+
+
+def test_targets_that_no_file_can_have(scene_file, main, tmp_path):
+    (tmp_path / "file").write_bytes(b"in the way")
+    (tmp_path / "x.json").mkdir()
+    before = contents(tmp_path)
+    words = ("bake", "--blend", scene_file, "--predicted-only", "--output")
+    refused(main(*words, tmp_path / "file" / "x"), tmp_path / "file", "folder")
+    refused(main(*words, tmp_path / "x"), "x.json", "folder")
+    for folder in (".", "..", "/"):
+        refused(main(*words, folder), "folder")
+        refused(main(*words, folder, "--shard", "1/2"), "folder")
+        refused(main("check", "--blend", scene_file, "--output", folder), "folder")
+    refused(main(*words, tmp_path / ("x" * 300)), "cannot be written")
+    assert contents(tmp_path) == before
+    assert not list((tmp_path / "x.json").iterdir())
+
+
+def test_blend_that_cannot_be_saved(blend, main, tmp_path):
+    (tmp_path / "file").write_bytes(b"in the way")
+    before = contents(tmp_path)
+    words = ("assign", "--blend", blend, "--preset", "14", "--material", "paper", "--output")
+    for target in (tmp_path / "file" / "x.blend", tmp_path):
+        result = main(*words, target)
+        assert result.status == UNUSABLE
+        assert result.err.splitlines()[-1].endswith("--output.")
+        assert str(target) in result.err
+    assert contents(tmp_path) == before
+
+
+def limit(size):
+    """Let a child write no file beyond this size: what a full disk looks like from inside."""
+
+    def apply():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    return apply
+
+
+@pytest.mark.parametrize("ending", ["json", "spectral.exr"])
+def test_full_disk_leaves_the_old_outputs(ending, scene_file, run, main, tmp_path):
+    """With five materials the JSON is longer than the EXR, which comes first; 1 kB stops that."""
+    words = ["bake", "--blend", scene_file, "--predicted-only", "--output", tmp_path / "x"]
+    words += ["--format", "exr", "--object", "Panel"]
+    assert main(*words, "--material", "Alpha").status == 0
+    before = contents(tmp_path)
+    sizes = {name.partition(".")[2]: len(content) for name, content in before.items()}
+    assert sizes["predicted.spectral.exr"] + 1000 < sizes["json"]
+    size = sizes["json"] - 500 if ending == "json" else 1024
+    words += ["--material", "Delta"]
+    refused(run(*words, before=limit(size)), f".{ending}", "nothing was changed")
+    assert contents(tmp_path) == before
+
+
+def test_full_disk_leaves_the_blend_as_it_was(blend, run, tmp_path):
+    before = contents(tmp_path)
+    words = ("assign", "--blend", blend, "--preset", "14", "--material", "paper")
+    result = run(*words, before=limit(4096))
+    assert result.status == UNUSABLE
+    assert "Traceback" not in result.err
+    ours = [line for line in result.err.splitlines() if line.startswith("rough_spectra assign:")]
+    assert len(ours) == 1
+    assert str(blend) in ours[0]
+    assert contents(tmp_path) == before
+
+
+def test_full_disk_for_temporary_files(scene_file, run, tmp_path):
+    words = ("bake", "--blend", scene_file, "--material", "Alpha", "--output", tmp_path / "x")
+    result = run(*words, before=limit(4096))
+    assert result.status == UNUSABLE
+    assert "Traceback" not in result.err
+    assert result.err.splitlines()[-1].startswith("rough_spectra bake: ")
+    assert not contents(tmp_path)
+
+
+@pytest.fixture
+def parts(scene_file, main, tmp_path):
+    """Three parts of a bake of all spectra."""
+    folder = tmp_path / "parts"
+    for number in (1, 2, 3):
+        words = ("--predicted-only", "--output", folder / "x", "--shard", f"{number}/3")
+        assert main("bake", "--blend", scene_file, *words).status == 0
+    return sorted(folder.iterdir())
+
+
+def test_merge_refuses_parts_that_do_not_fit(parts, main, scene_file, tmp_path):
+    out = ("--output", tmp_path / "merged" / "x")
+    refused(main("merge", *parts[:2], *out), "1 to 3")
+    refused(main("merge", *parts, parts[0], *out), "once")
+    refused(main("merge", *parts[:2], tmp_path / "none.json", *out), "none.json")
+    foreign = tmp_path / "foreign" / "x"
+    words = ("--predicted-only", "--shard", "3/3", "--material", "Beta", "--material", "Alpha")
+    words += ("--material", "Delta")
+    assert main("bake", "--blend", scene_file, *words, "--output", foreign).status == 0
+    (stranger,) = foreign.parent.iterdir()
+    refused(main("merge", *parts[:2], stranger, *out), "different bakes")
+    assert not (tmp_path / "merged").exists()
+
+
+def test_merge_refuses_what_bake_did_not_write(parts, main, tmp_path):
+    out = ("--output", tmp_path / "merged" / "x")
+    whole = parts[1].read_text(encoding="utf-8")
+    document = json.loads(whole)
+
+    def variant(**changes):
+        return json.dumps(document | changes)
+
+    reading = document["readings"][0]
+    part = reading["predicted"]
+    for content, word in {
+        "": "JSON",
+        whole[: len(whole) // 2]: "JSON",
+        "[" * 100_000: "JSON",
+        "[]": "no readings",
+        variant(format="else"): "no readings",
+        variant(schema=99): "schema 99",
+        variant(shard=None): "damaged",
+        variant(readings=[1]): "damaged",
+        variant(readings=[reading | {"predicted": []}]): "damaged",
+        variant(readings=[reading | {"predicted": part | {"values": [1]}}]): "damaged",
+        variant(readings=[reading | {"predicted": part | {"values": "abc"}}]): "damaged",
+        variant(readings=[reading | {"predicted": part | {"xyz": [1, 2, None]}}]): "damaged",
+    }.items():
+        parts[1].write_text(content, encoding="utf-8")
+        refused(main("merge", *parts, *out), parts[1], word)
+    parts[1].write_bytes(b"\xff\xfe\x00")
+    refused(main("merge", *parts, *out), parts[1])
+    assert not (tmp_path / "merged").exists()
+
+
+@pytest.mark.parametrize("shard", ["0/3", "4/3", "1", "a/b", "1/0"])
+def test_shard_that_is_none(shard, main, tmp_path):
+    result = main("bake", "--output", tmp_path / "x", "--shard", shard)
+    assert result.status == UNUSABLE
+    assert shard in result.err

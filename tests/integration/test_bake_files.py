@@ -1,0 +1,404 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a bake writes, read back by other means than wrote it."""
+
+import csv
+import hashlib
+import itertools
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.integration.support import ODD_NAME, contents, rgb_material, spectrum_csv
+
+ENDINGS = (
+    "json",
+    "predicted.csv",
+    "measured.csv",
+    "predicted.cgats.txt",
+    "measured.cgats.txt",
+    "predicted-1.spectral.exr",
+    "predicted-2.spectral.exr",
+    "measured.exr",
+)
+SPECTRAL = "predicted.spectral.exr"
+HALF = 2**-11  # relative rounding of a half float of 11 significant bits
+
+
+def rows_of(path):
+    """Comments, and rows as dictionaries, by Python's own csv module."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    comments = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
+    return comments, list(csv.DictReader(lines[len(comments) :]))
+
+
+def cgats_words(line):
+    """Split at tabs outside quotation marks; a doubled mark inside stands for one."""
+    words, word, quoted = [], "", False
+    for index, mark in enumerate(line):
+        if mark == '"':
+            quoted = not quoted
+            if quoted and index and line[index - 1] == '"':
+                word += mark
+        elif mark == "\t" and not quoted:
+            words.append(word)
+            word = ""
+        else:
+            word += mark
+    assert not quoted, f"quotation mark left open: {line}"
+    return [*words, word]
+
+
+def cgats_tables(path):
+    """Parse CGATS.17: a list of (keywords, field names, rows)."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    assert lines.pop(0) == "CGATS.17"
+    tables, keywords, fields, rows, section = [], {}, [], [], ""
+    for line in lines:
+        if line in ("BEGIN_DATA_FORMAT", "BEGIN_DATA"):
+            section = line
+        elif line == "END_DATA":
+            tables.append((keywords, fields, rows))
+            keywords, fields, rows, section = {}, [], [], ""
+        elif line == "END_DATA_FORMAT":
+            section = ""
+        elif section == "BEGIN_DATA_FORMAT":
+            fields += cgats_words(line)
+        elif section == "BEGIN_DATA":
+            rows.append(cgats_words(line))
+        elif line:
+            keyword, value = cgats_words(line)
+            keywords[keyword] = value
+    assert not keywords
+    return tables
+
+
+def exr(path):
+    """Pixels, names of channels and attributes, by OpenImageIO."""
+    bpy.utils.expose_bundled_modules()
+    import OpenImageIO
+
+    image = OpenImageIO.ImageInput.open(str(path))
+    spec = image.spec()
+    pixels = image.read_image(OpenImageIO.FLOAT)
+    attributes = {attribute.name: attribute.value for attribute in spec.extra_attribs}
+    image.close()
+    return pixels, list(spec.channelnames), attributes | {"format": str(spec.format)}
+
+
+def predicted(bake):
+    return [entry for entry in bake.document["readings"] if entry["predicted"]]
+
+
+def by_material(bake):
+    return {entry["material"]: entry for entry in bake.document["readings"]}
+
+
+def test_a_bake_writes_these_files_and_no_others(baked):
+    assert sorted(baked.files) == sorted(f"chart.{ending}" for ending in ENDINGS)
+    assert "wrote" in baked.result.err
+    assert all(name in baked.result.err for name in baked.files)
+
+
+def test_the_same_bake_twice_gives_the_same_bytes(baked, scene_file, run, tmp_path):
+    names = [entry["material"] for entry in baked.document["readings"] if not entry["surface"]]
+    words = [word for name in names for word in ("--material", name)]
+    base = tmp_path / "again" / "chart"
+    result = run("bake", "--blend", scene_file, "--output", base, "--object", "Panel", *words)
+    assert result.status == 0
+    assert contents(base.parent) == baked.files
+
+
+def test_a_bake_leaves_the_blend_file_as_it_was(scene, main, tmp_path):
+    before = scene.read_bytes()
+    folder = set(tmp_path.iterdir())
+    assert main("bake", "--blend", scene, "--output", tmp_path / "out/x").status == 0
+    assert main("check", "--blend", scene).status == 0
+    assert scene.read_bytes() == before
+    assert set(tmp_path.iterdir()) - folder == {tmp_path / "out"}
+
+
+def test_json_says_what_it_holds(baked):
+    document = baked.document
+    assert document["format"] == "rough-spectra-readings"
+    assert document["schema"] == 1
+    assert document["blender"] == bpy.app.version_string
+    assert document["working_space"] == "Linear Rec.709"
+    assert document["instrument"] == "45a:0"
+    assert (document["shard"], document["shards"]) == (1, 1)
+    assert {"values", "wavelengths", "xyz", "measured"} <= set(document["units"])
+    assert document["aperture"]
+    differences = [entry["delta_e_00"] for entry in document["readings"] if entry["predicted"]]
+    assert document["largest_delta_e_00"] == max(differences) <= 0.05
+
+
+def test_json_keeps_predicted_and_measured_under_keys_of_their_own(baked):
+    assert len(predicted(baked)) == 5
+    for entry in baked.document["readings"]:
+        assert "wavelengths" not in entry["measured"]
+        assert set(entry["measured"]) == {"rgb", "spread", "illuminant", "xyz", "lab"}
+        if entry["predicted"]:
+            assert "rgb" not in entry["predicted"]
+            assert len(entry["predicted"]["values"]) == len(entry["predicted"]["wavelengths"])
+
+
+def test_prediction_is_the_stored_spectrum_where_that_is_a_reading(baked):
+    part = by_material(baked)[ODD_NAME]["predicted"]
+    assert part["kind"] == "reading"
+    assert part["wavelengths"] == [400 + 10 * band for band in range(31)]
+    assert part["values"] == pytest.approx([0.2 + 0.01 * band for band in range(31)], abs=1e-6)
+
+
+def test_lab_of_another_illuminant_and_observer_is_said_to_be_such(baked):
+    entry = by_material(baked)["Beta"]
+    assert (entry["predicted"]["illuminant"], entry["predicted"]["observer"]) == ("A", 10)
+    assert entry["measured"]["illuminant"] == "A"
+    _, rows = rows_of(baked.path("predicted.csv"))
+    row = next(row for row in rows if row["material"] == "Beta")
+    assert (row["illuminant"], row["observer"]) == ("A", "10")
+
+
+def test_surface_of_an_object_is_measured_without_a_spectrum(baked):
+    found = {entry["material"]: entry for entry in baked.document["readings"] if entry["surface"]}
+    assert set(found) == {"Alpha", "Plain", "Patterned"}
+    assert {entry["surface"] for entry in found.values()} == {"Panel"}
+    plain = found["Plain"]
+    assert plain["predicted"] is None
+    assert plain["delta_e_00"] is None
+    # A Diffuse BSDF without roughness is Lambertian: it reads its own color.
+    assert plain["measured"]["rgb"] == pytest.approx([0.2, 0.4, 0.6], abs=2e-6)
+    assert plain["measured"]["spread"] == pytest.approx([0, 0, 0], abs=1e-6)
+    assert found["Alpha"]["measured"] == by_material(baked)["Alpha"]["measured"]
+
+
+def test_pattern_and_glow_of_a_hand_made_material_are_measured(baked):
+    measured = by_material(baked)["Patterned"]["measured"]
+    # Blender's checker is .8 and .2; the emission adds its strength over a radiance of 1.
+    assert np.array(measured["rgb"]) == pytest.approx(np.full(3, 0.5 + 0.25), abs=1e-3)
+    assert np.array(measured["spread"]) == pytest.approx(np.full(3, 0.3), abs=1e-3)
+
+
+def test_csv_of_one_grid_reads_back_through_our_own_reader(scene_file, main, tmp_path):
+    from rough_spectra.addon import readers
+
+    words = ("--material", "Alpha", "--material", "Beta", "--material", "Delta")
+    base = tmp_path / "x"
+    result = main("bake", "--blend", scene_file, "--output", base, "--predicted-only", *words)
+    assert result.status == 0
+    samples = readers.read(tmp_path / "x.predicted.csv")
+    from rough_spectra.addon import storage, target
+
+    assert [sample.name for sample in samples] == [
+        "ColorChecker 14 Green",
+        "ColorChecker 05 Blue flower",
+        "ColorChecker 20 Neutral 8 (.23 D)",
+    ]
+    for sample, name in zip(samples, words[1::2], strict=True):
+        wanted = target.target_reading(storage.load(bpy.data.materials[name]))
+        assert sample.kind == "reading"
+        assert sample.instrument == "45a:0"
+        assert np.abs(sample.values - wanted).max() <= 0.5e-6 * 1.001
+
+
+@pytest.mark.parametrize("name", [ODD_NAME, "#FF8800", " # 2"])
+def test_a_name_like_a_comment_reads_back_too(name, scene_file, main, tmp_path):
+    from rough_spectra.addon import readers
+
+    bpy.ops.wm.open_mainfile(filepath=str(scene_file))
+    bpy.data.materials[ODD_NAME].name = name
+    words = ("--material", name, "--predicted-only", "--output", tmp_path / "x")
+    assert main("bake", *words).status == 0
+    (sample,) = readers.read(tmp_path / "x.predicted.csv")
+    assert sample.name == "paper"
+
+
+def test_fine_wavelengths_keep_their_digits(main, tmp_path):
+    from rough_spectra.addon import assign, readers
+    from rough_spectra.addon.target import Request
+
+    lines = ["wavelength,fine"]
+    lines += [f"{380 + 20 * band / 3 + 0.0001},{0.3}" for band in range(61)]
+    lines += ["780.00012,0.3", "780.00013,0.3"]
+    source = tmp_path / "fine.csv"
+    source.write_text("\n".join(lines), encoding="utf-8")
+    sample = readers.read(source)[0]
+    assign.assign([(rgb_material("Fine"), Request(sample, 0.1))])
+    assert main("bake", "--predicted-only", "--output", tmp_path / "x").status == 0
+    (found,) = readers.read(tmp_path / "x.predicted.csv")
+    assert np.array_equal(found.wavelengths, sample.wavelengths)
+    ((_, fields, _),) = cgats_tables(tmp_path / "x.predicted.cgats.txt")
+    assert [float(name[11:]) for name in fields if name.startswith("SPECTRAL_NM")] == list(
+        sample.wavelengths
+    )
+
+
+def test_csv_headers_say_units_illuminant_observer_instrument_aperture(baked):
+    for ending in ("predicted.csv", "measured.csv"):
+        comments, rows = rows_of(baked.path(ending))
+        text = "\n".join(comments)
+        for word in ("units: fraction", "D65/2°", "instrument: 45a:0", "aperture:", "nm"):
+            assert word in text
+        assert len(rows) == (5 if ending == "predicted.csv" else 7)
+
+
+def test_csv_agrees_with_json(baked):
+    _, rows = rows_of(baked.path("predicted.csv"))
+    for row, entry in zip(rows, predicted(baked), strict=True):
+        part = entry["predicted"]
+        assert row["material"] == entry["material"]
+        for nm, value in zip(part["wavelengths"], part["values"], strict=True):
+            assert float(row[f"{nm:g} nm"]) == value
+        empty = [key for key, cell in row.items() if key.endswith(" nm") and not cell]
+        assert len(empty) == 81 - len(part["wavelengths"])
+    _, rows = rows_of(baked.path("measured.csv"))
+    for row, entry in zip(rows, baked.document["readings"], strict=True):
+        assert [float(row[key]) for key in "RGB"] == entry["measured"]["rgb"]
+        found = row["delta_e_00"]
+        assert (float(found) if found else None) == entry["delta_e_00"]
+
+
+def test_no_table_or_image_mixes_predicted_and_measured(baked):
+    assert not any(" nm" in line for line in rows_of(baked.path("measured.csv"))[1][0])
+    for _, fields, _ in cgats_tables(baked.path("measured.cgats.txt")):
+        assert not any(field.startswith("SPECTRAL") for field in fields)
+    assert exr(baked.path("measured.exr"))[1] == ["R", "G", "B"]
+    comments, rows = rows_of(baked.path("predicted.csv"))
+    assert "predicted" in comments[1]
+    assert "R" not in rows[0]
+
+
+def test_cgats_has_a_table_for_each_grid_and_light(baked):
+    tables = cgats_tables(baked.path("predicted.cgats.txt"))
+    assert len(tables) == 3
+    for keywords, fields, rows in tables:
+        assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields) == len(set(fields))
+        assert int(keywords["NUMBER_OF_SETS"]) == len(rows)
+        assert all(len(row) == len(fields) for row in rows)
+        assert keywords["MEASUREMENT_GEOMETRY"] == "45a:0"
+    sources = [keywords["MEASUREMENT_SOURCE"] for keywords, _, _ in tables]
+    assert ["Illumination=A" in source for source in sources] == [False, True, False]
+    assert ["ObserverAngle=10" in source for source in sources] == [False, True, False]
+
+
+def test_cgats_holds_fractions_under_the_names_that_mean_so(baked):
+    found = {}
+    for _, fields, rows in cgats_tables(baked.path("predicted.cgats.txt")):
+        start = fields.index(next(name for name in fields if name.startswith("SPECTRAL_NM")))
+        for row in rows:
+            bands = [float(name.removeprefix("SPECTRAL_NM")) for name in fields[start:]]
+            found[int(row[0])] = (row[1], bands, [float(cell) for cell in row[start:]])
+    for number, entry in enumerate(baked.document["readings"], 1):
+        if not entry["predicted"]:
+            assert number not in found
+            continue
+        name, bands, values = found[number]
+        assert name == " ".join(entry["material"].split())  # a tab would end the field
+        assert bands == entry["predicted"]["wavelengths"]
+        assert values == entry["predicted"]["values"]
+
+
+def test_cgats_of_the_measurement_agrees_with_json(baked):
+    found = {}
+    for keywords, fields, rows in cgats_tables(baked.path("measured.cgats.txt")):
+        assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields)
+        found |= {int(row[0]): [float(cell) for cell in row[2:]] for row in rows}
+    for number, entry in enumerate(baked.document["readings"], 1):
+        assert found[number] == entry["measured"]["xyz"] + entry["measured"]["lab"]
+
+
+def test_spectral_exr_follows_the_layout(baked):
+    groups = {}
+    for entry in predicted(baked):
+        groups.setdefault(tuple(entry["predicted"]["wavelengths"]), []).append(entry)
+    for number, (wavelengths, entries) in enumerate(groups.items(), 1):
+        pixels, channels, attributes = exr(baked.path(f"predicted-{number}.spectral.exr"))
+        bands = [f"T.{nm:.6f}nm".replace(".", ",").replace("T,", "T.") for nm in wavelengths]
+        assert channels == ["R", "G", "B", *bands]
+        assert attributes["spectralLayoutVersion"] == "1.0"
+        assert attributes["compression"] == "zip"
+        assert attributes["format"] == "half"
+        assert attributes["DateTime"] == "1970:01:01 00:00:00"
+        middle = pixels[8, 8::16]
+        wanted = [e["predicted"]["preview"] + e["predicted"]["values"] for e in entries]
+        assert middle.shape == (len(entries), len(channels))
+        assert np.abs(middle - wanted).max() <= HALF
+        assert np.ptp(pixels[:16, :16], axis=(0, 1)).max() == 0
+
+
+def test_channel_names_are_those_of_the_paper(baked):
+    _, channels, _ = exr(baked.path("predicted-1.spectral.exr"))
+    assert "T.400,000000nm" in channels
+
+
+def test_measured_image_shows_what_was_measured(baked):
+    pixels, _, attributes = exr(baked.path("measured.exr"))
+    entries = baked.document["readings"]
+    rows = -(-len(entries) // 6)
+    assert pixels.shape == (16 * rows, 96, 3)
+    swatches = pixels[8::16, 8::16].reshape(-1, 3)
+    wanted = [entry["measured"]["rgb"] for entry in entries]
+    assert np.abs(swatches[: len(entries)] - wanted).max() <= HALF
+    assert not swatches[len(entries) :].any()
+    assert "spectralLayoutVersion" not in attributes
+    assert attributes["DateTime"] == "1970:01:01 00:00:00"
+
+
+def test_one_grid_makes_one_spectral_image_named_plainly(scene_file, main, tmp_path):
+    words = ("--material", "Alpha", "--predicted-only", "--format", "exr")
+    assert main("bake", "--blend", scene_file, "--output", tmp_path / "x", *words).status == 0
+    assert set(contents(tmp_path)) == {"x.json", f"x.{SPECTRAL}"}
+
+
+def test_without_a_measurement_there_are_no_measured_files(scene_file, main, tmp_path):
+    words = ("--material", "Alpha", "--predicted-only")
+    assert main("bake", "--blend", scene_file, "--output", tmp_path / "x", *words).status == 0
+    assert not [name for name in contents(tmp_path) if "measured" in name]
+
+
+@pytest.mark.parametrize("shards", [2, 3])
+def test_merged_parts_equal_the_whole_byte_for_byte(shards, scene_file, main, tmp_path, baked):
+    """Seven surfaces, and two materials among three shards, so that one part is empty."""
+    names = ["Alpha", ODD_NAME] if shards == 3 else ["Alpha", "Beta", ODD_NAME, "Delta"]
+    words = [word for name in names for word in ("--material", name)]
+    words += ["--object", "Panel"] if shards == 2 else []
+    common = ("bake", "--blend", scene_file, *words, "--output")
+    for number in range(1, shards + 1):
+        result = main(*common, tmp_path / "parts/chart", "--shard", f"{number}/{shards}")
+        assert result.status == 0
+    parts = sorted((tmp_path / "parts").iterdir())
+    assert [part.name for part in parts] == [
+        f"chart.part-{number}-of-{shards}.json" for number in range(1, shards + 1)
+    ]
+    assert main("merge", *reversed(parts), "--output", tmp_path / "merged/chart").status == 0
+    if shards == 2:
+        whole = baked.files
+    else:
+        assert main(*common, tmp_path / "whole/chart").status == 0
+        whole = contents(tmp_path / "whole")
+    assert contents(tmp_path / "merged") == whole
+
+
+def test_images_name_who_is_where(baked):
+    _, _, attributes = exr(baked.path("predicted-1.spectral.exr"))
+    assert "Alpha; Beta; Delta; Alpha" in attributes["ImageDescription"]
+
+
+def test_bytes_do_not_depend_on_the_folder(baked, scene_file, main, tmp_path):
+    moved = tmp_path / "other" / "named otherwise.blend"
+    moved.parent.mkdir()
+    moved.write_bytes(scene_file.read_bytes())
+    words = ("--predicted-only", "--format", "csv")
+    hashes = set()
+    for number, blend in enumerate((scene_file, moved)):
+        base = tmp_path / str(number) / "x"
+        assert main("bake", "--blend", blend, "--output", base, *words).status == 0
+        hashes.add(hashlib.sha256(repr(sorted(contents(base.parent).items())).encode()).digest())
+    assert len(hashes) == 1
+
+
+def test_spectrum_helper_writes_what_the_reader_reads(tmp_path):
+    from rough_spectra.addon import readers
+
+    samples = readers.read(spectrum_csv(tmp_path / "a.csv", "one", "two"))
+    assert [sample.name for sample in samples] == ["one", "two"]
