@@ -114,8 +114,8 @@ def test_white_points_are_the_published_ones():
         ("E", 2, 1.00000, 1.00000),
     ):
         white = colorimetry.white(illuminant, observer)
-        # The tables of 5 nm and of 10 nm differ by 2e-4, for a lamp with lines by 1e-3.
-        tolerance = 2e-3 if illuminant[0] == "F" else 3e-4
+        # The tables of 5 nm and of 10 nm differ by 3e-4, for a lamp with lines by 1e-3.
+        tolerance = 2e-3 if illuminant[0] == "F" else 5e-4
         np.testing.assert_allclose(white, [x, 1, z], atol=tolerance)
 
 
@@ -163,7 +163,7 @@ def test_unmeasured_ends_are_told_and_too_much_of_them_is_refused():
     assert 0 < colorimetry.held_share(np.arange(400.0, 701.0, 10)) < 0.01
     colorimetry.weights(np.arange(400.0, 701.0, 10))
     for wavelengths in (np.arange(450.0, 781.0, 10), np.arange(800.0, 2500.0, 10), [550.0]):
-        with pytest.raises(DomainError, match="nm leave|have no color") as caught:
+        with pytest.raises(DomainError, match=r"nm leave|have no color") as caught:
             colorimetry.weights(wavelengths)
         assert str(caught.value).endswith("a color needs about 400 to 700 nm.")
 
