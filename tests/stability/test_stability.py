@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The core at the places where methods fail; docs/stability.md tells of each."""
+
+import bpy  # noqa: F401, before mathutils, which comes with it
+import numpy as np
+import pytest
+from rough_spectra.addon import target
+from rough_spectra.addon.sample import Sample
+from rough_spectra.addon.working_space import WorkingSpace
+
+from core import cycles, grid, oren_nayar, reading, vcavity
+from tests.stability import checks
+
+REC709_FROM_XYZ = np.linalg.inv(
+    [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+)
+
+
+def cycles_lobe(albedo, theta_i, theta_r, delta_phi, sigma):
+    """Give Cycles' lobe at half of its roughness in the order of arguments of the models."""
+    return cycles.reflectance(albedo, 0.5, theta_i, theta_r, delta_phi)
+
+
+def closure(albedo, sigma):
+    return reading.from_albedo(albedo, sigma, "closure")
+
+
+def test_albedo_survives_a_vanishing_roughness():
+    checks.check_small_roughness(reading.to_albedo)
+
+
+def test_denormal_readings_and_roughness():
+    checks.check_denormals(reading.to_albedo)
+
+
+def test_factors_are_exact_below_grazing():
+    checks.check_geometry(oren_nayar.factors)
+
+
+def test_grazing_stays_positive_and_finite():
+    checks.check_grazing(oren_nayar.factors)
+
+
+def test_float32_right_angle_is_an_angle():
+    checks.check_right_angle(oren_nayar.factors)
+
+
+def test_grazing_away_from_the_light():
+    checks.check_grazing_away(oren_nayar.factors)
+
+
+def test_azimuth_along_the_normal():
+    checks.check_normal(oren_nayar.factors)
+
+
+def test_azimuth_at_the_branch():
+    checks.check_right_azimuth(oren_nayar.factors)
+
+
+@pytest.mark.parametrize("reflectance", [vcavity.reflectance, cycles_lobe])
+def test_reference_and_cycles_are_never_negative(reflectance):
+    checks.check_not_negative(reflectance)
+
+
+def test_published_model_is_left_as_published():
+    checks.check_left_as_published(oren_nayar.reflectance)
+
+
+def targets_of_matching(monkeypatch):
+    """Targets that `addon.target` hands to `cycles.match` for a dark rough surface seen steeply."""
+    seen = []
+
+    def match(readings, targets, *rest, **keywords):
+        seen.append(targets)
+        return np.clip(readings, 0, 1), np.zeros(len(readings))
+
+    def hemisphere(count, *_):
+        return tuple(np.resize(angle, count) for angle in checks.opposite_geometries())
+
+    monkeypatch.setattr(target.geometry, "hemisphere", hemisphere)
+    monkeypatch.setattr(target.cycles, "match", match)
+    wavelengths = np.arange(380.0, 731, 10)
+    sample = Sample("Soot", wavelengths, np.full(wavelengths.size, 0.05), "albedo")
+    request = target.Request(sample, np.radians(70.0))
+    target.solve([request], WorkingSpace("Linear Rec.709", REC709_FROM_XYZ))
+    return seen[0]
+
+
+def test_matching_asks_for_nothing_negative(monkeypatch):
+    checks.check_targets(targets_of_matching(monkeypatch))
+
+
+@pytest.mark.parametrize("reflectance", [vcavity.reflectance, cycles_lobe])
+def test_white_furnace_of_reference_and_cycles(reflectance):
+    checks.check_energy(reflectance, np.radians(10.0))
+
+
+def test_no_bounce_is_cut_off_at_white():
+    checks.check_white(vcavity.reading_from_albedo, np.radians([20.0, 50.0, 90.0]))
+
+
+def test_closure_at_white_as_roughness_vanishes():
+    checks.check_white_limit(closure)
+
+
+@pytest.mark.parametrize("reading_of", [closure, vcavity.reading_from_albedo])
+def test_white_beyond_50_degrees(reading_of):
+    checks.check_white(reading_of, np.radians([50.0, 60.0, 75.0, 90.0]))
+
+
+def test_degrees_are_refused():
+    checks.check_unit(reading.coefficients)
+
+
+def test_readings_above_white_are_kept():
+    checks.check_infeasible(reading.to_albedo)
+
+
+def test_sigma_max_near_white():
+    checks.check_sigma_max(reading.sigma_max)
+
+
+def test_noise_below_black_averages_out():
+    checks.check_noise(reading.to_albedo)
+
+
+def test_socket_colors_out_of_range_come_back():
+    checks.check_color_noise(cycles.color_for_reading, cycles.reflectance)
+
+
+def test_readings_far_below_black():
+    checks.check_far_below_black(reading.to_albedo)
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in reading.MODELS),
+        *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in reading.MODELS),
+        lambda v, s: oren_nayar.reflectance(v, 0.7, 0.3, 2.0, s),
+        lambda v, s: cycles.color_for_reading(v, s / 2),
+        lambda v, s: cycles.reflectance(v, s / 2, 0.7, 0.3, 2.0),
+    ],
+)
+def test_nan_and_infinity_stay_in_their_band(function):
+    checks.check_bad_band(function)
+
+
+def test_nan_angles_stay_nan():
+    checks.check_bad_angle(oren_nayar.factors)
+
+
+def test_nan_reaches_no_other_wavelength():
+    checks.check_bad_neighbor(grid.resample)
+
+
+def test_cycles_lobe_without_roughness():
+    checks.check_cycles_smooth(cycles.reflectance)
+
+
+def test_cycles_lobe_at_grazing():
+    checks.check_cycles_grazing(cycles.reflectance)
