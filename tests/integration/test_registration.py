@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the extension adds to Blender, what it takes away again, and how long that takes."""
+
+import json
+import subprocess
+import sys
+import textwrap
+import time
+
+import bpy
+import pytest
+
+from tests.integration.support import ROOT, SECONDS, rgb_material
+
+START = """
+import importlib, json, sys, time
+sys.path.insert(0, TOOLS)
+import bpy
+from run_command_line import load_extension
+"""
+
+
+@pytest.fixture
+def blender(environment):
+    """Run lines in a fresh Blender and give the JSON that they print last."""
+
+    def blender(lines):
+        code = f"TOOLS = {str(ROOT / 'tools')!r}\n{START}\n{textwrap.dedent(lines)}"
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout.splitlines()[-1])
+
+    return blender
+
+
+def test_register_brings_no_heavy_module_and_is_quick(blender):
+    found = blender("""
+        extension = load_extension()
+        before = set(sys.modules)
+        times = []
+        for turn in range(2):
+            start = time.perf_counter()
+            extension.register()
+            times.append(1000 * (time.perf_counter() - start))
+            if turn == 0:
+                added = sorted(set(sys.modules) - before)
+            extension.unregister()
+        print(json.dumps({"added": added, "first": times[0], "again": times[1]}))
+    """)
+    tops = {name.partition(".")[0] for name in found["added"]}
+    for heavy in ("colour", "scipy", "matplotlib", "pandas", "OpenImageIO"):
+        assert heavy not in tops
+    parts = {name.removeprefix("rough_spectra.") for name in found["added"]}
+    computing = {"core.cycles", "core.reading", "core.oren_nayar", "addon.colorimetry"}
+    assert not computing & parts
+    print(f"register: {found['first']:.1f} ms with imports, {found['again']:.1f} ms again")
+    # Seen: 10 to 20 ms on an idle machine. This only catches a heavy import.
+    assert found["first"] < 100
+
+
+def test_use_leaves_no_stand_ins_in_sys_modules(blender):
+    found = blender("""
+        from unittest import mock
+        extension = load_extension()
+        extension.register()
+        from rough_spectra.addon import assign, presets
+        from rough_spectra.addon.target import Request
+        material = bpy.data.materials.new("A")
+        material.use_nodes = True
+        material.node_tree.nodes.clear()
+        assign.assign([(material, Request(presets.load("14"), 0.3))])
+        fakes = [name for name in sys.modules if isinstance(sys.modules[name], mock.Mock)]
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        extension.unregister()
+        print(json.dumps({"fakes": fakes, "colour": "colour" in sys.modules}))
+    """)
+    assert found == {"fakes": [], "colour": True}
+
+
+def test_unregister_leaves_nothing_and_register_works_again(blender):
+    found = blender("""
+        extension = load_extension()
+
+        def ours():
+            types = [name for name in dir(bpy.types) if name.lower().startswith("rough")]
+            operators = list(dir(bpy.ops.rough_spectra))
+            return {
+                "types": types,
+                "operators": operators,
+                "property": hasattr(bpy.types.Material, "rough_spectra"),
+                "commands": len(command_line._handles),
+            }
+
+        command_line = importlib.import_module("rough_spectra.addon.command_line")
+        states = [ours()]
+        for _ in range(2):
+            extension.register()
+            states.append(ours())
+            extension.unregister()
+            states.append(ours())
+        print(json.dumps(states))
+    """)
+    before, first, gone, second, gone_again = found
+    assert first == second
+    assert before == gone == gone_again
+    assert first["property"]
+    assert first["commands"] == 1
+    assert {"assign_preset", "assign_file", "renew", "bake"} <= set(first["operators"])
+    assert not before["property"]
+    assert not before["types"]
+
+
+def operators():
+    from rough_spectra.addon import registration
+
+    return [cls for cls in registration.classes if issubclass(cls, bpy.types.Operator)]
+
+
+@pytest.mark.parametrize("cls", operators(), ids=lambda cls: cls.bl_idname)
+def test_operator_has_tooltips_and_undo_where_it_changes_data(cls):
+    assert not cls.__doc__.endswith(".")
+    assert cls.bl_label
+    assert "REGISTER" in cls.bl_options
+    assert ("UNDO" in cls.bl_options) == (cls.bl_idname != "rough_spectra.bake")
+    module, name = cls.bl_idname.split(".")
+    rna = getattr(getattr(bpy.ops, module), name).get_rna_type()
+    assert rna.description == cls.__doc__
+    for prop in rna.properties:
+        if prop.identifier != "rna_type":
+            assert prop.name
+            assert prop.description, prop.identifier
+            assert not prop.description.endswith(".")
+
+
+def test_stored_properties_have_tooltips_and_identifiers_that_files_hold():
+    group = rgb_material("A").rough_spectra
+    found = {}
+    for prop in group.bl_rna.properties:
+        if prop.identifier in ("rna_type", "name"):
+            continue
+        assert prop.description, prop.identifier
+        if prop.type == "ENUM":
+            found[prop.identifier] = [item.identifier for item in prop.enum_items]
+            assert all(item.name and item.description for item in prop.enum_items)
+    # Blender stores an item's place in this list: append only.
+    assert found["kind"][:2] == ["reading", "albedo"]
+    assert found["instrument"][:1] == ["45a:0"]
+    assert found["model"][:3] == ["two-bounce", "first-order", "closure"]
+    assert found["shader"][:3] == ["AUTO", "DIFFUSE", "PRINCIPLED"]
+    assert found["observer"][:2] == ["2", "10"]
+    lights = ["D65", "A", "D50", "D55", "D75", "E", "F2", "F7", "F11", "LED-B3"]
+    assert found["illuminant"][:10] == lights
+
+
+def test_presets_are_offered_by_ids_that_scripts_can_rely_on():
+    from rough_spectra.addon import presets
+    from rough_spectra.addon.operators import assign_preset
+
+    items = assign_preset.preset_items(None, None)
+    assert [item[0] for item in items] == presets.names()
+    assert all(name and title and about for name, title, about in items)
+    assert assign_preset.preset_items(None, None) is items  # Blender keeps only pointers to it
+
+
+def test_panel_computes_nothing_that_takes_time():
+    """What `draw` calls, with 500 materials in the file."""
+    from rough_spectra.addon import assign, presets, stamp
+    from rough_spectra.addon.target import Request
+
+    materials = [rgb_material(f"{number}") for number in range(500)]
+    sample = presets.load("14")
+    assign.assign([(material, Request(sample, 0.3)) for material in materials])
+    assert all(not stamp.stale_reasons(m, stamp.working_space_name()) for m in materials)
+    seconds = []
+    for material in materials[:100]:
+        start = time.perf_counter()
+        assert stamp.has_spectrum(material)
+        assert not stamp.stale_reasons(material, stamp.working_space_name())
+        assert stamp.get_stamp(material) is not None
+        seconds.append(time.perf_counter() - start)
+    median = sorted(seconds)[50]
+    print(f"panel: {1e6 * median:.0f} µs")
+    assert median < 1e-3
