@@ -8,13 +8,15 @@ line on standard error; results go to files, since Blender itself prints on stan
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import importlib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import argparse
 
 NAME = "rough_spectra"
 VERBS = ("assign", "bake", "check", "merge")
@@ -65,6 +67,8 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
+    import argparse  # here, because registering the command must not cost Blender's start
+
     parser = argparse.ArgumentParser(
         prog=f"blender -b scene.blend --command {NAME}",
         description="Measured rough materials that read the same when measured again.",

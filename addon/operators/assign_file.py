@@ -128,7 +128,8 @@ def _choose(samples: list[Any], name: str, path: str) -> Any:
         if len(samples) == 1:
             return samples[0]
         names = ", ".join(sample.name for sample in samples[:5])
-        msg = f"{path} has {len(samples)} samples ({names}, …); say which with sample=."
+        more = ", …" if len(samples) > 5 else ""
+        msg = f"{path} has {len(samples)} samples ({names}{more}); say which with sample=."
         raise InputError(msg)
     for sample in samples:
         if sample.name == name:
