@@ -7,8 +7,11 @@ Models, cheapest first:
 
 first-order   r = f1 ρ
 two-bounce    r = f1 ρ + f2 ρ²                     the published model
-closure       r = f1 ρ + f2 ρ² / (1 - g ρ)         all bounces, energy conserved at ρ = 1
+closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: see `core.closure`
 reference     r = Σ a_k ρ^k                        what these approximate: see `core.vcavity`
+
+`geometric_closure` is none of them. It sums the later bounces of the published model as a
+geometric series, which conserves energy but misses the reference by up to 4.7 % at σ ≤ 50°.
 """
 
 from __future__ import annotations
@@ -19,7 +22,7 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from . import vcavity_tables
+from . import closure, vcavity_tables
 from .arrays import Array, precision, slope_deviation, spectrum
 from .blocks import apply_in_blocks
 from .errors import DomainError
@@ -65,7 +68,7 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
 
 
 def bounce_ratio(sigma: npt.ArrayLike) -> Array:
-    """Ratio g of the geometric series that stands for the third and all later bounces.
+    """Ratio g of the series of `geometric_closure`.
 
     g = 1 - q with q = f2 / (1 - f1), the ratio that gives r(ρ = 1) = 1. f2 / (1 - f1) is 0/0 at
     σ = 0, so q is written as the quotient of the two fits, where σ² cancels.
@@ -74,6 +77,37 @@ def bounce_ratio(sigma: npt.ArrayLike) -> Array:
     s2 = slope_deviation(sigma, dtype) ** 2
     # numpy 1.26 promotes scalars on the way.
     return np.asarray(1 - 0.34 * (s2 + 0.33) / (s2 + 0.13), dtype)
+
+
+def geometric_closure(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
+    """Predict a 45a:0 reading with r = f1 ρ + f2 ρ² / (1 - g ρ), g of `bounce_ratio`.
+
+    The closure with no new parameter: what follows the second bounce is the geometric series that
+    lets white facets lose nothing. Kept to compare with; the model "closure" is five times nearer
+    to the reference.
+
+    Parameters
+    ----------
+    albedo
+        ρ(λ), shape (..., bands).
+    sigma
+        Roughness, radians in [0, π/2]; broadcasts against the leading axes of `albedo`.
+
+    Returns
+    -------
+    Reflectance factor, shape (..., bands), in the precision of `albedo`.
+
+    Raises
+    ------
+    DomainError
+        If σ is out of range or `albedo` has no band axis.
+    """
+    rho = spectrum(albedo, "the albedo")
+    per_spectrum = np.asarray(sigma, dtype=rho.dtype)[..., np.newaxis]
+    f1, f2 = coefficients(per_spectrum)
+    # 0 · ∞ is NaN, and needs no warning beside it.
+    with np.errstate(invalid="ignore"):
+        return np.asarray(rho * (f1 + f2 * (rho / (1 - bounce_ratio(per_spectrum) * rho))))
 
 
 def from_albedo(
@@ -109,6 +143,9 @@ def from_albedo(
         if model == "reference":
             _check_instrument(instrument)
             return vcavity_tables.reading_from_albedo(rho, sigma)
+        if model == "closure":
+            _check_instrument(instrument)
+            return closure.from_albedo(rho, sigma)
         return _evaluate(_FORWARD, rho, sigma, model, instrument)
 
 
@@ -144,6 +181,9 @@ def to_albedo(
     if model == "reference":
         _check_instrument(instrument)
         return vcavity_tables.albedo_from_reading(r, sigma)
+    if model == "closure":
+        _check_instrument(instrument)
+        return closure.to_albedo(r, sigma)
     with np.errstate(invalid="ignore"):
         return _evaluate(_INVERSE, r, sigma, model, instrument)
 
@@ -211,34 +251,25 @@ def _evaluate(
     f1, f2 = coefficients(per_spectrum, instrument)
     shape = np.broadcast_shapes(values.shape, per_spectrum.shape)
     out = np.empty(shape, values.dtype)
-    apply_in_blocks(formulas[model], out, values, f1, f2, bounce_ratio(per_spectrum))
+    apply_in_blocks(formulas[model], out, values, f1, f2)
     return out
 
 
-def _first_order(out: Array, rho: Array, f1: Array, _f2: Array, _g: Array) -> None:
+def _first_order(out: Array, rho: Array, f1: Array, _f2: Array) -> None:
     np.multiply(f1, rho, out=out)
 
 
-def _two_bounce(out: Array, rho: Array, f1: Array, f2: Array, _g: Array) -> None:
+def _two_bounce(out: Array, rho: Array, f1: Array, f2: Array) -> None:
     np.multiply(f2, rho, out=out)
     out += f1
     out *= rho
 
 
-def _closure(out: Array, rho: Array, f1: Array, f2: Array, g: Array) -> None:
-    np.multiply(g, rho, out=out)
-    np.subtract(1, out, out=out)
-    np.divide(rho, out, out=out)
-    out *= f2
-    out += f1
-    out *= rho
-
-
-def _first_order_inverse(out: Array, r: Array, f1: Array, _f2: Array, _g: Array) -> None:
+def _first_order_inverse(out: Array, r: Array, f1: Array, _f2: Array) -> None:
     np.divide(r, f1, out=out)
 
 
-def _two_bounce_inverse(out: Array, r: Array, f1: Array, f2: Array, _g: Array) -> None:
+def _two_bounce_inverse(out: Array, r: Array, f1: Array, f2: Array) -> None:
     """ρ = r / (f1/2 + √(f1²/4 + f2 r)).
 
     The textbook root (-f1 + √(f1² + 4 f2 r)) / 2 f2 cancels as σ → 0, where f2 → 0: at σ = 1e-8 it
@@ -251,20 +282,5 @@ def _two_bounce_inverse(out: Array, r: Array, f1: Array, f2: Array, _g: Array) -
     np.divide(r, out, out=out)
 
 
-def _closure_inverse(out: Array, r: Array, f1: Array, f2: Array, g: Array) -> None:
-    """ρ = r / (b/2 + √(b²/4 + a r)), a = f2 - g f1, b = f1 + g r: again the root that adds."""
-    half_b = g / 2 * r
-    half_b += f1 / 2
-    np.multiply(half_b, half_b, out=out)
-    out += (f2 - g * f1) * r
-    np.sqrt(out, out=out)
-    out += half_b
-    np.divide(r, out, out=out)
-
-
-_FORWARD = {"first-order": _first_order, "two-bounce": _two_bounce, "closure": _closure}
-_INVERSE = {
-    "first-order": _first_order_inverse,
-    "two-bounce": _two_bounce_inverse,
-    "closure": _closure_inverse,
-}
+_FORWARD = {"first-order": _first_order, "two-bounce": _two_bounce}
+_INVERSE = {"first-order": _first_order_inverse, "two-bounce": _two_bounce_inverse}
