@@ -36,11 +36,14 @@ def main(folder: Path) -> int:
     importlib.import_module("bpy")
     extension.register()
     say("Rough Spectra demo: 24 ColorChecker presets at σ = 0°, 15°, 30° and 45°")
-    blend, strips = materials(folder)
-    result = bake(folder, [material for _, row in strips for material in row])
-    status = check(blend, result)
-    picture(folder)
-    return status
+    try:
+        blend, strips = materials(folder)
+        result = bake(folder, [material for _, row in strips for material in row])
+        status = check(blend, result)
+        picture(folder)
+        return status
+    finally:
+        extension.unregister()  # the bpy module of 4.5 crashes at exit over what is left registered
 
 
 def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:

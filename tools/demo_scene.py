@@ -104,6 +104,9 @@ def render(scene: Any, target: Path) -> None:
     # The default denoiser takes longer than the render, for no difference one could see here.
     cycles.denoising_quality = cycles.denoising_prefilter = "FAST"
     cycles.max_bounces = cycles.diffuse_bounces = 2
+    # The time of the render would stand in the PNG, and no two files be equal.
+    for name in (name for name in dir(settings) if name.startswith("use_stamp")):
+        setattr(settings, name, False)
     settings.filepath = str(target)
     with _progress(), quiet():
         bpy.ops.render.render(write_still=True)
