@@ -33,12 +33,19 @@ def bounce_coefficients(theta_i, theta_r, delta_phi, sigma, *, paths, bounces=25
 
 
 def reflectance(coefficients, albedo):
-    """Sum a_k ρ^k; what lies beyond the last bounce is taken from a_k ~ 1/k², seen in the data."""
+    """Sum a_k ρ^k; beyond the last bounce each octave of k holds a fixed share of the one before.
+
+    The share is seen in the last two octaves. Leaving the rest out would take 1 % from white
+    facets at σ = 50°, and the law a_k ~ 1/k² would still take 0.3 %.
+    """
     count = coefficients.size
     albedo = np.asarray(albedo, dtype=float)
     powers = albedo[..., np.newaxis] ** np.arange(1, count + 1)
-    # For a_k ~ 1/k² the bounces beyond K weigh as much as those from K/2 to K.
-    beyond = coefficients[count // 2 :].sum() * albedo ** (1.5 * count)
+    last = coefficients[count // 2 :].sum()
+    before = coefficients[count // 4 : count // 2].sum()
+    share = min(last / before, 0.9) if before > 0 else 0.0
+    octave = np.arange(1, 60)
+    beyond = albedo[..., np.newaxis] ** (0.75 * count * 2.0**octave) @ (last * share**octave)
     return powers @ coefficients + beyond
 
 
