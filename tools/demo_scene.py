@@ -104,12 +104,23 @@ def render(scene: Any, target: Path) -> None:
     # The default denoiser takes longer than the render, for no difference one could see here.
     cycles.denoising_quality = cycles.denoising_prefilter = "FAST"
     cycles.max_bounces = cycles.diffuse_bounces = 2
-    # The time of the render would stand in the PNG, and no two files be equal.
-    for name in (name for name in dir(settings) if name.startswith("use_stamp")):
-        setattr(settings, name, False)
     settings.filepath = str(target)
     with _progress(), quiet():
         bpy.ops.render.render(write_still=True)
+    # Blender notes date and duration in the file, so no two would be equal.
+    target.write_bytes(_without_texts(target.read_bytes()))
+
+
+def _without_texts(png: bytes) -> bytes:
+    """Leave out the text chunks of a PNG."""
+    kept, start = [png[:8]], 8
+    while start < len(png):
+        # Length, type, data, checksum.
+        end = start + 12 + int.from_bytes(png[start : start + 4])
+        if png[start + 4 : start + 8] not in (b"tEXt", b"zTXt", b"iTXt"):
+            kept.append(png[start:end])
+        start = end
+    return b"".join(kept)
 
 
 def _tile() -> Any:
