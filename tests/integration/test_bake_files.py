@@ -5,6 +5,7 @@
 import csv
 import hashlib
 import itertools
+import json
 
 import bpy
 import numpy as np
@@ -402,3 +403,19 @@ def test_spectrum_helper_writes_what_the_reader_reads(tmp_path):
 
     samples = readers.read(spectrum_csv(tmp_path / "a.csv", "one", "two"))
     assert [sample.name for sample in samples] == ["one", "two"]
+
+
+@pytest.mark.xfail(strict=True, reason="all samples share one mesh, so Generated spans the sheet")
+def test_reading_does_not_depend_on_the_neighbors(main, tmp_path):
+    for name in ("Left", "Right"):
+        tree = rgb_material(name).node_tree
+        shader = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+        generated = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
+        tree.links.new(generated, shader.inputs["Color"])
+    base = tmp_path / "x"
+    words = ("bake", "--output", base, "--format", "csv", "--material", "Right")
+    found = []
+    for more in ((), ("--material", "Left")):
+        assert main(*words, *more).status == 0
+        found.append(json.loads((tmp_path / "x.json").read_bytes())["readings"][0])
+    assert found[0]["measured"] == found[1]["measured"]

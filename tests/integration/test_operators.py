@@ -205,6 +205,7 @@ def snapshot():
         for where, data in (("render", scene.render), ("cycles", scene.cycles), ("scene", scene))
         for prop in data.bl_rna.properties
         if prop.type not in ("COLLECTION", "POINTER")
+        and prop.identifier != "use_nodes"  # deprecated: reading it warns
     }
     return (
         blocks,
