@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A small .blend, baked once, and ways to run the command line: as a process, or in this one."""
 
+import json
 import os
 import shutil
 import subprocess
+import sys
+import textwrap
 from pathlib import Path
 
 import bpy
@@ -14,6 +17,7 @@ import rough_spectra
 from tests.integration.support import (
     COMMAND,
     ODD_NAME,
+    ROOT,
     SECONDS,
     Bake,
     Result,
@@ -72,6 +76,34 @@ def run(environment):
         return Result(done.returncode, done.stderr, done.stdout)
 
     return run
+
+
+@pytest.fixture
+def blender(environment):
+    """Run lines in a fresh Blender and give the JSON that they print last."""
+
+    def blender(lines):
+        code = START.format(tools=str(ROOT / "tools")) + textwrap.dedent(lines)
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout.splitlines()[-1])
+
+    return blender
+
+
+START = """
+import importlib, json, sys, time
+sys.path.insert(0, {tools!r})
+import bpy
+from run_command_line import load_extension
+"""
 
 
 @pytest.fixture

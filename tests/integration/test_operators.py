@@ -252,3 +252,26 @@ def test_bake_of_an_object_without_a_material_makes_none(tmp_path):
     assert "no material" in refusal(OPS.bake, filepath=str(tmp_path / "x"))
     assert len(bpy.data.materials) == 1
     assert not contents(tmp_path)
+
+
+def test_bake_on_a_full_temporary_disk_is_refused_in_a_sentence(blender):
+    """In a Blender of its own, since a limit on the size of files cannot be raised again."""
+    found = blender("""
+        import resource, signal
+        extension = load_extension()
+        extension.register()
+        material = bpy.data.materials.new("A")
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        try:
+            bpy.context.object.active_material = material
+            bpy.ops.rough_spectra.bake(filepath="no folder/x")
+            text = "baked"
+        except RuntimeError as error:
+            text = str(error)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        extension.unregister()
+        print(json.dumps(text))
+    """)
+    assert found.startswith("Error: Temporary files cannot be written")
+    assert "Traceback" not in found

@@ -2,43 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the extension adds to Blender, what it takes away again, and how long that takes."""
 
-import json
-import subprocess
-import sys
-import textwrap
 import time
 
 import bpy
 import pytest
 
-from tests.integration.support import ROOT, SECONDS, rgb_material
-
-START = """
-import importlib, json, sys, time
-sys.path.insert(0, TOOLS)
-import bpy
-from run_command_line import load_extension
-"""
-
-
-@pytest.fixture
-def blender(environment):
-    """Run lines in a fresh Blender and give the JSON that they print last."""
-
-    def blender(lines):
-        code = f"TOOLS = {str(ROOT / 'tools')!r}\n{START}\n{textwrap.dedent(lines)}"
-        done = subprocess.run(
-            [sys.executable, "-c", code],
-            env=environment,
-            capture_output=True,
-            text=True,
-            timeout=SECONDS,
-            check=False,
-        )
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout.splitlines()[-1])
-
-    return blender
+from tests.integration.support import rgb_material
 
 
 def test_register_brings_no_heavy_module_and_is_quick(blender):
