@@ -33,7 +33,7 @@ def assign(pairs: Sequence[tuple[Any, Request]], shader: nodes.Shader = "AUTO") 
     DomainError
         If a spectrum or a setting cannot be used; nothing was changed then.
     """
-    return _apply([(nodes.find(material, shader), request) for material, request in pairs], shader)
+    return _apply([(nodes.find(material, shader), request, shader) for material, request in pairs])
 
 
 def renew(materials: Iterable[Any]) -> list[Solution]:
@@ -44,22 +44,20 @@ def renew(materials: Iterable[Any]) -> list[Solution]:
     MaterialError
         If a material stores no spectrum or cannot be written; nothing was changed then.
     """
-    chosen = list(materials)
-    solutions: dict[Any, Solution] = {}
-    for shader in sorted({material.rough_spectra.shader for material in chosen}):
-        members = [m for m in chosen if m.rough_spectra.shader == shader]
-        work = [(nodes.find(m, shader), storage.load(m)) for m in members]
-        solutions.update(zip(members, _apply(work, shader), strict=True))
-    return [solutions[material] for material in chosen]
+    work = []
+    for material in materials:
+        shader = material.rough_spectra.shader
+        work.append((nodes.find(material, shader), storage.load(material), shader))
+    return _apply(work)
 
 
-def _apply(work: list[tuple[nodes.Place, Request]], shader: str) -> list[Solution]:
-    materials = [place.material for place, _ in work]
+def _apply(work: list[tuple[nodes.Place, Request, nodes.Shader]]) -> list[Solution]:
+    materials = [place.material for place, _, _ in work]
     if len(set(materials)) < len(materials):
         twice = next(m for m in materials if materials.count(m) > 1)
         msg = f"Material {twice.name!r} is named twice; give it one spectrum."
         raise MaterialError(msg)
-    for _, request in work:
+    for _, request, _ in work:
         if request.sample.instrument != "45a:0":
             msg = (
                 f"{request.sample.name!r} was read with {request.sample.instrument}; only 45a:0 "
@@ -67,8 +65,8 @@ def _apply(work: list[tuple[nodes.Place, Request]], shader: str) -> list[Solutio
             )
             raise DomainError(msg)
     space = working_space.current()
-    solutions = target.solve([request for _, request in work], space)
-    for (place, request), solution in zip(work, solutions, strict=True):
+    solutions = target.solve([request for _, request, _ in work], space)
+    for (place, request, shader), solution in zip(work, solutions, strict=True):
         red, green, blue = solution.color.tolist()
         node = nodes.write(place, (red, green, blue), solution.roughness)
         storage.store(place.material, request, shader)

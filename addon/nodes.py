@@ -122,6 +122,21 @@ def roughness_socket(node: Any) -> Any:
     return node.inputs[_ROUGHNESS_SOCKETS[node.bl_idname]]
 
 
+def disturbing_sockets(node: Any) -> list[str]:
+    """Name the sockets in use that make a Principled BSDF more than the Diffuse closure.
+
+    Empty for a Diffuse BSDF. The specular level counts, which `write` sets to 0.
+    """
+    if node.bl_idname != "ShaderNodeBsdfPrincipled":
+        return []
+    neutral = {_SPECULAR_SOCKET: 0.0} | _PURE_DIFFUSE
+    return [
+        name
+        for name, value in neutral.items()
+        if node.inputs[name].is_linked or node.inputs[name].default_value != value
+    ]
+
+
 def _refuse_read_only(material: Any) -> None:
     if material.library is not None:
         msg = (
@@ -158,35 +173,41 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
         if _is_animated(material.node_tree, node.inputs[name]):
             msg = f"{where}: {name} is animated or driven; clear that, so that it can be set."
             raise MaterialError(msg)
-    if node.bl_idname != "ShaderNodeBsdfPrincipled":
-        return
-    for name, neutral in _PURE_DIFFUSE.items():
-        socket = node.inputs[name]
-        if socket.is_linked or socket.default_value != neutral:
+    for name in disturbing_sockets(node):
+        if name in _PURE_DIFFUSE:
             msg = (
                 f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-                f"for; set it to {neutral:g}, or choose Diffuse as the shader."
+                f"for; set it to {_PURE_DIFFUSE[name]:g}, or choose Diffuse as the shader."
             )
+            raise MaterialError(msg)
+    if node.bl_idname != "ShaderNodeBsdfPrincipled":
+        return
+    for name in _PURE_DIFFUSE:
+        if _is_animated(material.node_tree, node.inputs[name]):
+            msg = f"{where}: {name} is animated or driven; clear that, or choose Diffuse."
             raise MaterialError(msg)
 
 
 def _is_animated(tree: Any, socket: Any) -> bool:
-    data = tree.animation_data
-    if data is None:
-        return False
     path = socket.path_from_id("default_value")
-    curves = list(data.drivers)
-    if data.action is not None:
-        curves += _action_curves(data)
-    return any(curve.data_path == path for curve in curves)
+    return any(curve.data_path == path for curve in _curves(tree.animation_data))
 
 
-def _action_curves(data: Any) -> list[Any]:
-    """F-curves of the action's slot."""
+def _curves(data: Any | None) -> list[Any]:
+    """Drivers, and F-curves of the action and of every strip in the NLA."""
+    if data is None:
+        return []
     from bpy_extras import anim_utils
 
-    bag = anim_utils.action_get_channelbag_for_slot(data.action, data.action_slot)
-    return [] if bag is None else list(bag.fcurves)
+    slots = [(data.action, data.action_slot)]
+    slots += [
+        (strip.action, strip.action_slot) for track in data.nla_tracks for strip in track.strips
+    ]
+    curves = list(data.drivers)
+    for action, slot in slots:
+        bag = None if action is None else anim_utils.action_get_channelbag_for_slot(action, slot)
+        curves += [] if bag is None else list(bag.fcurves)
+    return curves
 
 
 def _uses_nodes(material: Any) -> bool:
@@ -209,8 +230,10 @@ def _surface_link(output: Any | None) -> Any | None:
     socket = output.inputs["Surface"]
     while socket.is_linked:
         link = socket.links[0]
+        if link.is_muted or not link.is_valid:
+            return None
         if link.from_node.bl_idname != "NodeReroute":
-            return link if link.is_valid and not link.is_muted else None
+            return link
         socket = link.from_node.inputs[0]
     return None
 

@@ -109,6 +109,10 @@ def stale_reasons(material: Any, working_space: str) -> list[str]:
         reasons.append(f"the surface no longer comes from {stamp.node!r}")
     elif not reasons and _edited(node, stamp):
         reasons.append("color or roughness was edited by hand")
+    if node is not None:
+        if node.mute:
+            reasons.append(f"{node.name!r} is muted")
+        reasons += [f"{name} is in use" for name in nodes.disturbing_sockets(node)]
     return reasons
 
 

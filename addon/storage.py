@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..core.errors import MaterialError
+from ..core.errors import InputError, MaterialError
 from .properties import SCHEMA
 from .sample import Sample
 from .stamp import inputs_digest, sigma
@@ -75,7 +75,7 @@ def load(material: Any) -> Request:
             source=group.source,
             **(plain | pairs),
         )
-    except (ValueError, KeyError, TypeError) as error:
+    except (InputError, ValueError, KeyError, TypeError) as error:
         msg = (
             f"Material {material.name!r}: its stored spectrum cannot be read ({error}); assign "
             "the sample again."
