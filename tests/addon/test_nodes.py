@@ -1,0 +1,308 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a material's color is written, on trees as people leave them, and what is refused."""
+
+import bpy
+import pytest
+from rough_spectra.addon import nodes
+from rough_spectra.core.errors import MaterialError
+
+COLOR, ROUGHNESS = (0.25, 0.5, 0.75), 0.625  # exact in single precision
+
+
+def surface(material):
+    """The node that Cycles takes the surface from."""
+    return material.node_tree.get_output_node("CYCLES").inputs["Surface"].links[0].from_node
+
+
+def described(material):
+    """Everything about a tree that an assignment could change."""
+    tree = material.node_tree
+    if tree is None:
+        return None
+    return (
+        getattr(material, "use_nodes", None) if bpy.app.version < (5, 0, 0) else None,
+        sorted(
+            (
+                node.name,
+                node.bl_idname,
+                node.mute,
+                tuple(node.location),
+                tuple((s.identifier, value(s)) for s in node.inputs if hasattr(s, "default_value")),
+            )
+            for node in tree.nodes
+        ),
+        sorted(
+            (link.from_node.name, link.to_node.name, link.to_socket.identifier, link.is_muted)
+            for link in tree.links
+        ),
+    )
+
+
+def value(socket):
+    content = socket.default_value
+    return str(tuple(content) if hasattr(content, "__len__") else content)
+
+
+def refused(material, sentence, shader="AUTO"):
+    before = described(material)
+    with pytest.raises(MaterialError) as caught:
+        nodes.find(material, shader)
+    told = str(caught.value)
+    assert sentence in told
+    assert repr(material.name) in told
+    assert told.endswith(".")
+    assert described(material) == before
+
+
+def written(material, shader="AUTO"):
+    """Find, see that finding changed nothing, and write."""
+    before = described(material)
+    place = nodes.find(material, shader)
+    assert described(material) == before
+    name = nodes.write(place, COLOR, ROUGHNESS)
+    node = material.node_tree.nodes[name]
+    assert surface(material) == node
+    assert tuple(nodes.color_socket(node).default_value)[:3] == COLOR
+    assert nodes.roughness_socket(node).default_value == ROUGHNESS
+    return node
+
+
+def test_diffuse_made_by_hand_is_set_where_it_is(make_material):
+    material = make_material(Color=(0.1, 0.2, 0.3, 0.5))
+    node = written(material)
+    assert node.bl_idname == "ShaderNodeBsdfDiffuse"
+    assert node.inputs["Color"].default_value[3] == 0.5
+    assert len(material.node_tree.nodes) == 2
+
+
+def test_principled_made_by_hand_is_set_without_specular(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled", Roughness=0.2)
+    node = written(material)
+    assert node.bl_idname == "ShaderNodeBsdfPrincipled"
+    assert node.inputs["Specular IOR Level"].default_value == 0
+    # The gloss that the user chose is not ours to change.
+    assert node.inputs["Roughness"].default_value == pytest.approx(0.2)
+    assert len(material.node_tree.nodes) == 2
+
+
+def test_new_material_gets_a_shader():
+    material = bpy.data.materials.new("new")
+    node = written(material)
+    expected = "Diffuse" if bpy.app.version < (5, 0, 0) else "Principled"
+    assert expected in node.bl_idname
+
+
+@pytest.mark.parametrize("shader", ["DIFFUSE", "PRINCIPLED"])
+def test_empty_tree_gets_output_and_shader(make_material, shader):
+    material = make_material()
+    material.node_tree.nodes.clear()
+    node = written(material, shader)
+    assert node.bl_idname.lower().endswith(shader.lower())
+    assert {n.bl_idname for n in material.node_tree.nodes} == {
+        node.bl_idname,
+        "ShaderNodeOutputMaterial",
+    }
+
+
+def test_shader_without_an_output_is_kept_and_a_new_one_linked(make_material):
+    material = make_material()
+    tree = material.node_tree
+    tree.nodes.remove(tree.get_output_node("CYCLES"))
+    written(material)
+    assert len(tree.nodes) == 3
+
+
+def test_unlinked_output_gets_a_diffuse(make_material):
+    material = make_material()
+    tree = material.node_tree
+    tree.links.clear()
+    old = tree.nodes["Diffuse BSDF"]
+    node = written(material)
+    assert node != old
+    assert node.location.x < tree.get_output_node("CYCLES").location.x + 1
+
+
+@pytest.mark.skipif(bpy.app.version >= (5, 0, 0), reason="all materials have nodes from 5.0 on")
+def test_material_without_nodes_gets_them():
+    material = bpy.data.materials.new("plain")
+    assert not material.use_nodes
+    written(material)
+    material.use_nodes = False
+    written(material)
+    assert material.use_nodes
+
+
+@pytest.mark.parametrize("shader", ["DIFFUSE", "PRINCIPLED"])
+def test_asking_for_the_other_shader_keeps_the_old_one_in_the_tree(make_material, shader):
+    other = "ShaderNodeBsdfPrincipled" if shader == "DIFFUSE" else "ShaderNodeBsdfDiffuse"
+    material = make_material(node=other)
+    old = surface(material)
+    node = written(material, shader)
+    assert node.bl_idname != other
+    assert node.location != old.location
+    assert len(material.node_tree.nodes) == 3
+    # Once it is there it is used again.
+    assert written(material, shader) == node
+
+
+def test_reroutes_are_seen_through(make_material):
+    material = make_material()
+    tree = material.node_tree
+    output, shader = tree.get_output_node("CYCLES"), surface(material)
+    first, second = tree.nodes.new("NodeReroute"), tree.nodes.new("NodeReroute")
+    tree.links.new(shader.outputs[0], first.inputs[0])
+    tree.links.new(first.outputs[0], second.inputs[0])
+    tree.links.new(second.outputs[0], output.inputs["Surface"])
+    assert nodes.find(material) == nodes.Place(material, shader.name, "")
+
+
+@pytest.mark.parametrize("muted", [0, 1])
+def test_muted_link_counts_as_none_also_beside_a_reroute(make_material, muted):
+    material = make_material()
+    tree = material.node_tree
+    output, shader = tree.get_output_node("CYCLES"), surface(material)
+    reroute = tree.nodes.new("NodeReroute")
+    links = [
+        tree.links.new(shader.outputs[0], reroute.inputs[0]),
+        tree.links.new(reroute.outputs[0], output.inputs["Surface"]),
+    ]
+    links[muted].is_muted = True
+    assert nodes.find(material).make == "ShaderNodeBsdfDiffuse"
+    assert nodes.shader_node(material) is None
+
+
+def test_the_output_that_cycles_uses_is_the_one(make_material):
+    material = make_material()
+    tree = material.node_tree
+    eevee = tree.nodes.new("ShaderNodeOutputMaterial")
+    eevee.target = "EEVEE"
+    tree.links.new(tree.nodes.new("ShaderNodeEmission").outputs[0], eevee.inputs["Surface"])
+    assert nodes.find(material).node_name == "Diffuse BSDF"
+    cycles = tree.nodes.new("ShaderNodeOutputMaterial")
+    cycles.target = "CYCLES"
+    principled = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    tree.links.new(principled.outputs[0], cycles.inputs["Surface"])
+    assert nodes.find(material).node_name == principled.name
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["ShaderNodeMixShader", "ShaderNodeEmission", "ShaderNodeBsdfTranslucent", "ShaderNodeGroup"],
+)
+@pytest.mark.parametrize("shader", ["AUTO", "DIFFUSE"])
+def test_other_shaders_are_refused(make_material, kind, shader):
+    material = make_material()
+    tree = material.node_tree
+    node = tree.nodes.new(kind)
+    if kind == "ShaderNodeGroup":
+        node.node_tree = bpy.data.node_groups.new("group", "ShaderNodeTree")
+        node.node_tree.interface.new_socket(
+            "Surface", in_out="OUTPUT", socket_type="NodeSocketShader"
+        )
+    tree.links.new(node.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    refused(material, f"its surface comes from {node.name!r}", shader)
+    refused(material, "link a Diffuse or Principled BSDF to the material output", shader)
+
+
+@pytest.mark.parametrize(
+    ("kind", "socket"),
+    [
+        ("ShaderNodeBsdfDiffuse", "Color"),
+        ("ShaderNodeBsdfDiffuse", "Roughness"),
+        ("ShaderNodeBsdfPrincipled", "Base Color"),
+        ("ShaderNodeBsdfPrincipled", "Diffuse Roughness"),
+        ("ShaderNodeBsdfPrincipled", "Specular IOR Level"),
+    ],
+)
+def test_linked_animated_and_driven_sockets_are_refused(make_material, kind, socket):
+    def fresh():
+        material = make_material(node=kind)
+        return material, material.node_tree, surface(material).inputs[socket]
+
+    material, tree, target = fresh()
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], target)
+    refused(material, f"{socket} comes from another node; unlink it")
+
+    material, _, target = fresh()
+    target.keyframe_insert("default_value", frame=1)
+    refused(material, f"{socket} is animated or driven; clear that")
+
+    material, _, target = fresh()
+    target.driver_add("default_value")
+    refused(material, f"{socket} is animated or driven; clear that")
+
+    # An action may have been pushed down into the NLA.
+    material, tree, target = fresh()
+    target.keyframe_insert("default_value", frame=1)
+    data = tree.animation_data
+    data.nla_tracks.new().strips.new("strip", 1, data.action)
+    data.action = None
+    refused(material, f"{socket} is animated or driven; clear that")
+
+
+def test_animation_of_another_socket_does_not_matter(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled")
+    surface(material).inputs["Roughness"].keyframe_insert("default_value", frame=1)
+    written(material)
+
+
+def test_animation_that_would_add_light_later_is_refused(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled")
+    surface(material).inputs["Metallic"].keyframe_insert("default_value", frame=1)
+    refused(material, "Metallic is animated or driven")
+    written(material, "DIFFUSE")
+
+
+def test_muted_shader_is_refused(make_material):
+    material = make_material()
+    surface(material).mute = True
+    refused(material, "is muted; unmute it first")
+
+
+def test_linked_socket_that_adds_light_is_refused(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled")
+    tree = material.node_tree
+    tree.links.new(
+        tree.nodes.new("ShaderNodeTexNoise").outputs[0], surface(material).inputs["Metallic"]
+    )
+    refused(material, "Metallic is in use, which adds light")
+
+
+def test_grease_pencil_material_is_refused():
+    material = bpy.data.materials.new("pencil")
+    bpy.data.materials.create_gpencil_data(material)
+    refused(material, "is for Grease Pencil; choose a surface material")
+
+
+@pytest.fixture
+def library(make_material, tmp_path):
+    """A library file with a material and an object that uses it."""
+    material = make_material("Plaster")
+    mesh = bpy.data.meshes.new("Wall")
+    mesh.materials.append(material)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new("Wall", mesh))
+    path = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return path
+
+
+def test_linked_material_is_refused_and_stays(library):
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.materials = ["Plaster"]
+    (material,) = wanted.materials
+    refused(material, f"is linked from {str(library)!r}; make it local first")
+
+
+def test_override_is_refused_and_stays(library):
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.materials = ["Plaster"]
+    (linked,) = wanted.materials
+    refused(linked.override_create(), "is a library override, whose nodes Blender resets on load")
+
+
+def test_local_copy_of_a_linked_material_is_written(library):
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.materials = ["Plaster"]
+    written(wanted.materials[0].copy())
