@@ -240,7 +240,10 @@ def command_docs(_options: argparse.Namespace) -> int:
     """Build the manual into site/; a dead link fails."""
     script("mkdocs.yml")
     site = ROOT / "site"
-    return call(module(prepare_tools(), "mkdocs", "build", "--strict", "--site-dir", site))
+    return call(
+        module(prepare_tools(), "mkdocs", "build", "--strict", "--site-dir", site),
+        NO_MKDOCS_2_WARNING="1",  # an advertisement of some thirty lines
+    )
 
 
 def command_setup(_options: argparse.Namespace) -> int:

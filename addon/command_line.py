@@ -50,6 +50,8 @@ def main(arguments: Sequence[str]) -> int:
     try:
         if options.blend is not None:
             _open(options.blend)
+        else:
+            _check_opened()
         return int(options.run(options))
     except CancelledError as error:
         status, sentence = _INTERRUPTED, str(error)
@@ -102,6 +104,22 @@ def _open(path: Path) -> None:
     except RuntimeError as error:
         msg = f"{path} cannot be opened as a .blend ({_one_line(error)}); check the file."
         raise InputError(msg) from error
+
+
+def _check_opened() -> None:
+    """Refuse to go on when Blender could not open the file named before --command.
+
+    Blender itself says so among other lines and continues with an empty file.
+    """
+    import bpy
+
+    from ..core.errors import InputError
+
+    words = sys.argv[: sys.argv.index("--command")] if "--command" in sys.argv else []
+    named = [word for word in words[1:] if word.endswith(".blend")]
+    if named and not bpy.data.filepath:
+        msg = f"{named[-1]} could not be opened by Blender; check the path before --command."
+        raise InputError(msg)
 
 
 def _one_line(error: Exception) -> str:
