@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an instrument reads from a rough surface, and the albedo behind a reading.
 
-At 45°/0° the Oren-Nayar model shrinks to r = f1 ρ + f2 ρ², with f1 and f2 functions of σ alone.
-Models, cheapest first:
+Whatever an instrument averages (see `core.instruments`), the Oren-Nayar model shrinks to
+r = f1 ρ + f2 ρ², with f1 and f2 functions of σ alone, and the other models to as little (see
+`core.instrument_curves`). Models, cheapest first:
 
 first-order   r = f1 ρ
 two-bounce    r = f1 ρ + f2 ρ²                     the published model
@@ -22,23 +23,26 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, vcavity_tables
+from . import closure, instrument_curves, instruments, vcavity_series
 from .arrays import Array, precision, slope_deviation, spectrum
 from .blocks import apply_in_blocks
 from .errors import DomainError
-from .oren_nayar import first_bounce_at_normal, second_bounce_at_normal
 
 Model = Literal["first-order", "two-bounce", "closure", "reference"]
 MODELS: tuple[Model, ...] = get_args(Model)
-INSTRUMENTS = ("45a:0",)
-"""Geometries known so far: ring light at 45°, view along the normal."""
+INSTRUMENTS = tuple(instruments.REGISTRY)
+"""Names of all instruments; the first, 45a:0, is meant wherever none is named."""
 
-INSTRUMENT_ANGLES = {"45a:0": (np.pi / 4, 0.0, 0.0)}
-"""θi, θr and Δφ of each ideal instrument, radians."""
+INSTRUMENT_ANGLES = {
+    name: instrument.angles
+    for name, instrument in instruments.REGISTRY.items()
+    if instrument.angles is not None
+}
+"""θi, θr and Δφ, radians, of the instruments that light from one direction and look from one."""
 
 
 def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array, Array]:
-    """Weights f1 and f2 of ρ and ρ² in a reading.
+    """Weights f1 and f2 of ρ and ρ² in a reading of the two-bounce model.
 
     Parameters
     ----------
@@ -57,14 +61,7 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
     DomainError
         If σ is out of range or the instrument unknown.
     """
-    _check_instrument(instrument)
-    dtype = precision(sigma)
-    s2 = slope_deviation(sigma, dtype) ** 2
-    # numpy 1.26 promotes scalars on the way.
-    return (
-        np.asarray(first_bounce_at_normal(s2), dtype),
-        np.asarray(second_bounce_at_normal(s2), dtype),
-    )
+    return instrument_curves.first_and_second(sigma, instrument)
 
 
 def bounce_ratio(sigma: npt.ArrayLike) -> Array:
@@ -138,15 +135,14 @@ def from_albedo(
         If σ is out of range, or model or instrument unknown.
     """
     rho = spectrum(albedo, "the albedo")
-    # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
-    with np.errstate(invalid="ignore"):
-        if model == "reference":
-            _check_instrument(instrument)
-            return vcavity_tables.reading_from_albedo(rho, sigma)
-        if model == "closure":
-            _check_instrument(instrument)
-            return closure.from_albedo(rho, sigma)
-        return _evaluate(_FORWARD, rho, sigma, model, instrument)
+    if model == "reference":
+        rows = instrument_curves.series(instrument).rows(sigma)
+        with np.errstate(invalid="ignore"):  # ∞ - ∞ is NaN, and needs no warning beside it
+            return vcavity_series.evaluate(rows, rho)
+    if model == "closure":
+        found = instrument_curves.closure_coefficients(sigma, instrument)
+        return closure._over_blocks(closure._forward, found, rho)
+    return _evaluate(_FORWARD, rho, sigma, model, instrument)
 
 
 def to_albedo(
@@ -179,19 +175,20 @@ def to_albedo(
     """
     r = spectrum(reading, "the reading")
     if model == "reference":
-        _check_instrument(instrument)
-        return vcavity_tables.albedo_from_reading(r, sigma)
+        return vcavity_series.invert(instrument_curves.series(instrument).rows(sigma), r)
     if model == "closure":
-        _check_instrument(instrument)
-        return closure.to_albedo(r, sigma)
-    with np.errstate(invalid="ignore"):
-        return _evaluate(_INVERSE, r, sigma, model, instrument)
+        found = instrument_curves.closure_coefficients(sigma, instrument)
+        return closure._over_blocks(closure._inverse, found, r)
+    return _evaluate(_INVERSE, r, sigma, model, instrument)
 
 
 def white_reading(
     sigma: npt.ArrayLike, model: str = "two-bounce", instrument: str = "45a:0"
 ) -> Array:
     """Give the reading of white facets (ρ = 1), the largest one at this roughness.
+
+    In a single direction it may exceed 1, because white rough facets send more light back toward
+    its source than a white diffuser does, and less elsewhere.
 
     Returns an array of the shape of `sigma`; arguments and errors as in `from_albedo`.
     """
@@ -200,7 +197,7 @@ def white_reading(
 
 
 def sigma_max(peak_reading: npt.ArrayLike) -> Array:
-    """Largest roughness at which the two-bounce model still reaches a peak reading.
+    """Largest roughness at which the two-bounce model still reaches a peak reading at 45a:0.
 
     The positive root σ² = x of (.67 - r) x² + (.46 (1 - r) - .0089) x + .0429 (1 - r) = 0, which
     is f1 + f2 = r multiplied out.
@@ -229,13 +226,6 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
     return np.asarray(np.where(r <= 1, sigma, np.nan), dtype)
 
 
-def _check_instrument(instrument: str) -> None:
-    if instrument not in INSTRUMENTS:
-        known = ", ".join(INSTRUMENTS)
-        msg = f"Instrument {instrument!r} is not known; choose one of: {known}."
-        raise DomainError(msg)
-
-
 def _evaluate(
     formulas: dict[str, Callable[..., None]],
     values: Array,
@@ -251,7 +241,9 @@ def _evaluate(
     f1, f2 = coefficients(per_spectrum, instrument)
     shape = np.broadcast_shapes(values.shape, per_spectrum.shape)
     out = np.empty(shape, values.dtype)
-    apply_in_blocks(formulas[model], out, values, f1, f2)
+    # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
+    with np.errstate(invalid="ignore"):
+        apply_in_blocks(formulas[model], out, values, f1, f2)
     return out
 
 
