@@ -137,8 +137,8 @@ def build(refinement: int = 1) -> dict[str, Instrument]:
 
 def _direction(name: str, title: str, light: int, view: int, azimuth: int) -> Instrument:
     """Make an instrument of one geometry, given in degrees."""
-    angles = (np.radians([float(angle)]) for angle in (light, view, azimuth))
-    return Instrument(name, title, *angles, np.ones(1))
+    theta_i, theta_r, delta_phi = np.radians([[float(light)], [float(view)], [float(azimuth)]])
+    return Instrument(name, title, theta_i, theta_r, delta_phi, np.ones(1))
 
 
 def _annulus(inner: float, outer: float, nodes: int) -> _Rule:
