@@ -9,6 +9,7 @@ full disk, a kill or a crash leaves the old files as they were.
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,12 +17,16 @@ from pathlib import Path
 
 from ..core.errors import OutputError
 
+_NAME_SHARE = 50
+"""Characters of a target's name in its temporary one, which may not exceed 255 bytes."""
+
 
 class Publication:
     """A set of files that appear together. Made by `publication`."""
 
     def __init__(self) -> None:
         self._staged: dict[Path, Path] = {}
+        self._kept: list[Path] = []
 
     def stage(self, target: Path) -> Path:
         """Give the path to write to in place of `target`.
@@ -37,11 +42,13 @@ class Publication:
                 msg = f"{target} is a folder; choose a file name."
                 raise OutputError(msg)
             handle, name = tempfile.mkstemp(
-                prefix=f".{target.name}.", suffix=".part", dir=target.parent
+                prefix=f".{target.name[:_NAME_SHARE]}.", suffix=".part", dir=target.parent
             )
         except OSError as error:
             raise _cannot_write(target, error) from error
         os.close(handle)
+        if target in self._staged:
+            self._staged[target].unlink(missing_ok=True)
         self._staged[target] = Path(name)
         return Path(name)
 
@@ -67,14 +74,30 @@ class Publication:
                 part.chmod(0o666 & ~_umask())
             except OSError as error:
                 raise _cannot_write(target, error) from error
+        done: list[tuple[Path, Path | None]] = []
         for target, part in self._staged.items():
             try:
+                done.append((target, self._keep_old(target)))
                 part.replace(target)
             except OSError as error:
+                for earlier, old in done:
+                    _bring_back(earlier, old)
                 raise _cannot_write(target, error) from error
 
+    def _keep_old(self, target: Path) -> Path | None:
+        """Give the file at `target` a second name, or None where there is none."""
+        if not target.is_file():
+            return None
+        old = self._staged[target].with_suffix(".old.part")
+        self._kept.append(old)
+        try:
+            os.link(target, old)
+        except OSError:  # a file system without hard links
+            shutil.copy2(target, old)
+        return old
+
     def _discard(self) -> None:
-        for part in self._staged.values():
+        for part in (*self._staged.values(), *self._kept):
             part.unlink(missing_ok=True)
 
 
@@ -113,6 +136,14 @@ def publication() -> Iterator[Publication]:
         files._finish()
     finally:
         files._discard()
+
+
+def _bring_back(target: Path, old: Path | None) -> None:
+    """Undo a replacement, because a later one of the same set failed."""
+    if old is not None:
+        old.replace(target)
+    elif target.is_file():
+        target.unlink()
 
 
 def _cannot_write(target: Path, error: OSError) -> OutputError:

@@ -141,8 +141,10 @@ class Measurement:
 
     def _start(self, materials: Sequence[Any], geometries: Sequence[Geometry]) -> None:
         blend = self._folder / "materials.blend"
+        # Blender leaves linked data out unless local data use it: the worker links it anew.
+        local = {material for material in materials if material.library is None}
         bpy.data.libraries.write(
-            str(blend), set(materials), fake_user=True, path_remap="ABSOLUTE", compress=False
+            str(blend), local, fake_user=True, path_remap="ABSOLUTE", compress=False
         )
         job = {
             "blend": blend.name,

@@ -56,13 +56,11 @@ def find(name: str, library: str | None) -> Any:
     """Give a material by name and the path of the library it is linked from."""
     if library is None:
         return bpy.data.materials[name, None]
-    for material in bpy.data.materials:
-        linked = material.library
-        if linked is None or material.name != name:
-            continue
-        if os.path.samefile(bpy.path.abspath(linked.filepath), library):
-            return material
-    raise KeyError(name)
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.materials = [name]
+    if wanted.materials[0] is None:
+        raise KeyError(f"{name} in {library}")
+    return wanted.materials[0]
 
 
 def build(materials: list[Any]) -> tuple[Any, Any, Any]:
