@@ -7,21 +7,44 @@ first-order   r = F1 ρ                             light that leaves after one 
 two-bounce    r = F1 ρ + F2 ρ²                     the published model: `core.oren_nayar`
 closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: `core.closure`
 reference     r = Σ a_k ρ^k                        what the others approximate: `core.vcavity`
+
+`choose_model` finds the cheapest rung that is good enough for a material, `choose_shader` the
+cheaper of Blender's two materials. Both err on the accurate side: what the yardstick itself may
+miss is added to every predicted error.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, oren_nayar, vcavity
+from . import closure, oren_nayar, vcavity, yardstick
 from .arrays import Array, polar_angle, slope_deviation, spectrum
+from .choice import SHADERS, Choice, cheapest, choose_shader
 from .errors import DomainError
+
+__all__ = [
+    "RUNGS",
+    "SHADERS",
+    "Choice",
+    "Difference",
+    "choose_model",
+    "choose_shader",
+    "reflectance",
+]
 
 RUNGS = ("lambert", "first-order", "two-bounce", "closure", "reference")
 """Names of the models, cheapest first."""
+
+_APPROXIMATE = RUNGS[:-1]
+
+_CHUNK = 1 << 16
+"""Values of spectra (materials · geometries · bands) held at once: 0.5 MB an array."""
+
+Difference = Callable[[Array, Array, Array], Array]
+"""Color difference of XYZ (..., 3) and XYZ (..., 3) under the white XYZ (3,): shape (...)."""
 
 
 def reflectance(
@@ -60,6 +83,123 @@ def reflectance(
         msg = f"Model {model!r} is not known; choose one of {', '.join(RUNGS)}."
         raise DomainError(msg)
     return _FORMULAS[model](albedo, theta_i, theta_r, delta_phi, sigma)
+
+
+def choose_model(
+    albedos: npt.ArrayLike,
+    sigma: npt.ArrayLike,
+    geometries: Sequence[npt.ArrayLike],
+    lights: Sequence[npt.ArrayLike],
+    tolerance: npt.ArrayLike = 1.0,
+    *,
+    difference: Difference,
+    unit: str = "ΔE00",
+) -> list[Choice]:
+    """Choose for each material the cheapest rung that is good enough in its scene.
+
+    The yardstick is `core.yardstick`, the tabulated reference. A rung's predicted error is its
+    color difference from it, plus the one that the error of the table itself may amount to, in
+    the worst of all directions and lights.
+
+    Parameters
+    ----------
+    albedos
+        ρ(λ), shape (materials, bands).
+    sigma
+        Roughness, radians in [0, π/2], shape (materials,) or a scalar.
+    geometries
+        θi, θr and Δφ that occur, radians, each of shape (geometries,), or
+        (materials, geometries) where every material has a scene of its own; scenes with fewer
+        directions are filled up with NaN.
+    lights
+        Matrices (bands, 3) that turn reflectance into XYZ; column sums are the white point.
+    tolerance
+        Largest color difference allowed, shape (materials,) or a scalar.
+    difference
+        See `Difference`. A call for many materials costs a fraction of many calls.
+    unit
+        What the reason calls a difference.
+
+    Returns
+    -------
+    One `Choice` a material.
+
+    Raises
+    ------
+    DomainError
+        If an angle lies outside its range, or there is no light or no direction.
+    """
+    rho = np.atleast_2d(spectrum(albedos, "the albedo")).astype(np.float64, copy=False)
+    count, bands = rho.shape
+    spread = np.broadcast_to(np.asarray(sigma, np.float64), (count,))
+    allowed = np.broadcast_to(np.asarray(tolerance, np.float64), (count,))
+    angles = np.broadcast_arrays(*(np.asarray(angle, np.float64) for angle in geometries))
+    occurs = np.broadcast_to(np.isfinite(angles).all(axis=0), (count, angles[0].shape[-1]))
+    directions = occurs.sum(axis=-1)
+    if not lights or not directions.all():
+        msg = "A choice needs at least one light, and one direction for every material."
+        raise DomainError(msg)
+    matrices = [np.asarray(light, np.float64) for light in lights]
+
+    errors = np.empty((len(_APPROXIMATE), count))
+    step = max(1, _CHUNK // (angles[0].shape[-1] * bands))
+    for start in range(0, count, step):
+        part = slice(start, start + step)
+        own = [angle[part] if angle.ndim > 1 else angle for angle in angles]
+        found = _predict(rho[part], spread[part], own, matrices, difference)
+        # What cannot be compared is not taken for equal.
+        found = np.where(np.isfinite(found), found, np.inf)
+        errors[:, part] = np.where(occurs[part], found, 0).max(axis=-1)
+    errors[:, spread == 0] = 0
+    return [
+        cheapest(
+            dict(zip(RUNGS, (*errors[:, i].tolist(), 0.0), strict=True)),
+            float(allowed[i]),
+            int(directions[i]),
+            len(matrices),
+            unit,
+        )
+        for i in range(count)
+    ]
+
+
+def _predict(
+    rho: Array,
+    sigma: Array,
+    geometries: Sequence[Array],
+    lights: Sequence[Array],
+    difference: Difference,
+) -> Array:
+    """Largest error over the lights, shape (rungs, materials, geometries), NaN where unknown."""
+    light, view, azimuth = geometries
+    spread = sigma[:, np.newaxis]
+    missed = yardstick.bound(light, view, azimuth, spread)
+    # Beyond its last node nothing is known and the bound is infinite; F1 there may be, too.
+    light, view = (np.minimum(angle, yardstick.LARGEST_ANGLE) for angle in (light, view))
+    truth = yardstick.reflectance(rho, light, view, azimuth, sigma)
+    f1, f2 = oren_nayar.factors(light, view, azimuth, spread)
+    closed = closure.reflectance(rho[:, np.newaxis], light, view, azimuth, spread)
+    weights = np.concatenate(lights, axis=1)
+    # XYZ is linear in reflectance: two colors a material serve all directions of three models.
+    flat, squared = (color[:, np.newaxis] for color in (rho @ weights, (rho * rho) @ weights))
+    single = f1[..., np.newaxis] * flat
+    wanted = truth @ weights
+    margin = np.where(np.isfinite(missed), missed, 0)[..., np.newaxis]
+    seen = np.stack(
+        (
+            np.broadcast_to(flat, wanted.shape),
+            single,
+            single + f2[..., np.newaxis] * squared,
+            closed @ weights,
+            wanted * (1 + margin),
+        )
+    )
+    worst = np.zeros((len(_APPROXIMATE), *missed.shape))
+    for index, matrix in enumerate(lights):
+        of_light = np.s_[..., 3 * index : 3 * index + 3]
+        found = difference(seen[of_light], wanted[of_light], matrix.sum(axis=0))
+        worst = np.maximum(worst, found[:-1] + found[-1])
+    return np.where(np.isfinite(missed), worst, np.inf)
 
 
 def _lambert(

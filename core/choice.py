@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The cheapest that is good enough, with the reason in words.
+
+Takes color differences that are known already: `core.ladder.choose_model` predicts those of the
+models, `addon.target` those of Blender's materials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+SHADERS = ("lambert", "rough")
+"""Blender's materials: the Diffuse BSDF with roughness 0 and with the matched one."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The cheapest that is good enough.
+
+    Attributes
+    ----------
+    model
+        One of `core.ladder.RUNGS`, or of `SHADERS`.
+    error
+        Its predicted largest color difference from the reference.
+    errors
+        The same for each that was looked at, cheapest first. Infinite where nothing is known.
+    reason
+        One sentence for a person.
+    """
+
+    model: str
+    error: float
+    errors: Mapping[str, float]
+    reason: str
+
+
+def choose_shader(
+    errors_lambert: npt.ArrayLike,
+    errors_rough: npt.ArrayLike,
+    tolerance: float = 1.0,
+    *,
+    unit: str = "ΔE00",
+) -> Choice:
+    """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
+
+    Parameters
+    ----------
+    errors_lambert, errors_rough
+        Color differences of the two from the target, over the directions and lights that occur,
+        any shape.
+    tolerance
+        Largest difference allowed.
+    unit
+        What the reason calls a difference.
+
+    Returns
+    -------
+    The cheaper one that is good enough; if none is, the closer one, and the reason says so.
+    """
+    lambert, rough = (
+        float(np.max(np.where(np.isfinite(e), e, np.inf)))
+        for e in (np.asarray(errors_lambert), np.asarray(errors_rough))
+    )
+    errors = dict(zip(SHADERS, (lambert, rough), strict=True))
+    limit = f"{tolerance:g}"
+    if lambert <= tolerance:
+        reason = f"lambert: at most {unit} {_number(lambert, tolerance)} off, within {limit}."
+        return Choice("lambert", lambert, errors, reason)
+    if rough <= tolerance:
+        reason = (
+            f"rough: at most {unit} {_number(rough, tolerance)} off, within {limit}; "
+            f"lambert would be off by {_number(lambert, tolerance)}."
+        )
+        return Choice("rough", rough, errors, reason)
+    model = "lambert" if lambert <= rough else "rough"
+    other = SHADERS[1 - SHADERS.index(model)]
+    reason = (
+        f"{model}: up to {unit} {_number(errors[model], tolerance)} off, more than {limit}, and "
+        f"{other} would be off by {_number(errors[other], tolerance)}: neither suffices."
+    )
+    return Choice(model, errors[model], errors, reason)
+
+
+def cheapest(
+    errors: Mapping[str, float], tolerance: float, directions: int, lights: int, unit: str
+) -> Choice:
+    """Choose the first rung whose error is within the tolerance.
+
+    Parameters
+    ----------
+    errors
+        Predicted error of each rung, cheapest first; that of the last, the reference, is 0.
+    tolerance
+        Largest error allowed.
+    directions, lights
+        How many the errors are the largest of.
+    unit
+        What the reason calls a difference.
+    """
+    rungs = list(errors)
+    model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])
+    below = rungs[rungs.index(model) - 1] if model != rungs[0] else None
+    where = f"over {_plural(directions, 'direction')} and {_plural(lights, 'light')}"
+    limit = f"{tolerance:g}"
+    if model == rungs[-1]:
+        best = errors[rungs[-2]]
+        reason = (
+            f"{model}: {below} may be off by {unit} {_number(best, tolerance)} {where}, "
+            f"more than {limit}."
+            if np.isfinite(best)
+            else f"{model}: the error of {below} is not known {where}; some "
+            "directions lie beyond what is tabulated."
+        )
+    elif not any(errors.values()):
+        reason = f"{model}: exact, because the surface is level (σ = 0)."
+    else:
+        reason = (
+            f"{model}: at most {unit} {_number(errors[model], tolerance)} {where}, within {limit}"
+        )
+        if below is not None:
+            reason += f"; {below} would be off by {_number(errors[below], tolerance)}"
+        reason += "."
+    return Choice(model, errors[model], errors, reason)
+
+
+def _number(error: float, tolerance: float) -> str:
+    """Two digits, and four where two would print the error as the tolerance it isn't."""
+    if not np.isfinite(error):
+        return "an unknown amount"
+    short = f"{error:.2f}"
+    return f"{error:.4f}" if short == f"{tolerance:.2f}" else short
+
+
+def _plural(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
