@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of docs/instruments.md is what this code computes, and its page names what there is."""
+
+import csv
+import importlib.util
+from pathlib import Path
+
+import pytest
+from rough_spectra.core import reading
+
+ROOT = Path(__file__).resolve().parents[2]
+AGAIN = "The page is out of date: run python3 tools/instruments_table.py"
+
+
+def test_table_and_data_are_those_of_this_code():
+    path = ROOT / "tools" / "instruments_table.py"
+    spec = importlib.util.spec_from_file_location("instruments_table", path)
+    table = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(table)
+    found = table.rows()
+    with table.DATA.open(encoding="utf-8", newline="") as file:
+        next(file)
+        kept = list(csv.DictReader(file))
+    assert len(kept) == len(found), AGAIN
+    for before, now in zip(kept, found, strict=True):
+        assert before["instrument"] == now["instrument"], AGAIN
+        for name in ("mean_lightness", "mean", "maximum"):
+            # The last digit may round either way on another machine.
+            assert float(before[name]) == pytest.approx(now[name], abs=2e-3), AGAIN
+    page = table.PAGE.read_text("utf-8")
+    assert table.fill(page, table.markdown(kept_as_numbers(kept))) == page, AGAIN
+    for name in reading.INSTRUMENTS:
+        assert f"| `{name}` |" in page.split(table.START)[0]
+
+
+def kept_as_numbers(kept):
+    numbers = ("mean_lightness", "mean", "maximum")
+    return [row | {name: float(row[name]) for name in numbers} for row in kept]

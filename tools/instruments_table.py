@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far apart two instruments read the same surface: table, data and figure of the manual.
+
+    python3 tools/instruments_table.py
+
+runs itself where colour-science is, to write docs/data/instruments.csv and the table of
+docs/instruments.md, and then where matplotlib is, for the figure. Equal numbers give equal bytes.
+"""
+
+from __future__ import annotations
+
+import csv
+import importlib
+import io
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "instruments.md"
+DATA = ROOT / "docs" / "data" / "instruments.csv"
+FIGURE = ROOT / "docs" / "images" / "instruments"
+
+SIGMAS = (15, 30, 45)
+"""Degrees."""
+START, END = "<!-- table: instruments -->\n", "<!-- end -->"
+FIELDS = ("instrument", "title", "sigma_degrees", "mean_lightness", "mean", "maximum", "patch")
+NOTE = (
+    "# CIEDE2000 between the reading of each instrument and that at 45a:0; ColorChecker N Ohta as "
+    "the albedo, V-cavity reference, D65, CIE 1931 2 deg. mean_lightness: mean difference of L*"
+)
+
+
+def rows() -> list[dict[str, Any]]:
+    """Compare every instrument with 45a:0; needs an environment with colour-science."""
+    if "rough_spectra" not in sys.modules:
+        # A script finds its neighbors by their bare names.
+        importlib.import_module("run_command_line").load_extension()
+    import numpy as np
+    from rough_spectra.addon import colorimetry, presets
+    from rough_spectra.core import instruments, reading
+
+    samples = [sample for sample in presets.load_all() if sample.kind == "albedo"]
+    albedos = np.stack([sample.values for sample in samples])
+
+    def lab(name: str, degrees: float) -> Any:
+        read = reading.from_albedo(albedos, np.radians(degrees), "reference", name)
+        return colorimetry.spectrum_to_lab(read, samples[0].wavelengths)
+
+    found = []
+    for degrees in SIGMAS:
+        usual = lab("45a:0", degrees)
+        for name, instrument in instruments.REGISTRY.items():
+            here = lab(name, degrees)
+            apart = colorimetry.delta_e(usual, here)
+            most = int(np.argmax(apart))
+            values = (
+                name,
+                instrument.title,
+                degrees,
+                # Adding 0 turns a rounded -0 into 0.
+                round(float(np.mean(here[:, 0] - usual[:, 0])), 3) + 0.0,
+                round(float(np.mean(apart)), 3) + 0.0,
+                round(float(apart[most]), 3) + 0.0,
+                samples[most].name if apart[most] > 0 else "",
+            )
+            found.append(dict(zip(FIELDS, values, strict=True)))
+    return found
+
+
+def csv_text(found: list[dict[str, Any]]) -> str:
+    """Give the rows as CSV under a line that says what they are."""
+    text = io.StringIO()
+    text.write(NOTE + "\n")
+    writer = csv.DictWriter(text, FIELDS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(found)
+    return text.getvalue()
+
+
+def markdown(found: list[dict[str, Any]]) -> str:
+    """Give the rows as a table with one line an instrument."""
+    heads = "".join(f" σ = {degrees}° |" for degrees in SIGMAS)
+    lines = [f"| instrument |{heads} L\\* at {SIGMAS[-1]}° |", "| --- |" + " --: |" * 4]
+    for name in dict.fromkeys(row["instrument"] for row in found):
+        own = [row for row in found if row["instrument"] == name]
+        cells = "".join(f" {row['mean']:.2f} / {row['maximum']:.2f} |" for row in own)
+        lines.append(
+            f"| `{name}` |{cells} {own[-1]['mean_lightness']:+.2f} |".replace("+0.00", "0")
+        )
+    return "\n".join(lines) + "\n"
+
+
+def fill(page: str, table: str) -> str:
+    """Put the table between its marks in the page."""
+    before, rest = page.split(START)
+    return before + START + "\n" + table + "\n" + END + rest.split(END, 1)[1]
+
+
+def draw() -> None:
+    """Draw mean and maximum of every instrument; needs matplotlib."""
+    import matplotlib as mpl
+
+    mpl.use("agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update({"font.size": 11, "svg.hashsalt": "rough-spectra"})
+    with DATA.open(encoding="utf-8", newline="") as file:
+        next(file)
+        found = list(csv.DictReader(file))
+    names = [n for n in dict.fromkeys(r["instrument"] for r in found) if n != "45a:0"]
+    figure, axes = plt.subplots(figsize=(8, 5.6), layout="constrained")
+    # Okabe and Ito's colors, told apart by color-blind readers too; so are the marks.
+    looks = ((15, "#56B4E9", "o", -0.24), (30, "#E69F00", "s", 0.0), (45, "#D55E00", "D", 0.24))
+    for degrees, color, marker, shift in looks:
+        chosen = {r["instrument"]: r for r in found if int(r["sigma_degrees"]) == degrees}
+        places = [place + shift for place in range(len(names))]
+        mean = [float(chosen[name]["mean"]) for name in names]
+        most = [float(chosen[name]["maximum"]) for name in names]
+        axes.hlines(places, mean, most, color=color, linewidth=2.2)
+        axes.plot(
+            mean,
+            places,
+            marker,
+            color=color,
+            markeredgecolor="black",
+            markeredgewidth=0.5,
+            label=f"σ = {degrees}°",
+            zorder=3,
+        )
+    axes.axvline(1, color="#767676", linestyle=":", linewidth=1.5)
+    axes.text(1.06, -0.62, "ΔE00 1: just seen", color="#555555", va="center")
+    axes.set_xscale("symlog", linthresh=0.1, linscale=0.6)
+    axes.set_xlim(-0.01, 30)
+    ticks = (0, 0.1, 0.3, 1, 3, 10, 30)
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.set_xticks([], minor=True)
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.5, -1)
+    axes.grid(axis="y", color="#e4e4e4")
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.set_xlabel(
+        "ΔE00 from the reading at 45a:0: mark = mean of 24 patches, line = to the largest"
+    )
+    axes.set_title("Directions matter; apertures hardly do")
+    axes.legend(loc="upper right", frameon=True, edgecolor="none")
+    for ending, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
+        figure.savefig(f"{FIGURE}.{ending}", dpi=120, metadata=metadata)
+
+
+def main(arguments: list[str]) -> int:
+    """Run one part, or both in their environments; returns the exit status."""
+    if arguments == ["--numbers"]:
+        found = rows()
+        DATA.write_text(csv_text(found), encoding="utf-8", newline="\n")
+        page = fill(PAGE.read_text("utf-8"), markdown(found))
+        PAGE.write_text(page, encoding="utf-8", newline="\n")
+        return 0
+    if arguments == ["--draw"]:
+        draw()
+        return 0
+    sys.path.insert(0, str(ROOT))
+    import dev
+
+    for python, part in (
+        (dev.prepare_blender().python, "--numbers"),
+        (dev.prepare_tools().python, "--draw"),
+    ):
+        command = [str(python), __file__, part]
+        if status := subprocess.run(command, check=False).returncode:
+            return status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
