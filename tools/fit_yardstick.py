@@ -5,9 +5,9 @@
     PYTHONPATH=. python tools/fit_yardstick.py            print the errors of the table in use
     PYTHONPATH=. python tools/fit_yardstick.py --write    write core/yardstick_table.py first
 
-The solver is asked at 1,387 geometries for all σ, and again at 2,700 geometries between them: the
-largest differences there, by polar angle, azimuth and σ, are the bounds of the table. Takes one to
-three minutes.
+The solver is asked at 1,387 geometries for all σ, and again at 9,600 geometries between them: the
+largest differences there, by polar angle, azimuth and σ, are the bounds of the table. Takes one
+to three minutes.
 """
 
 from __future__ import annotations
@@ -46,9 +46,9 @@ FINEST_STEP = 3e-4
 """Of the integers: rounding moves the reflectance by 1e-4 at most."""
 
 BOUND_POLAR = (0, 10, 30, 60, 72, 80, 85)
-BOUND_AZIMUTH = (0, 25, 130, 180)
+BOUND_AZIMUTH = (0, 25, 130, 160, 180)
 BOUND_SIGMA = (0, 10, 25, 45, 62, 90)
-PROBES = 150
+PROBES = 400
 """Geometries in each interval of polar angle and azimuth."""
 PROBE_SIGMAS = np.radians(np.concatenate((np.linspace(0.5, 62, 60), np.linspace(63, 90, 20))))
 PROBE_ALBEDOS = np.array(
@@ -110,10 +110,12 @@ def probe() -> tuple[Array, Array]:
     parts = []
     for low, high in pairwise(BOUND_POLAR):
         for left, right in pairwise(BOUND_AZIMUTH):
-            larger = np.radians(random.uniform(low, high, PROBES))
-            # Half with ratios of solid angle, half crowded where light and view meet.
-            ratio = random.uniform(0, 1, PROBES) ** np.where(np.arange(PROBES) % 2, 0.5, 0.1)
-            azimuth = np.radians(random.uniform(left, right, PROBES))
+            # Errors are largest at the ends of the intervals and where light and view meet, so
+            # the directions crowd there.
+            from_low, from_left = np.sin(random.uniform(0, np.pi / 2, (2, PROBES))) ** 2
+            larger = np.radians(low + (high - low) * from_low)
+            azimuth = np.radians(left + (right - left) * from_left)
+            ratio = random.uniform(0, 1, PROBES) ** np.resize((0.5, 0.1, 0.02), PROBES)
             parts.append(np.stack((larger, larger * ratio, azimuth), axis=-1))
     geometry = np.concatenate(parts)
     expected = np.exp(log_ratio(geometry, PROBE_SIGMAS, PROBE_ALBEDOS)) * PROBE_ALBEDOS
@@ -141,6 +143,7 @@ def bounds(geometry: Array, error: Array) -> Array:
 
 def render(geometries: Array, basis: Array, bound: Array) -> str:
     """Source of core/yardstick_table.py."""
+    listed = repr(bound.tolist()).replace("], ", "],\n    ")
     return f'''# SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Table of `core.yardstick`, written by tools/fit_yardstick.py; do not edit by hand."""
@@ -160,11 +163,11 @@ BOUND_POLAR = {BOUND_POLAR}
 BOUND_AZIMUTH = {BOUND_AZIMUTH}
 BOUND_SIGMA = {BOUND_SIGMA}
 # fmt: off
-BOUND = {bound.tolist()!r}
+BOUND = {listed}
 
 # Columns of integers and what one unit of each is worth; see `core.yardstick.unpack`.
 {_columns("GEOMETRY_STEPS", "GEOMETRIES", geometries)}
-{_columns("BASIS_STEPS", "BASIS", basis)}'''.replace("]], [[", "]],\n    [[")
+{_columns("BASIS_STEPS", "BASIS", basis)}'''
 
 
 def _columns(steps_name: str, name: str, values: Array) -> str:
