@@ -16,28 +16,54 @@ from bpy.types import Material, PropertyGroup
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
 
+# The numbers are what a .blend stores: never give one to another item, nor change it. The order is
+# that of the menus.
 KIND_ITEMS = (
-    ("reading", "Reading", "Reflectance factor that the instrument printed for the rough surface"),
-    ("albedo", "Albedo", "Reflectance of one facet: what the smooth material reflects"),
+    (
+        "reading",
+        "Reading",
+        "Reflectance factor that the instrument printed for the rough surface",
+        0,
+    ),
+    ("albedo", "Albedo", "Reflectance of one facet: what the smooth material reflects", 1),
 )
-INSTRUMENT_ITEMS = (("45a:0", "45°a:0°", "Ring light at 45°, view along the normal"),)
+INSTRUMENT_ITEMS = (("45a:0", "45°a:0°", "Ring light at 45°, view along the normal", 0),)
 MODEL_ITEMS = (
-    ("two-bounce", "Two-bounce", "Oren and Nayar's published model: f1 ρ + f2 ρ²"),
-    ("first-order", "First-order", "Without light between facets: f1 ρ"),
-    ("closure", "Closure", "All bounces, with energy conserved for white facets"),
+    ("auto", "Auto", "The cheapest model that stays within ΔE00 1.0 of the V-cavity reference", 3),
+    ("lambert", "Lambert", "As if the surface were smooth", 4),
+    ("first-order", "First-order", "Without light between facets: F1 ρ", 1),
+    ("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
+    ("closure", "Closure", "All bounces, in a formula fitted to the V-cavity reference", 2),
+    ("reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5),
 )
 SHADER_ITEMS = (
-    ("AUTO", "As It Is", "Set the Diffuse or Principled BSDF in use; make a Diffuse BSDF if none"),
-    ("DIFFUSE", "Diffuse BSDF", "Set a Diffuse BSDF, making one if another shader is in use"),
-    ("PRINCIPLED", "Principled BSDF", "Set a Principled BSDF with its specular level at 0"),
+    (
+        "AUTO",
+        "As It Is",
+        "Set the Diffuse or Principled BSDF in use; make a Diffuse BSDF if none",
+        0,
+    ),
+    ("DIFFUSE", "Diffuse BSDF", "Set a Diffuse BSDF, making one if another shader is in use", 1),
+    ("PRINCIPLED", "Principled BSDF", "Set a Principled BSDF with its specular level at 0", 2),
 )
 ILLUMINANT_ITEMS = tuple(
-    (name, name, f"CIE standard illuminant {name}")
-    for name in ("D65", "A", "D50", "D55", "D75", "E", "F2", "F7", "F11", "LED-B3")
+    (name, name, f"CIE standard illuminant {name}", number)
+    for name, number in (
+        ("D65", 0),
+        ("A", 1),
+        ("D50", 2),
+        ("D55", 3),
+        ("D75", 4),
+        ("E", 5),
+        ("F2", 6),
+        ("F7", 7),
+        ("F11", 8),
+        ("LED-B3", 9),
+    )
 )
 OBSERVER_ITEMS = (
-    ("2", "2°", "CIE 1931 standard observer"),
-    ("10", "10°", "CIE 1964 standard observer, in reports only: scene colors are always 2°"),
+    ("2", "2°", "CIE 1931 standard observer", 0),
+    ("10", "10°", "CIE 1964 standard observer, in reports only: scene colors are always 2°", 1),
 )
 
 
@@ -72,7 +98,10 @@ class RoughSpectraMaterial(PropertyGroup):
         name="Observer", description="Observer of the reports", items=OBSERVER_ITEMS
     )
     model: EnumProperty(
-        name="Model", description="How light between facets is counted", items=MODEL_ITEMS
+        name="Model",
+        description="How light between facets is counted",
+        items=MODEL_ITEMS,
+        default="auto",
     )
     shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
     stamp: StringProperty(name="Stamp", description="What was derived and from what, as JSON")

@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +43,7 @@ class Predicted:
 
     kind: str
     model: str
+    model_reason: str
     sigma_degrees: float
     illuminant: str
     observer: int
@@ -116,6 +117,7 @@ class Prepared:
     surface: str
     material: str
     request: target.Request | None
+    model_reason: str
     warnings: tuple[str, ...]
 
 
@@ -135,15 +137,23 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     space = working_space.current().name
     prepared = []
     for surface, material in surfaces:
-        request, warnings = None, []
+        request, warnings, model_reason = None, [], ""
         if stamp.has_spectrum(material):
-            request = storage.load(material)
+            request, model_reason = _settled(material)
             reasons = stamp.stale_reasons(material, space)
             found = stamp.get_stamp(material)
             warnings = [f"stale: {reason}" for reason in reasons]
             warnings += [] if found is None else found.warnings
-        prepared.append(Prepared(surface, material.name, request, tuple(warnings)))
+        prepared.append(Prepared(surface, material.name, request, model_reason, tuple(warnings)))
     return prepared
+
+
+def _settled(material: Any) -> tuple[target.Request, str]:
+    """Give what the material stores with its model settled, as it was when it was assigned."""
+    request, found = storage.load(material), stamp.get_stamp(material)
+    if found is not None and found.inputs == stamp.inputs_digest(material.rough_spectra):
+        return replace(request, model=found.model), found.model_reason
+    return target.settle([request])[0]
 
 
 def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
@@ -325,14 +335,16 @@ def _reading(item: Prepared, measured: Array | None, space: working_space.Workin
         surface=item.surface,
         sample="" if request is None else request.sample.name,
         source="" if request is None else request.sample.source,
-        predicted=None if request is None else _predicted(request, space),
+        predicted=None if request is None else _predicted(request, item.model_reason, space),
         measured=seen,
         delta_e_00=difference,
         warnings=item.warnings,
     )
 
 
-def _predicted(request: target.Request, space: working_space.WorkingSpace) -> Predicted:
+def _predicted(
+    request: target.Request, model_reason: str, space: working_space.WorkingSpace
+) -> Predicted:
     sample = request.sample
     values = target.target_reading(request)
     weights = colorimetry.weights(sample.wavelengths, request.illuminant, request.observer)
@@ -340,6 +352,7 @@ def _predicted(request: target.Request, space: working_space.WorkingSpace) -> Pr
     return Predicted(
         kind=sample.kind,
         model=request.model,
+        model_reason=model_reason,
         sigma_degrees=round(float(np.degrees(request.sigma)), 5),
         illuminant=request.illuminant,
         observer=request.observer,

@@ -36,8 +36,8 @@ class Stamp:
         Name of the working space the color is in.
     node, color, roughness
         The shader node and the values written to it.
-    model
-        The model that gave the target.
+    model, model_reason
+        The model that gave the target, and why it was taken.
     delta_e_instrument, delta_e_mean, delta_e_95
         Predicted ΔE00 at the instrument and over the hemisphere.
     warnings
@@ -50,6 +50,7 @@ class Stamp:
     color: tuple[float, float, float]
     roughness: float
     model: str
+    model_reason: str
     delta_e_instrument: float
     delta_e_mean: float
     delta_e_95: float

@@ -2,28 +2,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From measured spectra to the color and roughness of a Cycles shader. No Blender data here.
 
-RGB is linear in reflectance, so a rough spectral surface seen from anywhere is
-F1 · RGB(ρ) + F2 · RGB(ρ²), with two colors a material and not one spectrum a geometry.
-RGB(ρ²) is not RGB(ρ)².
+The targets are computed spectrally and turned into RGB at the end: RGB(ρ²) is not RGB(ρ)².
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import cycles, geometry, oren_nayar, reading
+from ..core import cycles, geometry, ladder, reading
 from ..core.arrays import Array
 from ..core.errors import DomainError
 from . import colorimetry, judgement
 from .sample import Sample
 from .working_space import WorkingSpace
 
+if TYPE_CHECKING:
+    from ..core.ladder import Choice
+
 MATCH_GEOMETRIES = 32
 """Directions the roughness is matched over. Against 2,000 of them the mean ΔE00 of the
 ColorChecker comes out within 0.03."""
+
+AUTO = "auto"
+"""Model of a request that leaves the choice to `choose`."""
+
+CHOICE_GEOMETRIES = 12
+"""Directions the model is chosen over, beside the instrument's."""
+
+TOLERANCE = 1.0
+"""Largest ΔE00 from the reference that a model may have to be chosen."""
+
+_CHUNK = 64
+"""Materials whose spectra in all directions are held at once: about 2 MB."""
 
 _ENOUGH = 1e-6
 """Overshoot of gamut or albedo that is rounding, not a fact about the material."""
@@ -40,7 +55,7 @@ class Request:
     sigma
         Roughness σ, radians.
     model
-        One of `core.reading.MODELS`.
+        One of `core.ladder.RUNGS`, or `AUTO` for the cheapest that is good enough.
     illuminant
         The light under which the color is right.
     observer
@@ -49,7 +64,7 @@ class Request:
 
     sample: Sample
     sigma: float
-    model: str = "two-bounce"
+    model: str = AUTO
     illuminant: str = "D65"
     observer: int = 2
 
@@ -66,6 +81,8 @@ class Solution:
         Cycles' diffuse roughness.
     target
         RGB of the target reading at the instrument, unclipped, shape (3,).
+    model, model_reason
+        The model that gave the target, and why it was taken.
     delta_e_instrument
         ΔE00 predicted between target and Cycles at the instrument.
     delta_e_mean, delta_e_95
@@ -79,6 +96,8 @@ class Solution:
     color: Array
     roughness: float
     target: Array
+    model: str
+    model_reason: str
     delta_e_instrument: float
     delta_e_mean: float
     delta_e_95: float
@@ -86,20 +105,57 @@ class Solution:
     warnings: tuple[str, ...]
 
 
-def albedo(request: Request) -> Array:
-    """ρ(λ) of the sample's facets, shape (bands,); above 1 where the reading is infeasible."""
-    sample = request.sample
-    if sample.kind == "albedo":
-        return sample.values
-    return reading.to_albedo(sample.values, request.sigma, request.model, sample.instrument)
-
-
 def target_reading(request: Request) -> Array:
     """r(λ) that the material has to show at the instrument, shape (bands,)."""
-    sample = request.sample
-    if sample.kind == "reading":
-        return sample.values
-    return reading.from_albedo(sample.values, request.sigma, request.model, sample.instrument)
+    [(settled, _)] = settle([request])
+    return np.asarray(_spectra([settled])[0][0])
+
+
+def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Choice]:
+    """Choose the cheapest model that is good enough, for every request.
+
+    Good enough is a predicted ΔE00 within `tolerance` of the V-cavity reference, under the
+    request's illuminant, at the instrument and in directions all over the hemisphere.
+
+    Raises
+    ------
+    DomainError
+        If a spectrum does not cover the visible range, or σ or illuminant is unknown.
+    """
+    instrument = reading.INSTRUMENT_ANGLES["45a:0"]
+    spread = geometry.hemisphere(CHOICE_GEOMETRIES)
+    geometries = tuple(
+        np.append(all_over, at) for all_over, at in zip(spread, instrument, strict=True)
+    )
+
+    def difference(seen: Array, wanted: Array, white: Array) -> Array:
+        return colorimetry.delta_e(
+            colorimetry.xyz_to_lab(seen, white), colorimetry.xyz_to_lab(wanted, white)
+        )
+
+    found: list[Choice | None] = [None] * len(requests)
+    for members in _alike(requests):
+        first = requests[members[0]]
+        with _naming(first.sample):
+            light = colorimetry.weights(first.sample.wavelengths, first.illuminant)
+        sigma = np.array([requests[i].sigma for i in members])
+        # The closure's albedo stands for the true one: it is what the other models approximate.
+        _, rho = _spectra([replace(requests[i], model="closure") for i in members])
+        choices = ladder.choose_model(
+            rho, sigma, geometries, [light], tolerance, difference=difference
+        )
+        for i, choice in zip(members, choices, strict=True):
+            found[i] = choice
+    return [choice for choice in found if choice is not None]
+
+
+def settle(requests: Sequence[Request]) -> list[tuple[Request, str]]:
+    """Replace "auto" by the model chosen, and say why; other models stay as asked for."""
+    open_ones = [i for i, request in enumerate(requests) if request.model == AUTO]
+    settled = [(request, "asked for") for request in requests]
+    for i, choice in zip(open_ones, choose([requests[i] for i in open_ones]), strict=True):
+        settled[i] = (replace(requests[i], model=choice.model), choice.reason)
+    return settled
 
 
 def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
@@ -110,25 +166,22 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
     DomainError
         If a spectrum does not cover the visible range, or σ, model or illuminant is unknown.
     """
+    settled = settle(requests)
     solutions: list[Solution | None] = [None] * len(requests)
     for illuminant in sorted({request.illuminant for request in requests}):
         members = [i for i, request in enumerate(requests) if request.illuminant == illuminant]
-        for i, solution in zip(
-            members, _solve([requests[i] for i in members], space, illuminant), strict=True
-        ):
+        of_light = _solve([settled[i] for i in members], space, illuminant)
+        for i, solution in zip(members, of_light, strict=True):
             solutions[i] = solution
     return [solution for solution in solutions if solution is not None]
 
 
-def _solve(requests: list[Request], space: WorkingSpace, illuminant: str) -> list[Solution]:
-    readings, bases = _colors(requests, space)
-    sigma = np.array([request.sigma for request in requests])[:, np.newaxis]
+def _solve(
+    settled: list[tuple[Request, str]], space: WorkingSpace, illuminant: str
+) -> list[Solution]:
+    requests = [request for request, _ in settled]
     geometries = geometry.hemisphere(MATCH_GEOMETRIES)
-    f1, f2 = oren_nayar.factors(*geometries, sigma)
-    targets = f1[..., None] * bases[:, None, 0] + f2[..., None] * bases[:, None, 1]
-    # The published model turns negative at grazing opposite directions; no surface does. A channel
-    # that is negative in the reading itself is out of gamut, which is another matter.
-    targets = np.where(readings[:, None] >= 0, np.maximum(targets, 0), targets)
+    readings, targets = _colors(requests, geometries, space)
 
     def perceive(rgb: Array) -> Array:
         return space.to_lab(rgb, illuminant)
@@ -138,6 +191,7 @@ def _solve(requests: list[Request], space: WorkingSpace, illuminant: str) -> lis
     wanted = perceive(targets)
     rough = cycles.reflectance(color[:, None], roughness[:, None], *geometries)
     over_hemisphere = colorimetry.delta_e(perceive(rough), wanted)
+    high = np.percentile(over_hemisphere, 95, axis=1)
     flat = np.clip(readings, 0, 1)[:, None] * np.ones((1, MATCH_GEOMETRIES, 1))
     lambert = colorimetry.delta_e(perceive(flat), wanted).mean(axis=-1)
     at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES["45a:0"])
@@ -147,48 +201,82 @@ def _solve(requests: list[Request], space: WorkingSpace, illuminant: str) -> lis
             color=color[i],
             roughness=float(roughness[i]),
             target=readings[i],
+            model=request.model,
+            model_reason=reason,
             delta_e_instrument=float(met[i]),
             delta_e_mean=float(over_hemisphere[i].mean()),
-            delta_e_95=float(np.percentile(over_hemisphere[i], 95)),
+            delta_e_95=float(high[i]),
             delta_e_lambert=float(lambert[i]),
-            warnings=_warnings(requests[i], space, readings[i], matched[i], float(met[i])),
+            warnings=_warnings(request, space, matched[i], float(met[i])),
         )
-        for i in range(len(requests))
+        for i, (request, reason) in enumerate(settled)
     ]
 
 
-def _colors(requests: list[Request], space: WorkingSpace) -> tuple[Array, Array]:
-    """RGB of the readings (M, 3) and of the two bases ρ and ρ² or its closure (M, 2, 3).
-
-    Requests on one wavelength grid share one matrix.
-    """
-    readings, bases = np.empty((len(requests), 3)), np.empty((len(requests), 2, 3))
-    groups: dict[tuple[bytes, str], list[int]] = {}
-    for i, request in enumerate(requests):
-        key = (request.sample.wavelengths.tobytes(), request.model)
-        groups.setdefault(key, []).append(i)
-    for (_, model), members in groups.items():
+def _colors(
+    requests: list[Request], geometries: tuple[Array, Array, Array], space: WorkingSpace
+) -> tuple[Array, Array]:
+    """RGB of the readings (M, 3) and of the targets in other directions (M, G, 3)."""
+    readings = np.empty((len(requests), 3))
+    targets = np.empty((len(requests), geometries[0].size, 3))
+    for members in _alike(requests):
         first = requests[members[0]]
-        try:
+        with _naming(first.sample):
             weights = space.rgb_weights(first.sample.wavelengths, first.illuminant)
-        except DomainError as error:
-            msg = f"{first.sample.source or 'Sample'}, {first.sample.name!r}: {error}"
-            raise DomainError(msg) from error
-        sigma = np.array([requests[i].sigma for i in members])
-        values = np.stack([requests[i].sample.values for i in members])
-        is_albedo = np.array([requests[i].sample.kind == "albedo" for i in members])[:, None]
-        rho = np.where(is_albedo, values, reading.to_albedo(values, sigma, model))
-        measured = np.where(is_albedo, reading.from_albedo(values, sigma, model), values)
-        second = np.zeros_like(rho) if model == "first-order" else rho * rho
-        if model == "closure":
-            second = second / (1 - reading.bounce_ratio(sigma)[:, np.newaxis] * rho)
+        measured, rho = _spectra([requests[i] for i in members])
         readings[members] = measured @ weights
-        bases[members] = np.stack((rho @ weights, second @ weights), axis=1)
-    return readings, bases
+        sigma = np.array([requests[i].sigma for i in members])
+        for start in range(0, len(members), _CHUNK):
+            chunk = slice(start, start + _CHUNK)
+            spread = ladder.reflectance(
+                first.model, rho[chunk, np.newaxis], *geometries, sigma[chunk, np.newaxis]
+            )
+            targets[members[chunk]] = spread @ weights
+    # The published model turns negative at grazing opposite directions; no surface does. A channel
+    # that is negative in the reading itself is out of gamut, which is another matter.
+    targets = np.where(readings[:, None] >= 0, np.maximum(targets, 0), targets)
+    return readings, targets
+
+
+def _spectra(requests: list[Request]) -> tuple[Array, Array]:
+    """Give readings and albedos, each (materials, bands), of requests that `_alike` put together.
+
+    An albedo is above 1 where the reading is more than white facets give.
+    """
+    first = requests[0]
+    values = np.stack([request.sample.values for request in requests])
+    if first.model == "lambert":
+        return values, values
+    sigma = np.array([request.sigma for request in requests])
+    is_albedo = np.array([request.sample.kind == "albedo" for request in requests])[:, np.newaxis]
+    asked = (sigma, first.model, first.sample.instrument)
+    return (
+        np.where(is_albedo, reading.from_albedo(values, *asked), values),
+        np.where(is_albedo, values, reading.to_albedo(values, *asked)),
+    )
+
+
+def _alike(requests: Sequence[Request]) -> list[list[int]]:
+    """Group requests that share wavelengths, illuminant and model, and so their matrices."""
+    groups: dict[tuple[bytes, str, str], list[int]] = {}
+    for i, request in enumerate(requests):
+        key = (request.sample.wavelengths.tobytes(), request.illuminant, request.model)
+        groups.setdefault(key, []).append(i)
+    return list(groups.values())
+
+
+@contextmanager
+def _naming(sample: Sample) -> Iterator[None]:
+    """Name the sample in what the core says of its wavelengths."""
+    try:
+        yield
+    except DomainError as error:
+        msg = f"{sample.source or 'Sample'}, {sample.name!r}: {error}"
+        raise DomainError(msg) from error
 
 
 def _warnings(
-    request: Request, space: WorkingSpace, target: Array, color: Array, missed: float
+    request: Request, space: WorkingSpace, color: Array, missed: float
 ) -> tuple[str, ...]:
     found = [space.warning, judgement.contradiction(request.sample), _infeasible(request)]
     outside = np.maximum(-color, color - 1)
@@ -206,7 +294,7 @@ def _warnings(
 def _infeasible(request: Request) -> str:
     """Say when no surface of this roughness can give the reading; nothing is clipped."""
     sample = request.sample
-    if sample.kind == "albedo":
+    if sample.kind == "albedo" or request.model == "lambert":
         return ""
     peak = int(np.argmax(sample.values))
     value = float(sample.values[peak])

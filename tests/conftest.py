@@ -6,6 +6,8 @@ import importlib.util
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[1]
 
 sys.path.insert(0, str(ROOT))
@@ -18,3 +20,18 @@ if "rough_spectra" not in sys.modules:
     package = importlib.util.module_from_spec(spec)
     sys.modules["rough_spectra"] = package
     spec.loader.exec_module(package)
+
+
+@pytest.fixture(scope="session")
+def extension():
+    """Register the extension once for all folders of tests that need Blender.
+
+    Unregistering frees what Blender would trip over when it ends.
+    """
+    import bpy
+
+    extension = sys.modules["rough_spectra"]
+    extension.register()
+    yield extension
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    extension.unregister()

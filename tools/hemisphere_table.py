@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How close Cycles comes to the published model away from 45°/0°, measured.
+"""How close Cycles comes to its target away from 45°/0°, measured.
 
-Assigns the 24 ColorChecker presets at three roughnesses, renders them in 500 geometries of light
-and view, and compares each with the spectral model there; beside it a Lambertian material with the
-same reading at 45°/0°, which is what a color picked from a chart amounts to. Writes
+Assigns the 24 ColorChecker presets at three roughnesses, once for the published two-bounce model
+and once with the model left to choose; renders them in 500 geometries of light and view; and
+compares with the spectral truth there: the two-bounce model itself, and the V-cavity reference.
+Beside each stands a Lambertian material with the same reading at 45°/0°, which is what a color picked from a
+chart amounts to. Writes
 docs/data/hemisphere.csv and docs/hemisphere-table.md. Needs an environment with bpy:
 
     hemisphere_table.py
@@ -27,12 +29,14 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon import assign, colorimetry, outputs, presets, target, working_space
 from rough_spectra.addon.spectrophotometer.measure import Geometry, measure
-from rough_spectra.core import geometry, oren_nayar, reading
+from rough_spectra.core import geometry, ladder, reading
 from rough_spectra.core.arrays import Array
 
 SIGMAS = (15, 30, 45)
 """Degrees. At 0° both materials are Lambertian and exact."""
 GEOMETRIES = 500
+TARGETS = {"two-bounce": "two-bounce", target.AUTO: "reference"}
+"""What a material was assigned with, and the model of `core.ladder` it is compared with."""
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 TABLE = DOCS / "hemisphere-table.md"
@@ -47,8 +51,10 @@ class Row:
     ----------
     sigma_degrees
         Roughness σ.
+    truth
+        The model it was compared with.
     material
-        Which Blender material was compared with the model.
+        Which Blender material was compared.
     mean, percentile_95, maximum
         Of ΔE00 over all patches within gamut and all geometries.
     patches, geometries
@@ -56,6 +62,7 @@ class Row:
     """
 
     sigma_degrees: int
+    truth: str
     material: str
     mean: float
     percentile_95: float
@@ -74,12 +81,13 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
 
     Returns
     -------
-    Two rows a roughness: the matched material as rendered, and the Lambertian one.
+    Two rows a model and roughness: the matched material as rendered, and the Lambertian one.
     """
     directions = geometry.hemisphere(count)
     samples = presets.load_all()
     requests = [
-        target.Request(sample, float(np.radians(degrees)))
+        target.Request(sample, float(np.radians(degrees)), model)
+        for model in TARGETS
         for degrees in SIGMAS
         for sample in samples
     ]
@@ -88,13 +96,14 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
     space = working_space.current()
     seen = space.to_lab(measure(materials, to_measure(*directions))[:, :, 0], "D65")
     rows = []
-    for block, degrees in enumerate(SIGMAS):
+    for start in range(0, len(requests), len(samples)):
         members = [
             i
-            for i in range(block * len(samples), (block + 1) * len(samples))
+            for i in range(start, start + len(samples))
             if not any("gamut" in warning for warning in solutions[i].warnings)
         ]
-        wanted = np.stack([model_lab(requests[i], directions) for i in members], axis=1)
+        first = requests[start]
+        wanted = np.swapaxes(model_lab([requests[i] for i in members], directions), 0, 1)
         flat = np.stack([lambert_lab(requests[i]) for i in members])
         for material, lab in (
             ("Diffuse BSDF, matched", seen[:, members]),
@@ -103,7 +112,8 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
             apart = colorimetry.delta_e(lab, wanted)
             rows.append(
                 Row(
-                    degrees,
+                    round(float(np.degrees(first.sigma))),
+                    TARGETS[first.model],
                     material,
                     float(apart.mean()),
                     float(np.percentile(apart, 95)),
@@ -115,20 +125,24 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
     return rows
 
 
-def model_lab(request: target.Request, directions: tuple[Array, Array, Array]) -> Array:
-    """L*a*b* of the spectral model band by band, shape (geometries, 3).
+def model_lab(requests: list[target.Request], directions: tuple[Array, Array, Array]) -> Array:
+    """L*a*b* of the spectral model of requests alike in all but spectrum.
 
-    At grazing opposite directions the published model turns negative, which counts as black.
+    Returns
+    -------
+    Shape (requests, geometries, 3). At grazing opposite directions the published model turns
+    negative, which counts as black.
     """
-    sample = request.sample
-    spectra = oren_nayar.reflectance(sample.values, *directions, request.sigma)
-    return colorimetry.spectrum_to_lab(np.maximum(spectra, 0), sample.wavelengths)
+    albedos = np.stack([request.sample.values for request in requests])[:, np.newaxis]
+    model, sigma = TARGETS[requests[0].model], requests[0].sigma
+    spectra = ladder.reflectance(model, albedos, *directions, sigma)
+    return colorimetry.spectrum_to_lab(np.maximum(spectra, 0), requests[0].sample.wavelengths)
 
 
 def lambert_lab(request: target.Request) -> Array:
     """L*a*b* of a material that shows its 45°/0° reading in every geometry, shape (3,)."""
     sample = request.sample
-    flat = reading.from_albedo(sample.values, request.sigma)
+    flat = reading.from_albedo(sample.values, request.sigma, TARGETS[request.model])
     return colorimetry.spectrum_to_lab(flat, sample.wavelengths)
 
 
@@ -144,12 +158,12 @@ def csv_text(rows: list[Row]) -> str:
     """Give the rows as CSV with a comment line that says what they are."""
     return "\n".join(
         [
-            "# CIEDE2000 between Cycles and the two-bounce Oren-Nayar model, ColorChecker N Ohta "
-            f"as the albedo, D65, CIE 1931 2 deg; {rows[0].geometries} cosine-weighted geometries "
-            "of light and view below 80 deg; patches within Rec.709",
-            "sigma_degrees,material,mean,percentile_95,maximum,patches,geometries",
+            "# CIEDE2000 between Cycles and the spectral model named under truth, ColorChecker N "
+            f"Ohta as the albedo, D65, CIE 1931 2 deg; {rows[0].geometries} cosine-weighted "
+            "geometries of light and view below 80 deg; patches within Rec.709",
+            "sigma_degrees,truth,material,mean,percentile_95,maximum,patches,geometries",
             *(
-                f'{row.sigma_degrees},"{row.material}",{row.mean:.4f},{row.percentile_95:.4f},'
+                f'{row.sigma_degrees},{row.truth},"{row.material}",{row.mean:.4f},{row.percentile_95:.4f},'
                 f"{row.maximum:.4f},{row.patches},{row.geometries}"
                 for row in rows
             ),
@@ -164,18 +178,19 @@ def markdown(rows: list[Row]) -> str:
         [
             "<!-- Made by tools/hemisphere_table.py -->",
             "",
-            "| σ | material | mean ΔE00 | 95th percentile | maximum |",
-            "|---|---|---|---|---|",
+            "| σ | truth | material | mean ΔE00 | 95th percentile | maximum |",
+            "|---|---|---|---|---|---|",
             *(
-                f"| {row.sigma_degrees}° | {row.material} | {row.mean:.2f} | "
+                f"| {row.sigma_degrees}° | {row.truth} | {row.material} | {row.mean:.2f} | "
                 f"{row.percentile_95:.2f} | {row.maximum:.2f} |"
                 for row in rows
             ),
             "",
             f"{rows[0].patches} ColorChecker patches within Rec.709, {rows[0].geometries} "
             "cosine-weighted geometries of light and view below 80°, D65, 2° observer. Each is a "
-            "Cycles render compared with the spectral two-bounce model; the Lambertian material "
-            "shows its 45°/0° reading everywhere.",
+            "Cycles render. Materials assigned with the two-bounce model are compared with it, "
+            "spectrally; materials whose model was left to choose, with the V-cavity reference. "
+            "The Lambertian material shows its 45°/0° reading everywhere.",
             "",
         ]
     )

@@ -16,7 +16,7 @@ from . import common
 
 AS_FILE = "FILE"
 _KIND_ITEMS = (
-    (AS_FILE, "As in the File", "What the file says; a reading if it says nothing"),
+    (AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
     *KIND_ITEMS,
 )
 _items: list[tuple[str, str, str]] = []
@@ -39,7 +39,9 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
         name="File", description="Spectra that an instrument wrote", subtype="FILE_PATH"
     )
     sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
-    kind: EnumProperty(name="Kind", description="What the spectrum is", items=_KIND_ITEMS)
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+    )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
@@ -98,7 +100,9 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
 
     filepath: StringProperty(name="File", description="Spectra that an instrument wrote")
     sample: EnumProperty(name="Sample", description="Sample of the file", items=sample_items)
-    kind: EnumProperty(name="Kind", description="What the spectrum is", items=_KIND_ITEMS)
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+    )
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search the samples by name."""

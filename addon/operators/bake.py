@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from ...core.errors import OutputError, RoughSpectraError
+from ...core.errors import RoughSpectraError
 from . import common
 
 _TIMER_SECONDS = 0.1
@@ -73,10 +73,6 @@ class ROUGHSPECTRA_OT_bake(bpy.types.Operator):
                 return self._finish()
         except RoughSpectraError as error:
             return self._fail(context, error)
-        except OSError as error:
-            reason = " ".join((error.strerror or str(error)).split())
-            msg = f"Temporary files cannot be written ({reason}); free the disk and try again."
-            return self._fail(context, OutputError(msg))
         manager = context.window_manager
         self._timer = manager.event_timer_add(_TIMER_SECONDS, window=context.window)
         manager.progress_begin(0, 1)

@@ -61,15 +61,30 @@ class Measurement:
         `bpy.types.Material`, linked ones too; each is measured as it is now.
     geometries
         Where to measure.
+
+    Raises
+    ------
+    OutputError
+        If the temporary folder cannot be written or the second Blender not be started.
     """
 
     def __init__(self, materials: Sequence[Any], geometries: Sequence[Geometry]) -> None:
-        self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
+        self._folder: Path | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self.total = 0
         self.done = 0
         try:
-            self._start(materials, geometries)
+            self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
+            self._start(self._folder, materials, geometries)
+        except (OSError, RuntimeError) as error:
+            self.close()
+            # Blender says "Error: Success" when the disk is full.
+            reason = getattr(error, "strerror", None) or "is the disk full?"
+            msg = (
+                f"Temporary files cannot be written in {tempfile.gettempdir()} ({reason}); free "
+                "the disk, or let TMPDIR name another one."
+            )
+            raise OutputError(msg) from error
         except BaseException:
             self.close()
             raise
@@ -77,6 +92,7 @@ class Measurement:
     def poll(self) -> bool:
         """Update `done` and `total`; returns whether the measurement has ended."""
         assert self._process is not None
+        assert self._folder is not None
         ended = self._process.poll() is not None
         try:
             done, total = (self._folder / "progress").read_text(encoding="ascii").split()
@@ -116,6 +132,7 @@ class Measurement:
             If the second Blender failed.
         """
         assert self._process is not None
+        assert self._folder is not None
         path = self._folder / "result.npy"
         if self._process.returncode != 0 or not path.exists():
             log = (self._folder / "log").read_text(encoding="utf-8", errors="replace")
@@ -137,10 +154,13 @@ class Measurement:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _start(self, materials: Sequence[Any], geometries: Sequence[Geometry]) -> None:
-        blend = self._folder / "materials.blend"
+    def _start(
+        self, folder: Path, materials: Sequence[Any], geometries: Sequence[Geometry]
+    ) -> None:
+        blend = folder / "materials.blend"
         # Blender leaves linked data out unless local data use it: the worker links it anew.
         local = {material for material in materials if material.library is None}
         bpy.data.libraries.write(
@@ -148,12 +168,13 @@ class Measurement:
         )
         job = {
             "blend": blend.name,
+            "asked_by": os.getpid(),
             "materials": [[m.name, _library_path(m)] for m in materials],
             "geometries": [{"lights": g.lights, "view": g.view} for g in geometries],
         }
-        job_path = self._folder / "job.json"
+        job_path = folder / "job.json"
         job_path.write_text(json.dumps(job), encoding="utf-8")
-        with (self._folder / "log").open("wb") as log:
+        with (folder / "log").open("wb") as log:
             self._process = subprocess.Popen(
                 [*_blender(), str(job_path)],
                 stdin=subprocess.DEVNULL,

@@ -13,6 +13,7 @@ flat sample sees one exact geometry, and Cycles has nothing to estimate.
 import json
 import math
 import os
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -27,9 +28,9 @@ SAMPLES_PER_RENDER = 1024
 
 def main(job_path: Path) -> None:
     """Measure all materials of the job in all its geometries."""
-    parent = os.getppid()
     job = json.loads(job_path.read_text(encoding="utf-8"))
     folder = job_path.parent
+    end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     materials = [find(*key) for key in job["materials"]]
     batches = [
@@ -39,17 +40,27 @@ def main(job_path: Path) -> None:
     total, done = len(batches) * len(job["geometries"]), 0
     results = []
     for batch in batches:
-        scene, camera, plane = build(batch)
+        scene, camera, stretch = build(batch)
         of_batch = []
         for geometry in job["geometries"]:
-            aim(scene, camera, plane, geometry)
+            aim(scene, camera, stretch, geometry)
             of_batch.append(render(scene, folder / "render.exr", len(batch)))
             done += 1
             report(folder, done, total)
-            if os.getppid() != parent:
-                sys.exit("the Blender that asked for this measurement is gone")
+            end_if_orphaned(job["asked_by"], folder)
         results.append(np.stack(of_batch))
     np.save(folder / "result.npy", np.concatenate(results, axis=1))
+
+
+def end_if_orphaned(asked_by: int, folder: Path) -> None:
+    """Stop, and leave nothing behind, when the process that asked for this was killed."""
+    if os.name != "posix":
+        return  # there os.kill(pid, 0) would not ask but kill
+    try:
+        os.kill(asked_by, 0)
+    except ProcessLookupError:
+        shutil.rmtree(folder, ignore_errors=True)
+        sys.exit("the Blender that asked for this measurement is gone")
 
 
 def find(name: str, library: str | None) -> Any:
@@ -64,36 +75,39 @@ def find(name: str, library: str | None) -> Any:
 
 
 def build(materials: list[Any]) -> tuple[Any, Any, Any]:
-    """Lay the samples side by side on a plane, each a square with its own material."""
+    """Lay the samples side by side, each a square object of its own.
+
+    Were they one mesh, a material with Generated or Object coordinates would read differently
+    beside other neighbors.
+    """
     scene = bpy.data.scenes.new("Spectrophotometer")
     columns = math.ceil(math.sqrt(len(materials)))
     rows = math.ceil(len(materials) / columns)
-    corners: list[tuple[float, float, float]] = []
-    faces: list[list[int]] = []
-    uvs: list[tuple[int, int]] = []
-    for index in range(len(materials)):
-        x, y = index % columns - columns / 2, index // columns - rows / 2
-        square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-        faces.append([len(corners) + corner for corner in range(4)])
-        corners += [(x + u, y + v, 0) for u, v in square]
-        uvs += square
-    mesh = bpy.data.meshes.new("Samples")
-    mesh.from_pydata(corners, [], faces)
+    mesh = bpy.data.meshes.new("Sample")
+    square = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
+    mesh.from_pydata([(x, y, 0) for x, y in square], [], [range(4)])
     layer = mesh.uv_layers.new(name="UVMap")
-    layer.data.foreach_set("uv", np.array(uvs, np.float32).ravel())
+    layer.data.foreach_set("uv", np.array(square, np.float32).ravel() + np.float32(0.5))
+    mesh.materials.append(None)
+    stretch = bpy.data.objects.new("Samples", None)
+    scene.collection.objects.link(stretch)
     for index, material in enumerate(materials):
-        mesh.materials.append(material)
-        mesh.polygons[index].material_index = index
-    plane = bpy.data.objects.new("Samples", mesh)
-    # Nothing here casts a shadow, but where a ray meets the seam of two triangles, the one shades
-    # the other: one sample in 256 came out black.
-    plane.visible_shadow = False
+        # Named like the material: Object Info's Random follows the name.
+        sample = bpy.data.objects.new(material.name, mesh)
+        sample.material_slots[0].link = "OBJECT"
+        sample.material_slots[0].material = material
+        x, y = index % columns - columns / 2, index // columns - rows / 2
+        sample.location = (x + 0.5, y + 0.5, 0)
+        sample.parent = stretch
+        # Nothing here casts a shadow, but where a ray meets the seam of two triangles, the one
+        # shades the other: one sample in 256 came out black.
+        sample.visible_shadow = False
+        scene.collection.objects.link(sample)
     lens = bpy.data.cameras.new("View")
     lens.type, lens.sensor_fit, lens.ortho_scale = "ORTHO", "HORIZONTAL", columns
     lens.clip_end = 1000 * columns
     camera = bpy.data.objects.new("View", lens)
-    for thing in (plane, camera):
-        scene.collection.objects.link(thing)
+    scene.collection.objects.link(camera)
     scene.camera = camera
     settings = scene.render
     settings.engine = "CYCLES"
@@ -110,16 +124,16 @@ def build(materials: list[Any]) -> tuple[Any, Any, Any]:
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     cycles.max_bounces = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    return scene, camera, plane
+    return scene, camera, stretch
 
 
-def aim(scene: Any, camera: Any, plane: Any, geometry: dict[str, Any]) -> None:
-    """Set lights and view; the plane is stretched by as much as the view foreshortens it."""
+def aim(scene: Any, camera: Any, stretch: Any, geometry: dict[str, Any]) -> None:
+    """Set lights and view; samples are stretched by as much as the view foreshortens them."""
     view = geometry["view"]
     distance = 100.0 * camera.data.ortho_scale
     camera.location = (distance * math.sin(view), 0, distance * math.cos(view))
     camera.rotation_euler = (0, view, 0)
-    plane.scale = (1 / math.cos(view), 1, 1)
+    stretch.scale = (1 / math.cos(view), 1, 1)
     for old in [thing for thing in scene.objects if thing.type == "LIGHT"]:
         bpy.data.objects.remove(old)
     for theta, phi in geometry["lights"]:

@@ -17,6 +17,7 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assign`."""
+    from ...core.ladder import RUNGS
     from ..colorimetry import ILLUMINANTS, OBSERVERS
 
     source = parser.add_mutually_exclusive_group(required=True)
@@ -52,7 +53,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
     parser.add_argument(
-        "--model", choices=("first-order", "two-bounce", "closure"), default="two-bounce"
+        "--model",
+        choices=("auto", *RUNGS),
+        default="auto",
+        help="how light between facets is counted; auto takes the cheapest that is good enough",
     )
     parser.add_argument("--shader", choices=("auto", "diffuse", "principled"), default="auto")
     parser.add_argument(

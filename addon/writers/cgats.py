@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Readings as CGATS.17 text, as a real instrument's software writes them.
 
-One table a combination of wavelengths, illuminant and observer. Spectral columns are named
+One table a combination of wavelengths, illuminant, observer and model. Spectral columns are named
 SPECTRAL_NM380 and hold fractions, as that name means to measurement software.
 """
 
@@ -17,7 +17,7 @@ from .tables import nanometers
 
 def predicted(readings: Readings) -> bytes:
     """Give the predicted spectra with their XYZ and Lab."""
-    groups: dict[tuple[tuple[float, ...], str, int], list[list[str]]] = {}
+    groups: dict[tuple[tuple[float, ...], str, int, str], list[list[str]]] = {}
     for number, entry in enumerate(readings.entries, 1):
         part = entry.predicted
         if part is None:
@@ -25,17 +25,17 @@ def predicted(readings: Readings) -> bytes:
         cells = [str(number), _quoted(entry.material)]
         cells += [f"{value:.4f}" for value in (*part.xyz, *part.lab)]
         cells += [f"{value:.6f}" for value in part.values]
-        key = (part.wavelengths, part.illuminant, part.observer)
+        key = (part.wavelengths, part.illuminant, part.observer, part.model)
         groups.setdefault(key, []).append(cells)
     tables = [
         _table(
-            "predicted by the core from the stored spectrum",
+            f"predicted by the core from the stored spectrum, {model} model",
             illuminant,
             observer,
             [*_COLOR_FIELDS, *(f"SPECTRAL_NM{nanometers(nm)}" for nm in wavelengths)],
             rows,
         )
-        for (wavelengths, illuminant, observer), rows in groups.items()
+        for (wavelengths, illuminant, observer, model), rows in groups.items()
     ]
     return _file(tables)
 

@@ -18,7 +18,7 @@ import numpy as np
 from ...core.arrays import Array
 from ...core.errors import OutputError
 from ..openimageio import openimageio
-from ..readings import Readings
+from ..readings import Reading, Readings
 from ..version import version
 
 SWATCH = 16
@@ -106,6 +106,13 @@ def _picture(
     places = np.zeros((height * width, rows.shape[1]))
     places[: len(members)] = rows
     pixels = places.reshape(height, width, -1).repeat(SWATCH, axis=0).repeat(SWATCH, axis=1)
-    names = "; ".join(readings.entries[i].material for i in members)
+    names = "; ".join(_caption(readings.entries[i], spectral) for i in members)
     layout = f"swatches of {SWATCH} px, {COLUMNS} a row, from the top left: {names}"
     return Picture(pixels, channels, layout, spectral)
+
+
+def _caption(entry: Reading, spectral: bool) -> str:
+    """Name the material, and in a spectral image the model too."""
+    if spectral and entry.predicted is not None:
+        return f"{entry.material} ({entry.predicted.model})"
+    return entry.material

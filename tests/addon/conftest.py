@@ -7,21 +7,11 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-import rough_spectra
 from rough_spectra.addon import readers, target
 from rough_spectra.addon.sample import Sample
 from rough_spectra.addon.science import colour
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
-
-
-@pytest.fixture(scope="session", autouse=True)
-def extension():
-    """Register the extension once; unregistering frees what Blender would trip over at its end."""
-    rough_spectra.register()
-    yield
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    rough_spectra.unregister()
 
 
 @pytest.fixture(autouse=True)
@@ -71,9 +61,10 @@ def nix():
 
 @pytest.fixture(scope="session")
 def request_for():
-    """Make a request with σ in degrees."""
+    """Make a request with σ in degrees, for the published model unless another is named."""
 
     def make(sample, degrees=30.0, **settings):
+        settings.setdefault("model", "two-bounce")
         return target.Request(sample, float(np.radians(degrees)), **settings)
 
     return make

@@ -19,9 +19,11 @@ def rows(extension):
 
 def test_mean_color_difference_stays_within_the_promise(rows):
     rough = [row for row in rows if row.material.startswith("Diffuse")]
-    assert [row.sigma_degrees for row in rough] == [15, 30, 45]
+    assert [row.sigma_degrees for row in rough] == [15, 30, 45] * 2
+    assert [row.truth for row in rough] == ["two-bounce"] * 3 + ["reference"] * 3
     for row in rough:
-        assert row.patches >= 23
+        # Cyan lies outside Rec.709; so does yellow where all bounces count.
+        assert row.patches >= 22
         assert row.geometries == 500
         assert row.mean <= LIMIT
 
@@ -29,11 +31,11 @@ def test_mean_color_difference_stays_within_the_promise(rows):
 def test_matched_material_beats_the_lambertian_one_by_far(rows):
     by_sigma = {}
     for row in rows:
-        by_sigma.setdefault(row.sigma_degrees, []).append(row)
+        by_sigma.setdefault((row.sigma_degrees, row.truth), []).append(row)
     for rough, lambert in by_sigma.values():
-        # About nine times in the mean, and better in the worst case too.
-        assert rough.mean < lambert.mean / 5
-        assert rough.percentile_95 < lambert.percentile_95 / 5
+        # 2.8 to 9 times in the mean, and better in the worst case too.
+        assert rough.mean < lambert.mean / 2
+        assert rough.percentile_95 < lambert.percentile_95 / 2
         assert rough.maximum < lambert.maximum
 
 

@@ -12,7 +12,7 @@ import warnings
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, presets
+from rough_spectra.addon import assign, presets, target
 from rough_spectra.addon.sample import Sample
 from rough_spectra.addon.science import colour
 from rough_spectra.addon.spectrophotometer.measure import RING_45_0, Geometry, measure
@@ -119,6 +119,21 @@ def test_presets_and_nix_samples_read_their_target(space, nix, request_for, requ
     for i in np.flatnonzero(~good):
         assert found[i] > LIMIT
         assert found[i] == pytest.approx(solutions[i].delta_e_instrument, abs=0.01)
+
+
+def test_with_the_model_left_to_choose_they_read_their_target_too(nix, request_for):
+    samples = [*presets.load_all(), *nix.values()]
+    requests, solutions, rgb = assign_and_measure(samples, request_for, model=target.AUTO)
+    white = peer_xyz(np.ones(43), np.arange(360.0, 781.0, 10.0))
+    wanted = []
+    for request in requests:
+        sample = request.sample
+        own = peer_xyz(np.ones(sample.values.size), sample.wavelengths)
+        reading = target.target_reading(request)
+        wanted.append(peer_xyz(reading, sample.wavelengths) * white / own)
+    found = delta_e(scene_to_xyz(rgb, "Linear Rec.709", white), np.array(wanted), white)
+    assert found[in_gamut(solutions)].max() <= LIMIT
+    assert {solution.model for solution in solutions} >= {"lambert", "two-bounce", "closure"}
 
 
 @pytest.mark.parametrize("illuminant", ["A", "D50"])

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import bpy
 import pytest
-import rough_spectra
 
 from tests.integration.support import (
     COMMAND,
@@ -26,18 +25,6 @@ from tests.integration.support import (
     rgb_material,
     spectrum_csv,
 )
-
-
-@pytest.fixture(scope="session", autouse=True)
-def extension():
-    """Register once; other test folders in the same process may have done so already."""
-    if hasattr(bpy.types.Material, "rough_spectra"):
-        yield
-        return
-    rough_spectra.register()
-    yield
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    rough_spectra.unregister()
 
 
 @pytest.fixture(autouse=True)

@@ -117,16 +117,17 @@ def test_stored_properties_have_tooltips_and_identifiers_that_files_hold():
             continue
         assert prop.description, prop.identifier
         if prop.type == "ENUM":
-            found[prop.identifier] = [item.identifier for item in prop.enum_items]
+            found[prop.identifier] = {item.value: item.identifier for item in prop.enum_items}
             assert all(item.name and item.description for item in prop.enum_items)
-    # Blender stores an item's place in this list: append only.
-    assert found["kind"][:2] == ["reading", "albedo"]
-    assert found["instrument"][:1] == ["45a:0"]
-    assert found["model"][:3] == ["two-bounce", "first-order", "closure"]
-    assert found["shader"][:3] == ["AUTO", "DIFFUSE", "PRINCIPLED"]
-    assert found["observer"][:2] == ["2", "10"]
+    # Blender stores an item's number: never give one to another item.
+    assert found["kind"] == dict(enumerate(["reading", "albedo"]))
+    assert found["instrument"][0] == "45a:0"
+    models = ["two-bounce", "first-order", "closure", "auto", "lambert", "reference"]
+    assert found["model"] == dict(enumerate(models))
+    assert found["shader"] == dict(enumerate(["AUTO", "DIFFUSE", "PRINCIPLED"]))
+    assert found["observer"] == {0: "2", 1: "10"}
     lights = ["D65", "A", "D50", "D55", "D75", "E", "F2", "F7", "F11", "LED-B3"]
-    assert found["illuminant"][:10] == lights
+    assert found["illuminant"] == dict(enumerate(lights))
 
 
 def test_presets_are_offered_by_ids_that_scripts_can_rely_on():
