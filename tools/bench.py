@@ -95,17 +95,18 @@ def largest_relative_error(found: Any, exact: Any) -> float:
 
 def reflectance_row() -> Row:
     """One spectrum in many geometries, beside the bare product that is left of it."""
-    directions = [angle.astype(np.float32) for angle in geometry.hemisphere(ROWS)]
+    light, view, azimuth = (angle.astype(np.float32) for angle in geometry.hemisphere(ROWS))
     albedo = np.linspace(0.05, 0.95, BANDS, dtype=np.float32)
-    pairs = np.stack(oren_nayar.factors(*directions, SIGMA), axis=-1)
+    pairs = np.stack(oren_nayar.factors(light, view, azimuth, SIGMA), axis=-1)
     rows = np.stack((albedo, albedo * albedo))
 
     def task() -> Any:
-        return oren_nayar.reflectance(albedo, *directions, SIGMA)
+        return oren_nayar.reflectance(albedo, light, view, azimuth, SIGMA)
 
     took, beside = best_milliseconds(task, lambda: pairs @ rows)
-    wide = [angle.astype(np.float64) for angle in directions]
-    exact = oren_nayar.reflectance(albedo.astype(np.float64), *wide, float(np.float32(SIGMA)))
+    spectrum, *angles = (values.astype(np.float64) for values in (albedo, light, view, azimuth))
+    factors = oren_nayar.factors(angles[0], angles[1], angles[2], float(np.float32(SIGMA)))
+    exact = np.stack(factors, axis=-1) @ np.stack((spectrum, spectrum * spectrum))
     # Opposite grazing, where the published model passes through zero, has no relative error.
     error = float(np.max(np.abs(task() - exact)))
     return Row(
