@@ -75,7 +75,8 @@ def _state(layout: Any, material: Any) -> None:
     column.label(text=f"ΔE00 at 45°/0°: {found.delta_e_instrument:.2f}", icon="CHECKMARK")
     column.label(text=f"All angles: mean {found.delta_e_mean:.2f}, 95 % {found.delta_e_95:.2f}")
     if material.rough_spectra.model == "auto":
-        _sentence(column, f"Model: {found.model_reason}", "BLANK1")
+        _sentence(column, f"Model {found.model_reason}", "BLANK1")
+        _sentence(column, f"Material {found.shader_reason}", "BLANK1")
     for warning in found.warnings:
         _sentence(column, warning, "INFO")
 

@@ -73,7 +73,8 @@ class Reading:
     """All that is known of one material's reading.
 
     `surface` is the object it was asked for by, if any. `delta_e_00` is None unless there are
-    both a prediction and a measurement.
+    both a prediction and a measurement. `shader_reason` says whether the
+    material is Lambertian or rough, and why; empty where that was not derived here.
     """
 
     material: str
@@ -83,6 +84,7 @@ class Reading:
     predicted: Predicted | None
     measured: Measured | None
     delta_e_00: float | None
+    shader_reason: str
     warnings: tuple[str, ...]
 
 
@@ -118,6 +120,7 @@ class Prepared:
     material: str
     request: target.Request | None
     model_reason: str
+    shader_reason: str
     warnings: tuple[str, ...]
 
 
@@ -137,14 +140,18 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     space = working_space.current().name
     prepared = []
     for surface, material in surfaces:
-        request, warnings, model_reason = None, [], ""
+        request, warnings, model_reason, shader_reason = None, [], "", ""
         if stamp.has_spectrum(material):
             request, model_reason = _settled(material)
             reasons = stamp.stale_reasons(material, space)
             found = stamp.get_stamp(material)
             warnings = [f"stale: {reason}" for reason in reasons]
-            warnings += [] if found is None else found.warnings
-        prepared.append(Prepared(surface, material.name, request, model_reason, tuple(warnings)))
+            if found is not None:
+                warnings += found.warnings
+                shader_reason = found.shader_reason
+        prepared.append(
+            Prepared(surface, material.name, request, model_reason, shader_reason, tuple(warnings))
+        )
     return prepared
 
 
@@ -338,6 +345,7 @@ def _reading(item: Prepared, measured: Array | None, space: working_space.Workin
         predicted=None if request is None else _predicted(request, item.model_reason, space),
         measured=seen,
         delta_e_00=difference,
+        shader_reason=item.shader_reason,
         warnings=item.warnings,
     )
 

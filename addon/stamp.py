@@ -38,6 +38,8 @@ class Stamp:
         The shader node and the values written to it.
     model, model_reason
         The model that gave the target, and why it was taken.
+    shader_reason
+        Whether the material is Lambertian or rough, and why.
     delta_e_instrument, delta_e_mean, delta_e_95
         Predicted ΔE00 at the instrument and over the hemisphere.
     warnings
@@ -51,6 +53,7 @@ class Stamp:
     roughness: float
     model: str
     model_reason: str
+    shader_reason: str
     delta_e_instrument: float
     delta_e_mean: float
     delta_e_95: float

@@ -101,6 +101,7 @@ def set_stamp(material: Any, solution: Solution, working_space: str, node: str) 
         "roughness": solution.roughness,
         "model": solution.model,
         "model_reason": solution.model_reason,
+        "shader_reason": solution.shader_reason,
         "delta_e_instrument": solution.delta_e_instrument,
         "delta_e_mean": solution.delta_e_mean,
         "delta_e_95": solution.delta_e_95,

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..core import cycles, geometry, ladder, reading
 from ..core.arrays import Array
+from ..core.choice import choose_shader
 from ..core.errors import DomainError
 from . import colorimetry, judgement
 from .sample import Sample
@@ -27,6 +28,11 @@ if TYPE_CHECKING:
 MATCH_GEOMETRIES = 32
 """Directions the roughness is matched over. Against 2,000 of them the mean ΔE00 of the
 ColorChecker comes out within 0.03."""
+
+ASKED_FOR = "asked for"
+"""Reason of a model that was not left to choose; its material is then matched, however smooth."""
+
+_ROUGH = "rough: matched to the model asked for"
 
 AUTO = "auto"
 """Model of a request that leaves the choice to `choose`."""
@@ -87,6 +93,8 @@ class Solution:
         ΔE00 predicted between target and Cycles at the instrument.
     delta_e_mean, delta_e_95
         Mean and 95th percentile over the hemisphere below 80°.
+    shader_reason
+        Whether the material is Lambertian or rough, and why.
     delta_e_lambert
         Mean of the same for the Lambertian material with the same reading.
     warnings
@@ -102,6 +110,7 @@ class Solution:
     delta_e_mean: float
     delta_e_95: float
     delta_e_lambert: float
+    shader_reason: str
     warnings: tuple[str, ...]
 
 
@@ -152,7 +161,7 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
 def settle(requests: Sequence[Request]) -> list[tuple[Request, str]]:
     """Replace "auto" by the model chosen, and say why; other models stay as asked for."""
     open_ones = [i for i, request in enumerate(requests) if request.model == AUTO]
-    settled = [(request, "asked for") for request in requests]
+    settled = [(request, ASKED_FOR) for request in requests]
     for i, choice in zip(open_ones, choose([requests[i] for i in open_ones]), strict=True):
         settled[i] = (replace(requests[i], model=choice.model), choice.reason)
     return settled
@@ -191,9 +200,17 @@ def _solve(
     wanted = perceive(targets)
     rough = cycles.reflectance(color[:, None], roughness[:, None], *geometries)
     over_hemisphere = colorimetry.delta_e(perceive(rough), wanted)
+    smooth = np.clip(readings, 0, 1)
+    flat = smooth[:, None] * np.ones((1, MATCH_GEOMETRIES, 1))
+    lambert = colorimetry.delta_e(perceive(flat), wanted)
+    shaders = [
+        choose_shader(lambert[i], over_hemisphere[i], TOLERANCE) if reason != ASKED_FOR else None
+        for i, (_, reason) in enumerate(settled)
+    ]
+    is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
+    color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
+    over_hemisphere[is_lambert] = lambert[is_lambert]
     high = np.percentile(over_hemisphere, 95, axis=1)
-    flat = np.clip(readings, 0, 1)[:, None] * np.ones((1, MATCH_GEOMETRIES, 1))
-    lambert = colorimetry.delta_e(perceive(flat), wanted).mean(axis=-1)
     at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES["45a:0"])
     met = colorimetry.delta_e(perceive(at_instrument), perceive(readings))
     return [
@@ -206,7 +223,8 @@ def _solve(
             delta_e_instrument=float(met[i]),
             delta_e_mean=float(over_hemisphere[i].mean()),
             delta_e_95=float(high[i]),
-            delta_e_lambert=float(lambert[i]),
+            delta_e_lambert=float(lambert[i].mean()),
+            shader_reason=_ROUGH if (found := shaders[i]) is None else found.reason,
             warnings=_warnings(request, space, matched[i], float(met[i])),
         )
         for i, (request, reason) in enumerate(settled)

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The model and the material are chosen by themselves, and say so where the user looks."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from rough_spectra.addon import assign, presets, readings, stamp, target
+from rough_spectra.core import ladder
+
+
+def assigned(degrees, model=target.AUTO):
+    material = bpy.data.materials.new("Green")
+    request = target.Request(presets.load("14"), math.radians(degrees), model)
+    (solution,) = assign.assign([(material, request)])
+    return material, solution
+
+
+@pytest.mark.parametrize(("degrees", "model"), [(1, "lambert"), (45, "closure")])
+def test_smooth_needs_no_model_and_rough_needs_all_bounces(degrees, model):
+    material, solution = assigned(degrees)
+    assert solution.model == model
+    found = stamp.get_stamp(material)
+    assert (found.model, found.model_reason) == (model, solution.model_reason)
+    assert found.model_reason.startswith(f"{model}: ")
+    assert material.rough_spectra.model == target.AUTO
+
+
+def test_smooth_material_is_lambertian_and_rough_one_is_matched():
+    _, smooth = assigned(1)
+    assert smooth.roughness == 0
+    assert smooth.shader_reason.startswith("lambert")
+    assert smooth.delta_e_mean == smooth.delta_e_lambert < target.TOLERANCE
+    _, rough = assigned(45)
+    assert rough.roughness > 0.3
+    assert rough.delta_e_mean < rough.delta_e_lambert / 2
+
+
+def test_model_asked_for_is_kept_and_its_material_matched():
+    material, solution = assigned(1, "two-bounce")
+    assert solution.model == "two-bounce"
+    assert solution.roughness > 0
+    assert stamp.get_stamp(material).model_reason == target.ASKED_FOR
+
+
+def test_bake_predicts_with_the_model_that_was_assigned():
+    material, solution = assigned(45)
+    (prepared,) = readings.prepare([("", material)])
+    (entry,) = readings.compare([prepared], None).entries
+    assert entry.predicted.model == "closure"
+    assert entry.predicted.model_reason == solution.model_reason
+    assert entry.shader_reason == solution.shader_reason
+    at_45_0 = (math.pi / 4, 0.0, 0.0, math.radians(45))
+    wanted = ladder.reflectance("reference", presets.load("14").values, *at_45_0)
+    # 1 %: how far the closure is from the reference.
+    np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
