@@ -12,8 +12,8 @@ from rough_spectra.core import ladder
 
 
 def assigned(degrees, model=target.AUTO):
-    material = bpy.data.materials.new("Green")
-    request = target.Request(presets.load("14"), math.radians(degrees), model)
+    material = bpy.data.materials.new("White")
+    request = target.Request(presets.load("19"), math.radians(degrees), model)
     (solution,) = assign.assign([(material, request)])
     return material, solution
 
@@ -39,7 +39,7 @@ def test_smooth_material_is_lambertian_and_rough_one_is_matched():
 
 
 def test_model_asked_for_is_kept_and_its_material_matched():
-    material, solution = assigned(1, "two-bounce")
+    material, solution = assigned(5, "two-bounce")
     assert solution.model == "two-bounce"
     assert solution.roughness > 0
     assert stamp.get_stamp(material).model_reason == target.ASKED_FOR
@@ -53,6 +53,6 @@ def test_bake_predicts_with_the_model_that_was_assigned():
     assert entry.predicted.model_reason == solution.model_reason
     assert entry.shader_reason == solution.shader_reason
     at_45_0 = (math.pi / 4, 0.0, 0.0, math.radians(45))
-    wanted = ladder.reflectance("reference", presets.load("14").values, *at_45_0)
+    wanted = ladder.reflectance("reference", presets.load("19").values, *at_45_0)
     # 1 %: how far the closure is from the reference.
     np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
