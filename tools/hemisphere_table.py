@@ -5,9 +5,9 @@
 Assigns the 24 ColorChecker presets at three roughnesses, once for the published two-bounce model
 and once with the model left to choose; renders them in 500 geometries of light and view; and
 compares with the spectral truth there: the two-bounce model itself, and the V-cavity reference.
-Beside each stands a Lambertian material with the same reading at 45°/0°, which is what a color picked from a
-chart amounts to. Writes
-docs/data/hemisphere.csv and docs/hemisphere-table.md. Needs an environment with bpy:
+Beside each stands a Lambertian material with the same reading at 45°/0°, which is what a color
+picked from a chart amounts to. Writes docs/data/hemisphere.csv and docs/hemisphere-table.md. Needs
+an environment with bpy:
 
     hemisphere_table.py
 """
@@ -94,7 +94,8 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
     materials = [bpy.data.materials.new(request.sample.name) for request in requests]
     solutions = assign.assign(list(zip(materials, requests, strict=True)))
     space = working_space.current()
-    seen = space.to_lab(measure(materials, to_measure(*directions))[:, :, 0], "D65")
+    measured = measure(materials, to_measure(*directions), samples=1)[:, :, 0]
+    seen = space.to_lab(measured, "D65")
     rows = []
     for start in range(0, len(requests), len(samples)):
         members = [

@@ -27,6 +27,9 @@ import numpy as np
 from ...core.arrays import Array
 from ...core.errors import CancelledError, OutputError
 
+SAMPLES = 16
+"""Rays a pixel unless told otherwise: with 16 pixels a sample, 256 places on a texture."""
+
 _POLL_SECONDS = 0.05
 _PATIENCE_SECONDS = 5.0
 """How long a Blender that was asked to end may take before it is killed."""
@@ -61,6 +64,8 @@ class Measurement:
         `bpy.types.Material`, linked ones too; each is measured as it is now.
     geometries
         Where to measure.
+    samples
+        Rays a pixel. One is exact for an even material; textures and bumps need more.
 
     Raises
     ------
@@ -68,14 +73,19 @@ class Measurement:
         If the temporary folder cannot be written or the second Blender not be started.
     """
 
-    def __init__(self, materials: Sequence[Any], geometries: Sequence[Geometry]) -> None:
+    def __init__(
+        self,
+        materials: Sequence[Any],
+        geometries: Sequence[Geometry],
+        samples: int = SAMPLES,
+    ) -> None:
         self._folder: Path | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self.total = 0
         self.done = 0
         try:
             self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
-            self._start(self._folder, materials, geometries)
+            self._start(self._folder, materials, geometries, samples)
         except (OSError, RuntimeError) as error:
             self.close()
             # Blender says "Error: Success" when the disk is full.
@@ -158,7 +168,11 @@ class Measurement:
             shutil.rmtree(self._folder, ignore_errors=True)
 
     def _start(
-        self, folder: Path, materials: Sequence[Any], geometries: Sequence[Geometry]
+        self,
+        folder: Path,
+        materials: Sequence[Any],
+        geometries: Sequence[Geometry],
+        samples: int,
     ) -> None:
         blend = folder / "materials.blend"
         # Blender leaves linked data out unless local data use it: the worker links it anew.
@@ -169,6 +183,7 @@ class Measurement:
         job = {
             "blend": blend.name,
             "asked_by": os.getpid(),
+            "samples": samples,
             "materials": [[m.name, _library_path(m)] for m in materials],
             "geometries": [{"lights": g.lights, "view": g.view} for g in geometries],
         }
@@ -188,12 +203,13 @@ def measure(
     materials: Sequence[Any],
     geometries: Sequence[Geometry] = (RING_45_0,),
     progress: Callable[[int, int], None] | None = None,
+    samples: int = SAMPLES,
 ) -> Array:
     """Measure materials and wait for the result.
 
     Parameters
     ----------
-    materials, geometries
+    materials, geometries, samples
         As in `Measurement`.
     progress
         Called with renders done and renders in all; may raise to stop.
@@ -211,7 +227,7 @@ def measure(
     """
     if not materials:
         return np.empty((len(geometries), 0, 2, 3))
-    measurement = Measurement(materials, geometries)
+    measurement = Measurement(materials, geometries, samples)
     try:
         measurement.wait(progress)
         return measurement.result()

@@ -40,7 +40,7 @@ def main(job_path: Path) -> None:
     total, done = len(batches) * len(job["geometries"]), 0
     results = []
     for batch in batches:
-        scene, camera, stretch = build(batch)
+        scene, camera, stretch = build(batch, job["samples"])
         of_batch = []
         for geometry in job["geometries"]:
             aim(scene, camera, stretch, geometry)
@@ -74,7 +74,7 @@ def find(name: str, library: str | None) -> Any:
     return wanted.materials[0]
 
 
-def build(materials: list[Any]) -> tuple[Any, Any, Any]:
+def build(materials: list[Any], samples: int) -> tuple[Any, Any, Any]:
     """Lay the samples side by side, each a square object of its own.
 
     Were they one mesh, a material with Generated or Object coordinates would read differently
@@ -119,7 +119,7 @@ def build(materials: list[Any]) -> tuple[Any, Any, Any]:
     settings.image_settings.color_mode = "RGBA"
     settings.image_settings.color_depth = "32"
     cycles = scene.cycles
-    cycles.device, cycles.seed, cycles.samples = "CPU", 0, 16
+    cycles.device, cycles.seed, cycles.samples = "CPU", 0, samples
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     cycles.max_bounces = 0

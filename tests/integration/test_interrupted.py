@@ -78,6 +78,8 @@ def start(environment, temporary):
             [*COMMAND, *map(str, words)],
             env=environment | {"TMPDIR": str(temporary)},
             start_new_session=True,
+            # A job that a script put in the background inherits SIGINT ignored.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             **({"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE} | options),
         )
         started.append(process)
