@@ -172,7 +172,8 @@ def green():
 
 def hemisphere():
     with HEMISPHERE.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        table = csv.DictReader(line for line in file if not line.startswith("#"))
+        rows = [row for row in table if row["truth"] == "reference"]
     figure, axes = plt.subplots(figsize=(8, 3.6), layout="constrained")
     names = list(dict.fromkeys(row["material"] for row in rows))
     sigmas = sorted({float(row["sigma_degrees"]) for row in rows})
