@@ -40,6 +40,12 @@ BLENDER_4_5 = Environment(
 TOOLS = Environment(
     ROOT, environments.TOOLS, ("3.13", "3.11"), "ruff, mypy, matplotlib and mkdocs, once"
 )
+CHART = Environment(
+    ROOT,
+    "chart",
+    ("3.13", "3.11"),
+    "Mitsuba and LuxCore, which the chart compares with, about 200 MB to fetch, once",
+)
 BLENDERS = {"5.2": BLENDER_5_2, "4.5": BLENDER_4_5}
 
 NO_PYTHON = (
@@ -236,6 +242,19 @@ def command_figures(options: argparse.Namespace) -> int:
     return call([prepare_tools().python, script("docs/figures.py"), *options.arguments])
 
 
+def command_chart(_options: argparse.Namespace) -> int:
+    """Measure cost and error of every model, shortcut and peer, and draw the chart into docs/."""
+    blender, tools = prepare_blender(), prepare_tools()
+    wheels.ensure(ROOT, blender.python)
+    command = module(blender, "tools.chart", "--draw", tools.python)
+    try:
+        if environments.prepare(CHART, say):
+            command += ["--peers", CHART.python]
+    except GroundError as error:
+        say(f"{error} The chart is made without the renderers it compares with.")
+    return call(command)
+
+
 def command_docs(_options: argparse.Namespace) -> int:
     """Build the manual into site/; a dead link fails."""
     script("mkdocs.yml")
@@ -268,6 +287,7 @@ COMMANDS = {
     "docs": (command_docs, "build the manual into site/"),
     "figures": (command_figures, "draw the figures of the manual"),
     "bench": (command_bench, "measure speed"),
+    "chart": (command_chart, "measure cost against error, peers included, and draw the chart"),
 }
 TAKES_ARGUMENTS = {"test": "pytest", "bench": "tools/bench.py", "figures": "docs/figures.py"}
 
