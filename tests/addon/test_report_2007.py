@@ -58,7 +58,7 @@ def lab(values, observer, scale=1.0):
     return science.XYZ_to_Lab(scale * xyz(values), white), xyz(values)[1]
 
 
-# DESIGN.md, section 9, to its digits.
+# The design notes of this project, to their digits.
 @pytest.mark.parametrize(("observer", "as_is", "equal"), [(2, 4.37, 1.6), (10, 3.96, 1.4)])
 def test_patch_14_as_the_design_notes_and_colour_science_have_it(green, observer, as_is, equal):
     row = green[observer, "two-bounce"]
