@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ..core.errors import DomainError, MaterialError
+from ..core.errors import MaterialError
 from . import nodes, storage, target, working_space
 from .target import Request, Solution
 
@@ -57,13 +57,6 @@ def _apply(work: list[tuple[nodes.Place, Request, nodes.Shader]]) -> list[Soluti
         twice = next(m for m in materials if materials.count(m) > 1)
         msg = f"Material {twice.name!r} is named twice; give it one spectrum."
         raise MaterialError(msg)
-    for _, request, _ in work:
-        if request.sample.instrument != "45a:0":
-            msg = (
-                f"{request.sample.name!r} was read with {request.sample.instrument}; only 45a:0 "
-                "is known so far."
-            )
-            raise DomainError(msg)
     space = working_space.current()
     solutions = target.solve([request for _, request, _ in work], space)
     for (place, request, shader), solution in zip(work, solutions, strict=True):

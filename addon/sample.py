@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One measured spectrum, as every reader returns it.
 
-A `Sample` that exists is valid: its wavelengths increase, its values lie between 0 and 1. Whatever
-breaks that is refused here in one sentence that names the file, the place and the remedy, so that
-no later code has to ask again.
+A `Sample` that exists is valid: its wavelengths increase, its values are finite and could be
+reflectance. Whatever breaks that is refused here in one sentence that names the file, the place and
+the remedy, so that no later code has to ask again. What a surface cannot do but an instrument can
+print, such as a little noise below 0, is kept as measured; `judgement` names it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.errors import InputError
+from ..core.instruments import REGISTRY
 
 Kind = Literal["reading", "albedo"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -25,6 +27,13 @@ KINDS: tuple[str, ...] = get_args(Kind)
 # the extreme ultraviolet, and in micrometers these are the visible and the infrared.
 SHORTEST_NM = 20.0
 LONGEST_NM = 1e6  # 1 mm: the far end of the infrared
+
+VISIBLE_NM = (380.0, 780.0)
+"""Where the limits below hold. Outside, detectors end in noise of any size, which no color sees."""
+DEEPEST_NOISE = -0.05
+"""A reading below this is not noise around black."""
+BRIGHTEST = 4.0
+"""A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,12 +47,24 @@ class Sample:
     wavelengths
         Nanometers, increasing, shape ``(bands,)``, at least two; kept as a read-only float64 array.
     values
-        Fractions 0..1, shape ``(bands,)``; kept as a read-only float64 array.
+        Fractions as measured, shape ``(bands,)``; kept as a read-only float64 array. Within the
+        visible range between `DEEPEST_NOISE` and `BRIGHTEST`; see `reflectance` for computing.
     kind
         ``"reading"`` for the reflectance factor at the instrument's geometry, ``"albedo"`` for the
         reflectance of one facet.
+    quantity
+        What the file calls it, such as ``"reflectance factor"``, ``"radiance factor"`` or
+        ``"directional-hemispherical reflectance"``. Never a transmittance, an absorbance or an
+        emission: readers refuse those.
     instrument
-        Geometry of the reading, as `core.reading` names it.
+        Geometry that the reading is computed with, one of `core.instruments.REGISTRY`; the nearest
+        one where the file's own is not among them, and a note says so.
+    geometry
+        Geometry in the words of the file.
+    aperture
+        In the words of the file, with its unit.
+    specular
+        ``"SCI"`` or ``"SCE"`` where a sphere's file says whether specular light is in the reading.
     sigma_degrees
         Roughness, or None where the file does not say.
     sigma_source
@@ -66,6 +87,8 @@ class Sample:
         The file's own tristimulus values, scaled so that the perfect white diffuser has Y = 1.
     notes
         Sentences that the reader wants the user to see.
+    altered
+        Sentences that say what is not as the file has it, such as ``"Two scans were averaged."``.
 
     Raises
     ------
@@ -77,7 +100,11 @@ class Sample:
     wavelengths: NDArray[np.float64]
     values: NDArray[np.float64]
     kind: Kind
+    quantity: str = "reflectance factor"
     instrument: str = "45a:0"
+    geometry: str = ""
+    aperture: str = ""
+    specular: str = ""
     sigma_degrees: float | None = None
     sigma_source: str = ""
     source: str = ""
@@ -90,11 +117,25 @@ class Sample:
     lab: tuple[float, float, float] | None = None
     xyz: tuple[float, float, float] | None = None
     notes: tuple[str, ...] = ()
+    altered: tuple[str, ...] = ()
+
+    @property
+    def reflectance(self) -> NDArray[np.float64]:
+        """The values to compute with, shape (bands,): noise below 0 counts as 0.
+
+        An albedo above 1 counts as 1. `judgement` says so of every sample that it happens to.
+        """
+        return np.clip(self.values, 0.0, 1.0 if self.kind == "albedo" else None)
 
     def __post_init__(self) -> None:
         where = ", ".join(part for part in (self.source or self.name, self.position) if part)
         if self.kind not in KINDS:
             raise InputError(f"{where}: kind is {self.kind!r}; make it 'reading' or 'albedo'.")
+        if self.instrument not in REGISTRY:
+            raise InputError(
+                f"{where}: the instrument {self.instrument!r} is not known; make it one of: "
+                f"{', '.join(REGISTRY)}."
+            )
         wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
         object.__setattr__(self, "wavelengths", wavelengths)
         object.__setattr__(self, "values", values)
@@ -123,7 +164,8 @@ def check_spectrum(
     ------
     InputError
         Fewer than two bands; a wavelength or a value that is NaN or infinite; wavelengths that
-        decrease, repeat or cannot be nanometers; a value below 0 or above 1.
+        decrease, repeat or cannot be nanometers; a visible value below `DEEPEST_NOISE` or above
+        `BRIGHTEST`.
     """
     place = place or (lambda band: f"band {band + 1}")
     nm = _read_only(wavelengths)
@@ -140,7 +182,9 @@ def check_spectrum(
     if not (nm[0] >= SHORTEST_NM and nm[-1] <= LONGEST_NM and (nm[1:] > nm[:-1]).all()):
         raise InputError(f"{where}: {_fault_of_wavelengths(nm, place)}.")
     if not (fractions.min() >= 0.0 and fractions.max() <= 1.0):
-        raise InputError(f"{where}: {_fault_of_values(nm, fractions, place)}.")
+        fault = _fault_of_values(nm, fractions, place)
+        if fault:
+            raise InputError(f"{where}: {fault}.")
     return nm, fractions
 
 
@@ -188,20 +232,28 @@ def _fault_of_wavelengths(nm: NDArray[np.float64], place: Callable[[int], str]) 
 def _fault_of_values(
     nm: NDArray[np.float64], fractions: NDArray[np.float64], place: Callable[[int], str]
 ) -> str:
+    """Say what makes the values no reflectance, or nothing."""
+
     def at(band: int) -> str:
         return f"the value at {_number(nm[band])} nm, {place(band)}, is {_number(fractions[band])}"
 
     bad = np.flatnonzero(~np.isfinite(fractions))
     if bad.size:
         return f"{at(int(bad[0]))}; measure again or leave the sample out"
-    bad = np.flatnonzero(fractions < 0.0)
+    visible = (nm >= VISIBLE_NM[0]) & (nm <= VISIBLE_NM[1])
+    bad = np.flatnonzero(visible & (fractions < DEEPEST_NOISE))
     if bad.size:
-        return f"{at(int(bad[0]))}, which is negative; reflectance starts at 0, so correct it"
-    band = int(np.flatnonzero(fractions > 1.0)[0])
-    return (
-        f"{at(band)}, above 1; if the values are percent, let the column name or the file's unit "
-        "option say so, and otherwise correct it"
-    )
+        return (
+            f"{at(int(bad[0]))}, more below 0 than noise can be; reflectance starts at 0, so "
+            "correct it or measure again"
+        )
+    bad = np.flatnonzero(visible & (fractions > BRIGHTEST))
+    if bad.size:
+        return (
+            f"{at(int(bad[0]))}, more than {BRIGHTEST:g} times white; if the values are percent, "
+            "let the column name or the file's unit option say so, and otherwise correct it"
+        )
+    return ""
 
 
 def _number(value: float) -> str:

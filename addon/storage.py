@@ -17,7 +17,11 @@ from .sample import Sample
 from .stamp import inputs_digest, sigma
 from .target import Request, Solution
 
-_DETAILS = ("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz")
+_DETAILS = (
+    *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
+    *("quantity", "geometry", "aperture", "specular"),
+)
+_SENTENCES = ("notes", "altered")
 
 
 def store(material: Any, request: Request, shader: str) -> None:
@@ -33,7 +37,8 @@ def store(material: Any, request: Request, shader: str) -> None:
         {"wavelengths": sample.wavelengths.tolist(), "values": sample.values.tolist()}
     )
     group.details = json.dumps(
-        {key: getattr(sample, key) for key in _DETAILS} | {"notes": list(sample.notes)}
+        {key: getattr(sample, key) for key in _DETAILS}
+        | {key: list(getattr(sample, key)) for key in _SENTENCES}
     )
     group.sigma = request.sigma
     group.sigma_source = sample.sigma_source
@@ -63,7 +68,8 @@ def load(material: Any) -> Request:
         raise MaterialError(msg)
     try:
         spectrum, details = json.loads(group.spectrum), json.loads(group.details or "{}")
-        pairs = {key: tuple(details[key]) for key in ("lab", "xyz", "notes") if details.get(key)}
+        lists = ("lab", "xyz", *_SENTENCES)
+        pairs = {key: tuple(details[key]) for key in lists if details.get(key)}
         plain = {key: details[key] for key in _DETAILS if key in details and key not in pairs}
         sample = Sample(
             name=group.sample_name,

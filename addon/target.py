@@ -34,6 +34,9 @@ ASKED_FOR = "asked for"
 
 _ROUGH = "rough: matched to the model asked for"
 
+VIRTUAL = "45a:0"
+"""Instrument that materials are matched and measured with, whichever gave the reading."""
+
 AUTO = "auto"
 """Model of a request that leaves the choice to `choose`."""
 
@@ -115,7 +118,7 @@ class Solution:
 
 
 def target_reading(request: Request) -> Array:
-    """r(λ) that the material has to show at the instrument, shape (bands,)."""
+    """r(λ) that the material has to show at the virtual instrument, shape (bands,)."""
     [(settled, _)] = settle([request])
     return np.asarray(_spectra([settled])[0][0])
 
@@ -131,7 +134,7 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
     DomainError
         If a spectrum does not cover the visible range, or σ or illuminant is unknown.
     """
-    instrument = reading.INSTRUMENT_ANGLES["45a:0"]
+    instrument = reading.INSTRUMENT_ANGLES[VIRTUAL]
     spread = geometry.hemisphere(CHOICE_GEOMETRIES)
     geometries = tuple(
         np.append(all_over, at) for all_over, at in zip(spread, instrument, strict=True)
@@ -151,7 +154,7 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
         # The closure's albedo stands for the true one: it is what the other models approximate.
         _, rho = _spectra([replace(requests[i], model="closure") for i in members])
         choices = ladder.choose_model(
-            rho, sigma, geometries, [light], tolerance, difference=difference
+            np.minimum(rho, 1), sigma, geometries, [light], tolerance, difference=difference
         )
         for i, choice in zip(members, choices, strict=True):
             found[i] = choice
@@ -211,7 +214,7 @@ def _solve(
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert] = lambert[is_lambert]
     high = np.percentile(over_hemisphere, 95, axis=1)
-    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES["45a:0"])
+    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
     met = colorimetry.delta_e(perceive(at_instrument), perceive(readings))
     return [
         Solution(
@@ -246,10 +249,12 @@ def _colors(
         sigma = np.array([requests[i].sigma for i in members])
         for start in range(0, len(members), _CHUNK):
             chunk = slice(start, start + _CHUNK)
+            albedo = rho[chunk, np.newaxis]
             spread = ladder.reflectance(
-                first.model, rho[chunk, np.newaxis], *geometries, sigma[chunk, np.newaxis]
+                first.model, np.minimum(albedo, 1), *geometries, sigma[chunk, np.newaxis]
             )
-            targets[members[chunk]] = spread @ weights
+            # No model holds for facets that return more light than reaches them: see `_to_albedo`.
+            targets[members[chunk]] = (spread * np.maximum(albedo, 1)) @ weights
     # The published model turns negative at grazing opposite directions; no surface does. A channel
     # that is negative in the reading itself is out of gamut, which is another matter.
     targets = np.where(readings[:, None] >= 0, np.maximum(targets, 0), targets)
@@ -262,23 +267,39 @@ def _spectra(requests: list[Request]) -> tuple[Array, Array]:
     An albedo is above 1 where the reading is more than white facets give.
     """
     first = requests[0]
-    values = np.stack([request.sample.values for request in requests])
+    values = np.stack([request.sample.reflectance for request in requests])
     if first.model == "lambert":
         return values, values
     sigma = np.array([request.sigma for request in requests])
     is_albedo = np.array([request.sample.kind == "albedo" for request in requests])[:, np.newaxis]
-    asked = (sigma, first.model, first.sample.instrument)
-    return (
-        np.where(is_albedo, reading.from_albedo(values, *asked), values),
-        np.where(is_albedo, values, reading.to_albedo(values, *asked)),
-    )
+    instrument = first.sample.instrument
+    rho = np.where(is_albedo, values, _to_albedo(values, sigma, first.model, instrument))
+    as_printed = ~is_albedo & (instrument == VIRTUAL)
+    return np.where(as_printed, values, _from_albedo(rho, sigma, first.model)), rho
+
+
+def _to_albedo(values: Array, sigma: Array, model: str, instrument: str) -> Array:
+    """Give the albedo behind readings; above 1 in proportion where white facets give less.
+
+    Only fluorescence or gloss reads more than white facets, which no model of them describes.
+    """
+    white = reading.white_reading(sigma, model, instrument)[:, np.newaxis]
+    rho = reading.to_albedo(np.minimum(values, white), sigma, model, instrument)
+    return np.asarray(rho * np.maximum(values / white, 1))
+
+
+def _from_albedo(rho: Array, sigma: Array, model: str) -> Array:
+    """Predict the virtual instrument's readings; beyond 1 in proportion, as `_to_albedo`."""
+    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
+    return np.asarray(seen * np.maximum(rho, 1))
 
 
 def _alike(requests: Sequence[Request]) -> list[list[int]]:
-    """Group requests that share wavelengths, illuminant and model, and so their matrices."""
-    groups: dict[tuple[bytes, str, str], list[int]] = {}
+    """Group requests that share wavelengths, illuminant, model and instrument: their matrices."""
+    groups: dict[tuple[bytes, str, str, str], list[int]] = {}
     for i, request in enumerate(requests):
-        key = (request.sample.wavelengths.tobytes(), request.illuminant, request.model)
+        sample = request.sample
+        key = (sample.wavelengths.tobytes(), request.illuminant, request.model, sample.instrument)
         groups.setdefault(key, []).append(i)
     return list(groups.values())
 
@@ -320,7 +341,7 @@ def _infeasible(request: Request) -> str:
     if value <= limit * (1 + _ENOUGH):
         return ""
     bound = ""
-    if request.model == "two-bounce":
+    if request.model == "two-bounce" and sample.instrument == VIRTUAL:
         bound = f", and at most {np.degrees(reading.sigma_max(value)):.1f}° would fit"
     return (
         f"{sample.name!r} reads {value:.3f} at {sample.wavelengths[peak]:g} nm, but white facets "

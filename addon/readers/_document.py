@@ -17,6 +17,15 @@ from ...core.errors import InputError
 LARGEST_FILE = 256 * 2**20  # bytes; a table of 100,000 spectra takes about 30 MB
 HEAD = 2**16  # how much a sniffer sees; metadata before a table is a few kB at most
 
+OTHER_QUANTITIES = {
+    "emission": "emission (the spectrum of a light source)",
+    "transmittance": "transmittance (light through the sample)",
+    "absorbance": "absorbance (a logarithm)",
+    "counts": "raw detector counts",
+    "radiance": "radiance",
+    "irradiance": "irradiance",
+}
+
 # Never part of text. Tab, line feed, form feed, return and the DOS end-of-file mark are.
 _CONTROL = re.compile("[\x00-\x08\x0e-\x19\x1b-\x1f]")
 
@@ -64,6 +73,39 @@ class Document:
     def fault(self) -> str:
         """Why this is not text, or an empty string."""
         return self._decoded[1]
+
+    def companion(self, name: str) -> Document | None:
+        """Open another file of the same folder that belongs to this one; None if it is not there.
+
+        Parameters
+        ----------
+        name
+            A file name without any folder: nothing outside the folder can be reached.
+
+        Raises
+        ------
+        InputError
+            The name has a folder in it, or the file is there and cannot be read.
+        """
+        if not name or name in (".", "..") or set(name) & set("/\\:\0"):
+            raise self.error("", f"{quote(name)} is no plain file name; put that file beside it")
+        beside = self.path.with_name(name)
+        return open_document(beside) if beside.exists() else None
+
+    def not_reflectance(self, place: str, quantity: str) -> InputError:
+        """Return the error that refuses another quantity by its name.
+
+        Parameters
+        ----------
+        place
+            Where the file says so, such as ``"line 3, key Y-UNITS"``.
+        quantity
+            A key of `OTHER_QUANTITIES`, or words for anything else.
+        """
+        what = OTHER_QUANTITIES.get(quantity, quantity)
+        return self.error(
+            place, f"the values are {what}, not reflectance; export the reflectance of the surface"
+        )
 
     def error(self, place: str, sentence: str) -> InputError:
         """Return the error that names this file and a place in it (either may be all there is)."""

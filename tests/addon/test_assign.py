@@ -37,6 +37,11 @@ def awkward():
         np.arange(380.0, 731.0, 10.0) + 1 / 3,
         rng.uniform(0.1, 0.6, 36),
         "reading",
+        quantity="radiance factor",
+        instrument="de:8",
+        geometry="d/8 specular excluded",
+        aperture="8 mm",
+        specular="SCE",
         sigma_source="guessed",
         source="/somewhere/file.csv",
         license="CC0-1.0",
@@ -48,6 +53,7 @@ def awkward():
         lab=(50.1, -1 / 3, 7.0),
         xyz=(0.1, 0.2, 1 / 7),
         notes=("one", "two"),
+        altered=("two scans were averaged",),
     )
 
 
@@ -57,6 +63,7 @@ def same_sample(a, b):
     for field in (
         *("name", "kind", "instrument", "sigma_source", "source", "license", "position"),
         *("device", "condition", "illuminant", "observer", "lab", "xyz", "notes"),
+        *("quantity", "geometry", "aperture", "specular", "altered"),
     ):
         assert getattr(a, field) == getattr(b, field), field
 
@@ -383,7 +390,7 @@ def test_damaged_storage_is_one_sentence(make_material, colorchecker, request_fo
 def test_stored_values_that_no_spectrum_has_are_refused(make_material, colorchecker, request_for):
     material = make_material("Damaged")
     assign.assign([(material, request_for(colorchecker[0]))])
-    for values in ([0.1, float("nan")], [0.1, 1.5]):
+    for values in ([0.1, float("nan")], [0.1, 5.5]):
         stored = {"wavelengths": [400, 500], "values": values}
         material.rough_spectra.spectrum = json.dumps(stored)
         with pytest.raises(MaterialError, match="'Damaged': its stored spectrum cannot be read"):

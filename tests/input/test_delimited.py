@@ -152,7 +152,7 @@ def test_scale_follows_words_and_never_size(tmp_path, top, scale):
 
 def test_large_values_are_refused_rather_than_scaled(tmp_path):
     sentence = refusal(tmp_path, "wavelength,R\n400,50\n410,25\n")
-    for part in ("column 'R'", "line 2", "above 1", "percent", "column name"):
+    for part in ("column 'R'", "line 2", "times white", "percent", "column name"):
         assert part in sentence
 
 
@@ -161,7 +161,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
     [
         ("wavelength,R\n400,nan\n410,0.5\n", ["line 2", "NaN"]),
         ("wavelength,R\n400,0.5\n410,1e999\n", ["line 3", "infinite"]),
-        ("wavelength,R\n400,0.5\n410,-0.5\n", ["line 3", "410 nm", "negative"]),
+        ("wavelength,R\n400,0.5\n410,-0.5\n", ["line 3", "410 nm", "below 0"]),
         ("wavelength,R\n400,0.5\n420,0.5\n\n410,0.5\n", ["line 5", "line 3", "410 nm", "sort"]),
         ("wavelength,R\n400,0.5\n400,0.5\n", ["line 2", "line 3", "twice"]),
         ("wavelength,R\n400,0.5\n", ["only one band"]),

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rough_spectra.addon import readers
 from rough_spectra.addon.readers._document import Document
+from rough_spectra.addon.sample import BRIGHTEST, DEEPEST_NOISE
 from rough_spectra.core.errors import InputError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,8 +60,9 @@ def read_or_refuse(path, data):
     for sample in samples:
         assert sample.name
         assert (np.diff(sample.wavelengths) > 0).all()
-        assert sample.values.min() >= 0
-        assert sample.values.max() <= 1
+        assert np.isfinite(sample.values).all()
+        visible = sample.values[(sample.wavelengths >= 380) & (sample.wavelengths <= 780)]
+        assert ((visible >= DEEPEST_NOISE) & (visible <= BRIGHTEST)).all()
 
 
 @pytest.mark.parametrize("path", FIXTURES, ids=lambda path: path.name)

@@ -155,7 +155,7 @@ ABSENT = object()
         ("values", [0.5, None], ["number 2 is 'None'"]),
         ("values", [0.5, 10**400], ["number 2 is '1000"]),
         ("values", [0.5], ["81 wavelengths", "1 values"]),
-        ("values", [1.5] * 81, ["380 nm", "number 1", "above 1"]),
+        ("values", [5.5] * 81, ["380 nm", "number 1", "times white"]),
         ("values", [float("nan")] * 81, ["380 nm", "NaN"]),
         ("wavelengths", list(range(780, 375, -5)), ["775 nm", "number 2", "sort"]),
     ],

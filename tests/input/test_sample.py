@@ -28,10 +28,30 @@ def test_the_givers_array_stays_the_givers():
 
 
 def test_a_sample_refuses_what_check_spectrum_refuses():
-    with pytest.raises(InputError, match=r"^clay\.csv, line 5: .*negative"):
+    with pytest.raises(InputError, match=r"^clay\.csv, line 5: .*below 0"):
         Sample("clay", NM, [0.1, -0.1, 0.1], "reading", source="clay.csv", position="line 5")
     with pytest.raises(InputError, match="kind is 'color'"):
         Sample("clay", NM, [0.1, 0.1, 0.1], "color")
+
+
+@pytest.mark.parametrize("values", [[-0.05, 0.5, 1.2], [0.0, -1e-9, 4.0]])
+def test_what_an_instrument_can_print_is_kept(values):
+    sample = Sample("clay", NM, values, "reading")
+    assert sample.values.tolist() == values
+    assert sample.reflectance.tolist() == [max(value, 0.0) for value in values]
+    albedo = Sample("clay", NM, values, "albedo")
+    assert albedo.values.tolist() == values
+    assert albedo.reflectance.tolist() == [min(max(value, 0.0), 1.0) for value in values]
+
+
+def test_noise_that_no_color_sees_is_no_fault():
+    sample = Sample("clay", [350.0, 500.0, 2500.0], [-0.4, 0.5, 7.0], "reading")
+    assert sample.values.tolist() == [-0.4, 0.5, 7.0]
+
+
+def test_an_unknown_instrument_is_refused():
+    with pytest.raises(InputError, match=r"clay: the instrument '30:0' is not known; .*45a:0"):
+        Sample("clay", NM, [0.1, 0.1, 0.1], "reading", instrument="30:0")
 
 
 @pytest.mark.parametrize("values", [[0.0, 0.5, 1.0], [0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
@@ -50,8 +70,8 @@ def test_both_ends_of_the_range_belong_to_it(values):
         (NM, [0.5, nan, 0.5], ["410 nm", "band 2", "NaN"]),
         (NM, [0.5, 0.5, inf], ["420 nm", "band 3", "infinite"]),
         (NM, [0.5, -inf, 0.5], ["410 nm", "-infinite"]),
-        (NM, [-1e-9, 0.5, 0.5], ["400 nm", "-1e-09", "negative"]),
-        (NM, [0.5, 0.5, 1.0000001], ["420 nm", "1.0000001", "above 1", "percent"]),
+        (NM, [-0.0501, 0.5, 0.5], ["400 nm", "-0.0501", "below 0"]),
+        (NM, [0.5, 0.5, 4.0000001], ["420 nm", "4.0000001", "times white", "percent"]),
         (NM, [50.0, 60.0, 70.0], ["400 nm", "50", "percent", "column name"]),
         ([400, 420, 410], [0.5] * 3, ["410 nm at band 3", "420 nm at band 2", "sort"]),
         ([400, 400, 410], [0.5] * 3, ["400 nm", "twice", "band 1", "band 2", "keep one"]),
