@@ -120,6 +120,7 @@ class RoughSpectraMaterial(PropertyGroup):
     )
     shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
     stamp: StringProperty(name="Stamp", description="What was derived and from what, as JSON")
+    measured: StringProperty(name="Measured", description="The last measurement, as JSON")
 
 
 classes = (RoughSpectraMaterial,)

@@ -7,9 +7,9 @@ from __future__ import annotations
 import bpy
 
 from . import command_line, panels, properties
-from .operators import assign_file, assign_preset, bake, renew
+from .operators import assign_file, assign_preset, bake, measure, renew
 
-_MODULES = (properties, assign_preset, assign_file, renew, bake, panels)
+_MODULES = (properties, assign_preset, assign_file, renew, bake, measure, panels)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 

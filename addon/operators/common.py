@@ -21,6 +21,7 @@ SCOPE_ITEMS = (
     ("ACTIVE", "Active Material", "Only the active object's active material"),
     ("SELECTED", "Selected Objects", "Every material on the selected objects"),
 )
+ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
 
 
 class AssignOptions:
@@ -70,6 +71,10 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
             msg = "No selected object has a material; select objects with materials."
             raise RoughSpectraError(msg)
         return found
+    if scope == "ALL":
+        from .. import selection
+
+        return [material for _, material in selection.surfaces((), ())]
     material = active_material(context)
     if material is None:
         msg = "The active object has no material; give it one first."
@@ -120,6 +125,14 @@ def can_have_material(operator: Any, context: Any) -> bool:
     if active_material(context) is not None or hasattr(getattr(thing, "data", None), "materials"):
         return True
     operator.poll_message_set("Select an object that can carry a material")
+    return False
+
+
+def has_materials(operator: Any) -> bool:
+    """Poll for operators that measure any material."""
+    if len(bpy.data.materials) > 0:
+        return True
+    operator.poll_message_set("There is no material to measure")
     return False
 
 

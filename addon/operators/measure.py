@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure materials and keep the result with them, beside the prediction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.props import EnumProperty
+
+from . import background, common
+
+if TYPE_CHECKING:
+    from ...core.arrays import Array
+
+
+class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
+    """Render the material with a virtual spectrophotometer and compare with its spectrum"""
+
+    bl_idname = "rough_spectra.measure"
+    bl_label = "Measure with Virtual Spectrophotometer"
+    bl_options = {"REGISTER", "UNDO"}
+
+    scope: EnumProperty(
+        name="For",
+        description="Materials to measure",
+        items=(*common.SCOPE_ITEMS, common.ALL_WITH_SPECTRUM),
+    )
+
+    @classmethod
+    def description(cls, _context: Any, properties: Any) -> str:
+        """Say what the button at hand measures."""
+        what = {
+            "ACTIVE": "Render the material",
+            "SELECTED": "Render the materials of the selected objects",
+            "ALL": "Render every material that stores a spectrum",
+        }[properties.scope]
+        return (
+            f"{what} with a virtual spectrophotometer, in a second Blender in the background, and "
+            "compare with the spectrum; ESC stops"
+        )
+
+    @classmethod
+    def poll(cls, _context: Any) -> bool:
+        """Need at least one material."""
+        return common.has_materials(cls)
+
+    def to_measure(self, context: Any) -> list[Any]:
+        """Take down the predictions, and what each material is like now."""
+        from .. import measured, readings
+
+        materials = common.materials_in_scope(context, self.scope)
+        self._prepared = readings.prepare([("", material) for material in materials])
+        # A pointer to a material does not survive an undo while the measurement runs.
+        self._ids = [material.session_uid for material in materials]
+        self._states = [measured.fingerprint(material) for material in materials]
+        return materials
+
+    def take(self, values: Array) -> str:
+        """Keep each reading with its material; linked ones are only reported."""
+        from .. import measured, readings
+
+        entries = readings.compare(self._prepared, values).entries
+        present = {material.session_uid: material for material in bpy.data.materials}
+        for entry, uid, state in zip(entries, self._ids, self._states, strict=True):
+            material = present.get(uid)
+            if material is not None and material.is_editable and entry.measured is not None:
+                measured.note(material, state, entry.measured.rgb, entry.delta_e_00)
+        return _sentence(entries)
+
+
+def _sentence(entries: Any) -> str:
+    if len(entries) == 1:
+        entry = entries[0]
+        if entry.delta_e_00 is not None:
+            return f"{entry.material}: measured ΔE00 {entry.delta_e_00:.2f} from its spectrum"
+        rgb = ", ".join(f"{value:.3f}" for value in entry.measured.rgb)
+        return f"{entry.material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with"
+    worst = max(entries, key=lambda entry: entry.delta_e_00 or 0.0)
+    largest = "" if worst.delta_e_00 is None else f"; largest ΔE00 {worst.delta_e_00:.2f}"
+    name = f" in {worst.material}" if largest else ""
+    return f"{len(entries)} materials measured{largest}{name}"
+
+
+classes = (ROUGHSPECTRA_OT_measure,)

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measuring a material in place: real renders, and a note that knows when it is out of date."""
+
+import bpy
+import pytest
+from rough_spectra.addon import measured
+
+from tests.integration.support import rgb_material
+from tests.integration.test_operators import mesh_object, refusal
+
+OPS = bpy.ops.rough_spectra
+
+
+def test_the_reading_stands_beside_the_prediction_until_something_changes():
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/14-green", sigma=0.5)
+    assert measured.get(material) is None
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    found = measured.get(material)
+    assert found.current
+    assert found.delta_e < 0.02
+    node = next(node for node in material.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    kept = tuple(node.inputs["Color"].default_value)
+    node.inputs["Color"].default_value = (0.5, 0.1, 0.1, 1)
+    assert not measured.get(material).current
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    wrong = measured.get(material)
+    assert wrong.current
+    assert wrong.delta_e > 20
+    assert wrong.rgb[0] > found.rgb[0]
+    node.inputs["Color"].default_value = kept
+    assert not measured.get(material).current
+    material.rough_spectra.measured = '{"of": 3}'
+    assert measured.get(material) is None
+
+
+def test_a_material_without_a_spectrum_is_measured_too():
+    material = rgb_material("Plain", (0.2, 0.4, 0.6))
+    mesh_object("Wall", material)
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    found = measured.get(material)
+    assert found.delta_e is None
+    assert found.rgb == pytest.approx((0.2, 0.4, 0.6), abs=1e-5)
+
+
+def test_all_materials_with_a_spectrum_are_measured(scene):
+    bpy.ops.wm.open_mainfile(filepath=str(scene))
+    assert OPS.measure("EXEC_DEFAULT", scope="ALL") == {"FINISHED"}
+    readings = {m.name: measured.get(m) for m in bpy.data.materials}
+    assert {name for name, found in readings.items() if found} == {
+        material.name for material in bpy.data.materials if material.rough_spectra.spectrum
+    }
+    assert all(found.delta_e < 0.05 for found in readings.values() if found)
+
+
+def test_without_anything_to_measure_the_operator_says_so():
+    with pytest.raises(RuntimeError, match="There is no material to measure"):
+        OPS.measure("EXEC_DEFAULT")
+    rgb_material("Plain")
+    assert "no material" in refusal(OPS.measure)
+    assert "No material" in refusal(OPS.measure, scope="ALL")
