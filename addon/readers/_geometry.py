@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What files say about an instrument's geometry, as one of the instruments that are computed.
+
+Light and view may change places: readings of the models obey Helmholtz reciprocity, so 8°:di reads
+what di:8° reads. A geometry that is not among them gets the nearest one and a sentence about it.
+"""
+
+from __future__ import annotations
+
+import re
+
+from ...core.instruments import ASPECULAR, REGISTRY
+from ._document import quote
+
+ASSUMED = "45a:0"
+"""Where a file says nothing: the geometry of most portable instruments, and of ISO 13655."""
+
+_LONGEST = 200  # characters of a description that are looked at
+_NUMBER = r"([-+]?\d+(?:[.,]\d+)?)"
+_RING = r"(annular|a|circumferential|c|ring|directional|x)?"
+_BETWEEN = r"\s*[:/]\s*"
+_PAIR = re.compile(rf"(?<![\w.]){_NUMBER}\s*{_RING}{_BETWEEN}{_NUMBER}\s*{_RING}(?![\w./])")
+_ASPECULAR = re.compile(rf"\bas\s*{_NUMBER}|{_NUMBER}\s*as\s*{_NUMBER}|aspecular\D*?{_NUMBER}")
+_DIFFUSE = r"(?:d|diffuse|h|hemispherical)\s*(i|e)?"
+_SPHERE = re.compile(
+    rf"(?<![\w.]){_DIFFUSE}{_BETWEEN}{_NUMBER}(?![\w.])|"
+    rf"(?<![\w.]){_NUMBER}{_BETWEEN}{_DIFFUSE}(?![a-z0-9])|\bd(i|e)?({_NUMBER[1:-1]})(?![\w.])"
+)
+_INCIDENCE = re.compile(rf"\bi\w*\s*[=:]?\s*{_NUMBER}\W{{1,5}}e\w*\s*[=:]?\s*{_NUMBER}")
+_DIFFUSE_BOTH = re.compile(r"(?<!\w)(?:d|diffuse)\s*[:/]\s*(?:d|diffuse)(?!\w)")
+_HEMISPHERE = re.compile(r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b")
+_ONE_DIRECTION = re.compile(r"direction\w*\W*hemi|hemi\w*\W*direction|\bdhr\b")
+_RING_WORD = re.compile(r"annul|circumferen|\bring\b")
+_SIDE_WORD = re.compile(r"\bdirectional\b|unidirectional|\bone[- ]sided?\b")
+
+_INCLUDED = re.compile(
+    r"\b(?:sci|spin|rspin|spi|i\+e)\b|specular\W*(?:component\W*)?(?:is\W*)?incl|incl\w*\W*specular"
+)
+_EXCLUDED = re.compile(
+    r"\b(?:sce|spex|rspex|spe)\b|specular\W*(?:component\W*)?(?:is\W*)?excl|excl\w*\W*specular"
+)
+
+
+def instrument_of(text: str, specular: str = "") -> tuple[str, str]:
+    """Return the instrument to compute with, and a note where it is not what the file says.
+
+    Parameters
+    ----------
+    text
+        The geometry in the words of the file, such as ``"45/0"``, ``"0°:45°a"``, ``"D/8 SCI"``.
+    specular
+        ``"SCI"`` or ``"SCE"`` where the file says so elsewhere; see `specular_of`.
+
+    Returns
+    -------
+    tuple
+        A name of `core.instruments.REGISTRY`, and one sentence or an empty string.
+    """
+    stated = " ".join(text[:_LONGEST].split())
+    if not stated:
+        return ASSUMED, f"The file does not say the geometry; {_title(ASSUMED)} is assumed."
+    if stated in REGISTRY:
+        return stated, ""
+    plain = _plain(stated)
+    found = _multi_angle(plain) or _sphere(plain, specular) or _two_angles(plain)
+    if not found:
+        return ASSUMED, f"The geometry {quote(stated)} is not known; {_title(ASSUMED)} is assumed."
+    name, why = found
+    note = f"The geometry {quote(stated)} {why}; it is computed as {_title(name)}." if why else ""
+    return name, note
+
+
+def specular_of(text: str) -> str:
+    """Return ``"SCI"``, ``"SCE"``, or nothing where the words do not say which it is.
+
+    Makers' words count: SPIN and SPEX, specular included and excluded, and CIE's di and de.
+    """
+    plain = _plain(text[:_LONGEST])
+    included, excluded = bool(_INCLUDED.search(plain)), bool(_EXCLUDED.search(plain))
+    if not included and not excluded:
+        sphere = _SPHERE.search(plain)
+        letter = (sphere[1] or sphere[4] or sphere[5]) if sphere else ""
+        included, excluded = letter == "i", letter == "e"
+    if included == excluded:
+        return ""  # nothing said, or a list of both
+    return "SCI" if included else "SCE"
+
+
+def _plain(text: str) -> str:
+    """Return lower-case text without degree signs."""
+    # µ-style look-alikes of the degree sign are as common as the sign itself.
+    lower = re.sub(r"[°º˚]|\bdeg(?:rees?)?\b\.?|(?<=\d)deg(?:rees?)?\b", "", text.lower())
+    # "45\0" and "45-0": the hyphen only between two numbers, where it cannot be a sign.
+    lower = re.sub(r"(?<=\d)\s*\\\s*(?=[\dd])|(?<=d)\s*\\\s*(?=\d)", ":", lower)
+    return re.sub(r"(?<=\b45)\s*-\s*(?=0\b)|(?<=\b0)\s*-\s*(?=45\b)", ":", lower)
+
+
+def _title(name: str) -> str:
+    return REGISTRY[name].title.split(",")[0]
+
+
+def _value(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+def _multi_angle(plain: str) -> tuple[str, str] | None:
+    match = _ASPECULAR.search(plain)
+    if not match:
+        return None
+    light = _value(match[2]) if match[2] else 45.0
+    angle = _value(next(text for text in (match[1], match[3], match[4]) if text))
+    nearest = min(ASPECULAR, key=lambda known: abs(known - angle))
+    name = f"45as{nearest}"
+    exact = nearest == angle and light == 45.0
+    return name, "" if exact else "is not among the instruments"
+
+
+def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
+    match = _SPHERE.search(plain)
+    both = _DIFFUSE_BOTH.search(plain)
+    if not (match or both or (_HEMISPHERE.search(plain) and not _PAIR.search(plain))):
+        return None
+    says = specular or specular_of(plain)
+    angle = _value(match[2] or match[3] or match[6]) if match else _angle_alone(plain)
+    whole = bool(_ONE_DIRECTION.search(plain)) or (match is not None and "h" in match[0])
+    if both or angle == 0.0:
+        # A detector at 0° looks at its own opening, which is a gloss trap (ISO 2469 has one too).
+        return "de:8" if says != "SCI" and not both else "di:8", "is not among the instruments"
+    name = "de:8" if says == "SCE" else "di:8"
+    if angle is not None and angle != 8.0:
+        return name, "is not among the instruments"
+    if angle is None:
+        return name, "does not name an angle"
+    if not says and not whole:
+        return name, "does not say whether specular light is included"
+    return name, ""
+
+
+def _angle_alone(plain: str) -> float | None:
+    """Return the angle of words such as "directional-hemispherical, 8°"; None unless it is one."""
+    found = re.findall(rf"(?<![\w.]){_NUMBER}(?![\w.])", plain)
+    return _value(found[0]) if len(found) == 1 else None
+
+
+def _two_angles(plain: str) -> tuple[str, str] | None:
+    match = _PAIR.search(plain)
+    words = _INCIDENCE.search(plain)
+    if not match and not words:
+        return None
+    first, second = match.group(1, 3) if match else words.group(1, 2)
+    light, view = abs(_value(first)), abs(_value(second))
+    if max(light, view) >= 90.0:
+        return None  # a ratio
+    if {light, view} != {0.0, 45.0}:
+        return ASSUMED, "is not among the instruments"
+    ring = (match[2] or match[4] or "")[:1] if match else "x"
+    if not ring:
+        ring = "x" if _SIDE_WORD.search(plain) and not _RING_WORD.search(plain) else "a"
+    if ring in ("x", "d"):
+        return "45x:0", ""
+    return ("45a:0" if light == 45.0 else "0:45a"), ""
