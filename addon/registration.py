@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import bpy
 
-from . import command_line, panels, properties
+from . import command_line, panels, preferences, properties
 from .operators import assign_file, assign_preset, bake, measure, renew
 
-_MODULES = (properties, assign_preset, assign_file, renew, bake, measure, panels)
+_MODULES = (properties, preferences, assign_preset, assign_file, renew, bake, measure, panels)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 
