@@ -210,6 +210,7 @@ def _solve(
         choose_shader(lambert[i], over_hemisphere[i], TOLERANCE) if reason != ASKED_FOR else None
         for i, (_, reason) in enumerate(settled)
     ]
+    judged = judgement.judge_each([request.sample for request in requests])
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert] = lambert[is_lambert]
@@ -228,7 +229,7 @@ def _solve(
             delta_e_95=float(high[i]),
             delta_e_lambert=float(lambert[i].mean()),
             shader_reason=_ROUGH if (found := shaders[i]) is None else found.reason,
-            warnings=_warnings(request, space, matched[i], float(met[i])),
+            warnings=(*judged[i], *_warnings(request, space, matched[i], float(met[i]))),
         )
         for i, (request, reason) in enumerate(settled)
     ]
@@ -317,7 +318,7 @@ def _naming(sample: Sample) -> Iterator[None]:
 def _warnings(
     request: Request, space: WorkingSpace, color: Array, missed: float
 ) -> tuple[str, ...]:
-    found = [space.warning, judgement.contradiction(request.sample), _infeasible(request)]
+    found = [space.warning, _infeasible(request)]
     outside = np.maximum(-color, color - 1)
     channel = int(np.argmax(outside))
     if outside[channel] > _ENOUGH:

@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files whose own color contradicts their spectrum are named; the others are not."""
+"""What is wrong with a spectrum is named; what is nearly wrong is not."""
 
 import math
+import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
-from rough_spectra.addon import judgement, readers, target, working_space
+from rough_spectra.addon import colorimetry, judgement, presets, readers, target, working_space
+from rough_spectra.addon.sample import Sample
 
 NIX = sorted((Path(__file__).parents[1] / "fixtures" / "nix").glob("*.csv"))
 
@@ -17,7 +20,7 @@ def test_device_lab_agrees_under_the_files_own_light(path):
     (sample,) = readers.read(path)
     # 0.02: the files print nine digits; what is left is the interpolation of the weights.
     assert judgement.own_color_difference(sample) <= 0.02
-    assert judgement.contradiction(sample) == ""
+    assert judgement.judge([sample]) == [()]
 
 
 def test_brick_only_seems_to_disagree_when_its_light_is_ignored():
@@ -40,4 +43,175 @@ def test_contradiction_reaches_the_user_with_the_solution():
 def test_without_a_stated_light_nothing_is_claimed():
     (sample,) = readers.read(NIX[0])
     assert judgement.own_color_difference(replace(sample, illuminant="")) is None
-    assert judgement.own_color_difference(replace(sample, lab=None)) is None
+    assert judgement.own_color_difference(replace(sample, lab=None, xyz=None)) is None
+
+
+NM = np.arange(400.0, 701.0, 10.0)
+SMOOTH = 0.4 + 0.2 * np.sin(NM / 60)
+
+
+def sentences(values=SMOOTH, nm=NM, kind="reading", **fields):
+    return judgement.judge([Sample("it", nm, values, kind, **fields)])[0]
+
+
+def changed(values, band, value):
+    values = np.array(values)
+    values[band] = value
+    return values
+
+
+def test_a_plain_reading_gets_no_sentence():
+    assert sentences() == ()
+
+
+def test_presets_get_no_sentence():
+    everything = presets.load_all()
+    assert [s for s in judgement.judge(everything) if s] == []
+
+
+def shifted(delta_e):
+    """The Lab of the smooth spectrum, made lighter by about this ΔE00."""
+    lab = colorimetry.spectrum_to_lab(SMOOTH, NM, "D50", 2)
+    other = lab
+    while colorimetry.delta_e(lab, other) < delta_e:
+        other = other + np.array([0.001, 0, 0])
+    return other
+
+
+@pytest.mark.parametrize(("delta_e", "count"), [(0.49, 0), (0.51, 1)])
+def test_own_lab_or_xyz_above_the_limit_is_a_contradiction(delta_e, count):
+    light = {"illuminant": "D50", "observer": 2}
+    lab = shifted(delta_e)
+    found = sentences(lab=tuple(lab), **light)
+    assert len(found) == count
+    # XYZ by hand: Y from L* alone, X and Z from it and a*, b*, CIE 15:2018 eq. 8.3 inverted.
+    white = colorimetry.white("D50", 2)
+    fy = (lab[0] + 16) / 116
+    xyz = white * np.array([fy + lab[1] / 500, fy, fy - lab[2] / 200]) ** 3
+    found = sentences(xyz=tuple(xyz), **light)
+    assert len(found) == count
+    assert all("has XYZ in its file" in sentence for sentence in found)
+
+
+def test_a_lab_under_no_known_light_or_of_too_few_bands_is_not_compared():
+    assert sentences(lab=(1.0, 2.0, 3.0), illuminant="Shop", observer=2) == ()
+    short = sentences(SMOOTH[:9], NM[:9], lab=(1.0, 2.0, 3.0), illuminant="D50", observer=2)
+    assert len(short) == 1
+    assert "unmeasured" in short[0]
+
+
+def test_above_white_is_fluorescence_or_gloss():
+    assert sentences(changed(SMOOTH, 4, 1.0)) == ()
+    (sentence,) = sentences(changed(SMOOTH, 4, 1.03))
+    assert "'it' reads 1.03 at 440 nm, more than white" in sentence
+    nm = np.append(NM, 1000.0)
+    assert sentences(np.append(SMOOTH, 1.5), nm) == ()  # no color sees it
+    (sentence,) = sentences(changed(SMOOTH, 4, 1.03), kind="albedo")
+    assert "counts as 1" in sentence
+
+
+def test_noise_below_zero_is_named_with_its_depth():
+    assert sentences(changed(SMOOTH, 2, 0.0)) == ()
+    (sentence,) = sentences(changed(changed(SMOOTH, 2, -0.002), 3, -0.001))
+    assert "below 0 in 2 bands, down to -0.002 at 420 nm" in sentence
+    assert "counts as 0" in sentence
+
+
+def test_a_curve_cut_off_at_its_top_is_saturation():
+    peak = 0.9 + 0.2 * np.exp(-(((NM - 550) / 40) ** 2))
+
+    def saturated(values, **fields):
+        return [s for s in sentences(values, **fields) if "stays at exactly" in s]
+
+    assert saturated(np.minimum(peak, 1.0)) != []
+    assert saturated(np.minimum(peak, 1.0), kind="albedo") != []
+    assert saturated(np.minimum(peak, 0.98)) == []  # flat below white: a sample may be so
+    assert saturated(peak) == []
+    two = changed(changed(np.minimum(peak, 1.2), 15, 1.2), 16, 1.2)
+    assert saturated(two) == []
+    assert saturated(changed(two, 17, 1.2)) != []
+    for digits in (2, 3, 4):  # a smooth top, level only because the table is rounded
+        gentle = 1.01 - 1e-6 * (NM - 560) ** 2
+        assert saturated(np.round(gentle, digits)) == []
+    assert sentences(np.ones(NM.size), kind="albedo") == ()  # a perfect white by definition
+
+
+@pytest.mark.parametrize(
+    ("left_out", "word"), [([14], ""), ([14, 15], "gap from 530 to 560 nm"), ([30], "")]
+)
+def test_bands_left_out_of_the_grid_are_a_gap(left_out, word):
+    nm = np.delete(np.append(NM, [710.0]), left_out)
+    found = sentences(np.full(nm.size, 0.3), nm)
+    assert len(found) == bool(word)
+    assert all(word in sentence for sentence in found)
+
+
+def test_a_gap_too_narrow_to_matter_is_not_named():
+    fine = np.arange(380.0, 781.0)
+    assert sentences(np.full(397, 0.3), np.delete(fine, range(100, 104))) == ()
+    (sentence,) = sentences(np.full(395, 0.3), np.delete(fine, range(100, 106)))
+    assert "gap from 479 to 486 nm" in sentence
+
+
+@pytest.mark.parametrize(("step", "count"), [(20.0, 0), (25.0, 1)])
+def test_steps_that_are_too_coarse(step, count):
+    nm = np.arange(400.0, 701.0, step)
+    found = sentences(np.full(nm.size, 0.3), nm)
+    assert len(found) == count
+    assert all("follows from interpolation" in sentence for sentence in found)
+
+
+def test_a_range_that_is_too_short():
+    inner = slice(1, -1)
+    (sentence,) = sentences(SMOOTH[inner], NM[inner])
+    assert "covers 410 to 690 nm and not all of 400 to 700 nm; the end values are held" in sentence
+    assert sentences(nm=np.append(400.4, NM[1:])) == ()
+    (sentence,) = sentences(nm=NM + 60)
+    assert "no material can be made" in sentence
+    (sentence,) = sentences(nm=NM + 1000)
+    assert "leaves 100% of its color unmeasured" in sentence
+
+
+def test_specular_light_in_the_reading():
+    (sentence,) = sentences(specular="SCI")
+    assert "use the SCE reading" in sentence
+    assert sentences(specular="SCE") == ()
+
+
+@pytest.mark.parametrize(("excess", "named"), [(0.009, False), (0.012, True)])
+def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
+    def sample(name, condition, values, nm=NM):
+        return Sample(name, nm, values, "reading", condition=condition)
+
+    brighter = changed(SMOOTH, 4, SMOOTH[4] + excess)
+    found = judgement.judge(
+        [
+            sample("paper", "M0", SMOOTH),
+            sample("other", "M1", SMOOTH + 0.2),
+            sample("paper", "M1", brighter),
+            sample("third", "", SMOOTH - 0.1),
+        ]
+    )
+    assert [bool(each) for each in found] == [named, False, named, False]
+    if named:
+        assert found[0] == found[2]
+        assert "'paper' differs by 0.012 at 440 nm between M0 and M1" in found[0][0]
+    finer = np.arange(380.0, 731.0, 5.0)
+    either = sample("paper", "M1", np.interp(finer, NM, brighter), finer)
+    assert bool(judgement.judge([sample("paper", "M2", SMOOTH), either])[0]) is named
+
+
+def test_ten_thousand_samples_are_judged_in_one_go():
+    values = np.random.default_rng(1).uniform(0.2, 0.6, (10_000, NM.size))
+    lab = colorimetry.spectrum_to_lab(values, NM, "D50", 2)
+    samples = [
+        Sample(
+            str(i // 2), NM, values[i], "reading", illuminant="D50", observer=2, lab=tuple(lab[i])
+        )
+        for i in range(len(values))
+    ]
+    start = time.perf_counter()
+    assert not any(judgement.judge(samples))
+    seconds = time.perf_counter() - start
+    print(f"judged in {seconds:.3f} s")
+    assert seconds < 2  # seen: 0.1; one by one it would be far more
