@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..sample import Sample
-from . import _bands, _table
+from . import _series, _table
 from ._document import Document, quote
 from ._geometry import instrument_of
 
@@ -66,7 +66,7 @@ def read(document: Document) -> list[Sample]:
     for i, column in enumerate(columns, start=1):
         place = f"column {quote(header[column])}"
         scale = 100.0 if "%" in units[column] or "%" in header[column] else 1.0
-        found = _bands.bands(
+        found = _series.bands(
             rows[:, 0],
             rows[:, i] / scale,
             f"{document.path}, {place}",
@@ -107,13 +107,13 @@ def _reflectance(document: Document, line: int, header: list[str], units: list[s
     InputError
         There is none; the sentence names what there is.
     """
-    found = [i for i, label in enumerate(header) if _bands.says_reflectance(label)]
+    found = [i for i, label in enumerate(header) if _series.says_reflectance(label)]
     if found:
         return found
     for i, label in enumerate(header[1:], start=1):
         if label.lower() in _BESIDE:
             continue
-        other = _bands.other_quantity(label) or _bands.other_quantity(units[i])
+        other = _series.other_quantity(label) or _series.other_quantity(units[i])
         place = f"line {line}, column {quote(label)}"
         if other:
             raise document.not_reflectance(place, other)
@@ -141,6 +141,6 @@ def _numbers(
             )
         for column in (0, *columns):
             place = f"line {number}, column {quote(header[column])}"
-            flat.append(_bands.number(document, place, fields[column].strip()))
+            flat.append(_series.number(document, place, fields[column].strip()))
         at.append(number)
     return np.array(flat, dtype=np.float64).reshape(-1, 1 + len(columns)), at

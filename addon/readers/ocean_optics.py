@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..sample import Sample
-from . import _bands, _table
+from . import _series, _table
 from ._document import Document
 from ._geometry import instrument_of
 
@@ -71,7 +71,7 @@ def read(document: Document) -> list[Sample]:
     notes = _refuse_or_note(document, top)
     nm, percent, at = _values(document, rows)
     where = f"{document.path}, line {at[0]}" if at else str(document.path)
-    found = _bands.bands(nm, percent / _PERCENT, where, lambda band: f"line {at[band]}")
+    found = _series.bands(nm, percent / _PERCENT, where, lambda band: f"line {at[band]}")
     instrument, assumed = instrument_of("")
     return [
         Sample(
@@ -102,10 +102,10 @@ def _refuse_or_note(document: Document, top: list[str]) -> tuple[str, ...]:
         if number == 1 or _mode(line):
             # Names join words by underscores and dates: "chalk_Absorbance_15-33-02.txt".
             words = line.replace("_", " ")
-            other = _bands.other_quantity(words)
+            other = _series.other_quantity(words)
             if other:
                 raise document.not_reflectance(f"line {number}", other)
-            named = named or _bands.says_reflectance(words) or "reflex" in words.lower()
+            named = named or _series.says_reflectance(words) or "reflex" in words.lower()
         if _REFERENCE.search(line) and not _DUAL_BEAM.search(line):
             raise document.error(
                 f"line {number}",
@@ -128,7 +128,7 @@ def _values(
         raise document.error("", "there is no spectrum in it; save it again")
     names = rows[0][1].split()
     if names[0].upper() != "W":
-        return _bands.two_columns(document, rows)
+        return _series.two_columns(document, rows)
     if "P" not in names or "R" not in names:
         raise document.not_reflectance(f"line {rows[0][0]}", "counts")
     column = names.index("P")
@@ -141,7 +141,7 @@ def _values(
                 f"{len(names)} columns were expected, found {len(fields)}; save the file again",
             )
         kept.append((line, f"{fields[0]} {fields[column]}"))
-    return _bands.two_columns(document, kept)
+    return _series.two_columns(document, kept)
 
 
 def _name(document: Document, top: list[str]) -> str:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..sample import Sample
-from . import _bands, _table
+from . import _series, _table
 from ._document import Document, quote
 from ._geometry import instrument_of, specular_of
 
@@ -78,7 +78,7 @@ def _sample(document: Document, section: _Section, index: int) -> Sample:
     step = _number(document, section, "REFLINTERVAL")
     nm = low + step * np.arange(values.size)
     line = section.lines[f"{section.prefix}R"]
-    found = _bands.bands(
+    found = _series.bands(
         nm,
         values / _PERCENT,
         f"{document.path}, line {line}",
@@ -118,7 +118,7 @@ def _number(document: Document, section: _Section, key: str) -> float:
             f"{name} is missing, so the bands have no wavelengths; export it again",
         )
     place = f"line {section.lines[name]}, key {name}"
-    return _bands.number(document, place, _text(section, key))
+    return _series.number(document, place, _text(section, key))
 
 
 def _values(document: Document, section: _Section) -> np.ndarray:
@@ -133,7 +133,7 @@ def _values(document: Document, section: _Section) -> np.ndarray:
     text = section.texts[name].rstrip(", ")
     # A semicolon between values leaves the comma for decimals; the format itself uses commas.
     fields = text.split(";") if ";" in text else text.split(",")
-    values = np.array([_bands.number(document, place, cell.strip()) for cell in fields])
+    values = np.array([_series.number(document, place, cell.strip()) for cell in fields])
     if f"{section.prefix}REFLPOINTS" in section.texts:
         stated = _number(document, section, "REFLPOINTS")
         if stated != values.size:
