@@ -46,6 +46,7 @@ CHART = Environment(
     ("3.13", "3.11"),
     "Mitsuba and LuxCore, which the chart compares with, about 200 MB to fetch, once",
 )
+FUZZ = Environment(ROOT, "fuzz", ("3.13", "3.11"), "atheris, the fuzzer of the readers, once")
 BLENDERS = {"5.2": BLENDER_5_2, "4.5": BLENDER_4_5}
 
 NO_PYTHON = (
@@ -255,6 +256,13 @@ def command_chart(_options: argparse.Namespace) -> int:
     return call(command)
 
 
+def command_fuzz(options: argparse.Namespace) -> int:
+    """Fuzz the readers of measurement files; what breaks one is kept in build/fuzz/."""
+    if not environments.prepare(FUZZ, say):
+        raise GroundError(NO_PYTHON)
+    return call([FUZZ.python, script("tools/fuzz.py"), *options.arguments])
+
+
 def command_docs(_options: argparse.Namespace) -> int:
     """Build the manual into site/; a dead link fails."""
     script("mkdocs.yml")
@@ -287,9 +295,15 @@ COMMANDS = {
     "docs": (command_docs, "build the manual into site/"),
     "figures": (command_figures, "draw the figures of the manual"),
     "bench": (command_bench, "measure speed"),
+    "fuzz": (command_fuzz, "fuzz the readers of measurement files"),
     "chart": (command_chart, "measure cost against error, peers included, and draw the chart"),
 }
-TAKES_ARGUMENTS = {"test": "pytest", "bench": "tools/bench.py", "figures": "docs/figures.py"}
+TAKES_ARGUMENTS = {
+    "test": "pytest",
+    "bench": "tools/bench.py",
+    "figures": "docs/figures.py",
+    "fuzz": "tools/fuzz.py",
+}
 
 
 def parser() -> argparse.ArgumentParser:

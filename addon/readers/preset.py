@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from typing import Any, cast
 
+from ...core.instruments import REGISTRY
 from ..sample import KINDS, Kind, Sample, check_spectrum
 from ._document import Document, quote
 
@@ -61,6 +62,9 @@ def read(document: Document) -> list[Sample]:
         and (sigma is None or (_is_number(sigma) and 0 <= sigma <= _SIGMA_LIMIT)),
         f"must be a number from 0 to {_SIGMA_LIMIT:.0f}, or null if nobody knows",
     )
+    instrument = _text(document, fields, "instrument")
+    known = instrument in REGISTRY
+    _require(document, fields, "instrument", known, f"must be one of {', '.join(REGISTRY)}")
     name = _text(document, fields, "name")
     wavelengths, values = check_spectrum(
         _numbers(document, fields, "wavelengths"),
@@ -74,7 +78,7 @@ def read(document: Document) -> list[Sample]:
             wavelengths=wavelengths,
             values=values,
             kind=cast(Kind, kind),
-            instrument=_text(document, fields, "instrument"),
+            instrument=instrument,
             sigma_degrees=None if sigma is None else float(sigma),
             sigma_source=_text(document, fields, "sigma_source"),
             source=_text(document, fields, "source"),

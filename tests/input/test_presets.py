@@ -149,6 +149,8 @@ ABSENT = object()
         ("sigma_degrees", 90.5, ["'90.5'"]),
         ("sigma_degrees", float("nan"), ["'nan'"]),
         ("sigma_degrees", "30", ["'30'", "must be a number"]),
+        ("instrument", "30:0", ["'30:0'", "45a:0", "di:8"]),
+        ("instrument", ["45a:0"], ["must be a text"]),
         ("values", ABSENT, ["is missing", "list of numbers"]),
         ("values", "0.5", ["list of numbers"]),
         ("values", [0.5, True], ["number 2 is 'True'"]),
