@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
 NAME = "rough_spectra"
-VERBS = ("assign", "bake", "check", "merge")
+VERBS = ("assign", "bake", "check", "merge", "validate")
 
 _UNUSABLE = 2
 _INTERRUPTED = 130
