@@ -160,3 +160,22 @@ def _two_angles(plain: str) -> tuple[str, str] | None:
     if ring in ("x", "d"):
         return "45x:0", ""
     return ("45a:0" if light == 45.0 else "0:45a"), ""
+
+
+def geometry_of_device(model: str) -> str:
+    """Return the geometry that makers state for a device, or an empty string."""
+    plain = model[:_LONGEST].lower()
+    return next((geometry for pattern, geometry in _DEVICES if pattern.search(plain)), "")
+
+
+_DEVICES = (
+    (re.compile(r"\bsp-?6[0-9]\b|\bci[67]\d\d\d?|\bcm-?(?:[235678]\d{2,3}|26|36)"), "d/8"),
+    (
+        re.compile(
+            r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"
+            r"color ?munki|\bdtp-?(?:20|22|41|70)\b|\bexact\b|\bfd-?[579]\b|myiro|"
+            r"spectro ?(?:lfp|pad)"
+        ),
+        "45/0",
+    ),
+)
