@@ -8,6 +8,7 @@ A format is one module of this package, and nothing else has to know of it:
     PRIORITY = 100                                  who is asked first; specific formats above 0
     def sniff(document: Document) -> bool           by content; quick, and never raises
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
+    REGIONS = True                                  only where it reads `Document.region`
 
 Modules whose name begins with an underscore are help for the readers, not formats.
 """
@@ -40,22 +41,29 @@ class Reader(Protocol):
         """Return the samples of the file, in its order."""
 
 
-def read(path: str | os.PathLike[str]) -> list[Sample]:
+def read(
+    path: str | os.PathLike[str], region: tuple[int, int, int, int] | None = None
+) -> list[Sample]:
     """Return all samples of a file, in the file's order.
 
     Parameters
     ----------
     path
         Any file; the format follows from its content.
+    region
+        Of a spectral image, the rectangle of pixels whose mean is the sample: x, y, width, height,
+        counted from the top left. None takes the whole image; other files have no regions.
 
     Raises
     ------
     InputError
         The file cannot be opened, no format recognizes it, or the one that does finds a fault.
     """
-    document = open_document(path)
+    document = open_document(path, region)
     for reader in readers():
         if reader.sniff(document):
+            if region is not None and not getattr(reader, "REGIONS", False):
+                raise document.error("", f"a {reader.NAME} has no regions; leave the region out")
             samples = reader.read(document)
             if not samples:
                 raise document.error("", f"this {reader.NAME} holds no sample; export one with it")

@@ -40,10 +40,14 @@ class Document:
         As the user gave it: messages repeat it.
     data
         The bytes.
+    region
+        Of an image, the rectangle to read, in pixels from the top left: x, y, width, height. None
+        for all of it.
     """
 
     path: Path
     data: bytes
+    region: tuple[int, int, int, int] | None = None
 
     @property
     def head(self) -> bytes:
@@ -114,9 +118,10 @@ class Document:
 
     @cached_property
     def _decoded(self) -> tuple[str, str]:
-        if self.data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        wide = _utf_16(self.data)
+        if wide:
             try:
-                text = self.data.decode("utf-16")
+                text = self.data.decode(wide)
             except UnicodeDecodeError as error:
                 return "", f"its UTF-16 breaks off at byte {error.start + 1}"
         else:
@@ -136,8 +141,29 @@ class Document:
         return text.replace("\r\n", "\n").replace("\r", "\n"), ""
 
 
-def open_document(path: str | os.PathLike[str]) -> Document:
-    """Read a file whole.
+def _utf_16(data: bytes) -> str:
+    """Return the name of the two-byte encoding that a file has, or nothing.
+
+    Some programs leave the byte order mark away. What is mostly digits and delimiters then has
+    zeros at every other byte, which no other text has anywhere.
+    """
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    head = data[:256]
+    pairs = len(head) // 2
+    for name, zeros, others in (
+        ("utf-16-le", head[1::2], head[0::2]),
+        ("utf-16-be", head[0::2], head[1::2]),
+    ):
+        if pairs > 1 and zeros.count(0) > 0.75 * pairs and not others.count(0):
+            return name
+    return ""
+
+
+def open_document(
+    path: str | os.PathLike[str], region: tuple[int, int, int, int] | None = None
+) -> Document:
+    """Read a file whole; the region is that of the document.
 
     Raises
     ------
@@ -171,7 +197,7 @@ def open_document(path: str | os.PathLike[str]) -> Document:
         raise InputError(f"{name}: it cannot be read ({reason}); check the name.") from error
     if not data or data.isspace():
         raise InputError(f"{name}: the file is empty; export the measurement again.")
-    return Document(file, data)
+    return Document(file, data, region)
 
 
 def quote(text: str) -> str:

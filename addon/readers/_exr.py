@@ -1,0 +1,241 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pixels of an OpenEXR file, a few lines at a time, without a C++ library.
+
+A measurement comes from anywhere, and a broken image must not end Blender: here every length is
+checked before it is used. Read are scanline images of one part, not compressed or with ZIP or ZIPS,
+which spectral images are written with; all else is refused by its name.
+
+Source: "OpenEXR File Layout", https://openexr.com/en/latest/OpenEXRFileLayout.html.
+"""
+
+from __future__ import annotations
+
+import itertools
+import struct
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._document import Document, quote
+
+MAGIC = b"\x76\x2f\x31\x01"
+
+_KINDS = {
+    0x200: "tiled",
+    0x800: "a deep image",
+    0x1000: "of several parts",
+}
+_PIXEL_TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+_COMPRESSIONS = ["none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"]
+_LINES = {"none": 1, "ZIPS": 1, "ZIP": 16}  # in one chunk
+
+_LARGEST_SIDE = 2**16  # pixels
+_LARGEST_CHUNK = 8 * 2**20  # bytes: 16 lines of 4096 pixels with 64 bands of half floats
+_BLOCK = 2**20  # bytes that become floats at a time
+_MOST_RUNS = 64  # changes of the pixels' type from channel to channel; there are one or two
+# An even color packs a hundredfold, noise hardly. Beyond both of these nobody has measured.
+_LARGEST_PACKED = 64  # times the file's size
+_LARGEST_ALWAYS = 48 * 2**20  # bytes
+
+
+class Channel(NamedTuple):
+    """A channel's name, the type of its pixels, and its subsampling in x and y."""
+
+    name: str
+    form: np.dtype[np.generic]
+    sampling: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Image:
+    """The header of an image, checked against the size of its file."""
+
+    document: Document
+    width: int
+    height: int
+    top: int
+    channels: tuple[Channel, ...]
+    compression: str
+    chunks: int
+
+    def blocks(self, first: int, count: int) -> Iterator[NDArray[np.float32]]:
+        """Yield the pixels of `count` lines below `first` in blocks (lines, channels, width).
+
+        Raises
+        ------
+        InputError
+            A chunk of lines is missing or broken.
+        """
+        step = _LINES[self.compression]
+        size = self.line_size
+        at_once = max(1, _BLOCK // size)
+        for chunk in range(first // step, (first + count - 1) // step + 1):
+            begin = chunk * step
+            held = min(step, self.height - begin)
+            raw = self._chunk(chunk, begin, held * size)
+            lines = np.frombuffer(raw, np.uint8).reshape(held, size)
+            lines = lines[max(first - begin, 0) : first + count - begin]
+            for top in range(0, len(lines), at_once):
+                yield self._floats(lines[top : top + at_once])
+
+    @property
+    def line_size(self) -> int:
+        """Bytes of a line."""
+        return self.width * sum(channel.form.itemsize for channel in self.channels)
+
+    def _floats(self, lines: NDArray[np.uint8]) -> NDArray[np.float32]:
+        pixels = np.empty((len(lines), len(self.channels), self.width), np.float32)
+        at = index = 0
+        for form, run in _runs(self.channels):
+            size = run * self.width * form.itemsize
+            part = np.ascontiguousarray(lines[:, at : at + size]).view(form)
+            pixels[:, index : index + run] = part.reshape(len(lines), run, self.width)
+            at, index = at + size, index + run
+        return pixels
+
+    def _chunk(self, chunk: int, begin: int, size: int) -> bytes:
+        """Return `size` bytes of pixels, unpacked."""
+        data, place = self.document.data, f"line {begin + 1} of the image"
+        (at,) = struct.unpack_from("<Q", data, self.chunks + 8 * chunk)
+        if not self.chunks <= at <= len(data) - 8:
+            raise self.document.error(place, "the line is missing; save the whole image again")
+        y, length = struct.unpack_from("<2i", data, at)
+        packed = data[at + 8 : at + 8 + max(length, 0)]
+        if y != self.top + begin or length != len(packed):
+            raise self.document.error(place, "the line is missing; save the whole image again")
+        if length == size:  # what packing would not make smaller is stored as it is
+            return packed
+        raw = _unpack(packed, size) if self.compression != "none" else b""
+        if len(raw) != size:
+            raise self.document.error(place, "its pixels are broken; save the image again")
+        return raw
+
+
+def _runs(channels: tuple[Channel, ...]) -> list[tuple[np.dtype[np.generic], int]]:
+    """Return types of pixels, and how many channels in a row have each."""
+    grouped = itertools.groupby(channels, key=lambda channel: channel.form)
+    return [(form, len(list(group))) for form, group in grouped]
+
+
+def _unpack(packed: bytes, size: int) -> bytes:
+    """Undo ZIP: deflated differences of bytes, all even bytes before all odd ones."""
+    try:
+        raw = zlib.decompressobj().decompress(packed, size + 1)
+    except zlib.error:
+        return b""
+    if len(raw) != size:
+        return b""
+    steps = np.frombuffer(raw, np.uint8) ^ 0x80  # the same as minus 128, modulo 256
+    steps[0] ^= 0x80
+    summed = np.add.accumulate(steps, dtype=np.uint8)
+    pixels = np.empty(size, np.uint8)
+    half = (size + 1) // 2
+    pixels[0::2], pixels[1::2] = summed[:half], summed[half:]
+    return pixels.tobytes()
+
+
+def open_image(document: Document) -> Image:
+    """Read the header, and refuse what cannot be read or cannot be true.
+
+    Raises
+    ------
+    InputError
+        The header ends early or contradicts itself, the image is of a kind that is not read, or it
+        would unpack to far more than its file could hold.
+    """
+    attributes, end = _attributes(document)
+    kinds = [name for bit, name in _KINDS.items() if document.data[5] << 8 & bit]
+    if kinds:
+        raise document.error(
+            "", f"the image is {' and '.join(kinds)}; save it as one part of scanlines"
+        )
+    channels = _channels(document, _attribute(document, attributes, "channels", 1))
+    code = _attribute(document, attributes, "compression", 1)[0]
+    name = _COMPRESSIONS[code] if code < len(_COMPRESSIONS) else f"number {code}"
+    if name not in _LINES:
+        raise document.error(
+            "attribute 'compression'",
+            f"its pixels are packed with {name}; save the image with ZIP, ZIPS or unpacked",
+        )
+    box = struct.unpack_from("<4i", _attribute(document, attributes, "dataWindow", 16))
+    width, height = box[2] - box[0] + 1, box[3] - box[1] + 1
+    if not (0 < width <= _LARGEST_SIDE and 0 < height <= _LARGEST_SIDE):
+        raise document.error("attribute 'dataWindow'", f"it cannot be {width} x {height} pixels")
+    most = max(_LARGEST_ALWAYS, _LARGEST_PACKED * len(document.data))
+    image = Image(document, width, height, box[1], channels, name, end)
+    if (
+        image.line_size * height > most
+        or image.line_size * _LINES[name] > _LARGEST_CHUNK
+        or len(_runs(channels)) > _MOST_RUNS
+    ):
+        raise document.error(
+            "attribute 'dataWindow'",
+            f"{width} x {height} pixels of {len(channels)} channels are more than a file of this "
+            "size is read for; save a part of the image",
+        )
+    if end + 8 * -(-height // _LINES[name]) > len(document.data):
+        raise document.error("", "the file ends in its table of lines; save the image again")
+    return image
+
+
+def _attributes(document: Document) -> tuple[dict[str, bytes], int]:
+    """Return the attributes' values by name, and where the header ends."""
+    data, at = document.data, 8
+    attributes: dict[str, bytes] = {}
+    while at < len(data) and data[at]:
+        name, at = _word(document, at)
+        _, at = _word(document, at)  # the type; each attribute that is used has one type only
+        if at + 4 > len(data):
+            raise _cut(document)
+        (size,) = struct.unpack_from("<i", data, at)
+        at += 4
+        if size < 0 or at + size > len(data):
+            raise _cut(document)
+        attributes.setdefault(name, data[at : at + size])
+        at += size
+    if at >= len(data):
+        raise _cut(document)
+    return attributes, at + 1
+
+
+def _attribute(document: Document, attributes: dict[str, bytes], name: str, least: int) -> bytes:
+    value = attributes.get(name, b"")
+    if len(value) < least:
+        raise document.error(f"attribute {name!r}", "it is missing; save the image again")
+    return value
+
+
+def _channels(document: Document, listed: bytes) -> tuple[Channel, ...]:
+    channels = []
+    at = 0
+    while at < len(listed) and listed[at]:
+        end = listed.find(b"\0", at)
+        if end < 0 or end + 17 > len(listed):
+            raise _cut(document)
+        name = listed[at:end].decode("latin-1")
+        code, x, y = struct.unpack_from("<i4x2i", listed, end + 1)
+        form = _PIXEL_TYPES.get(code)
+        if form is None:
+            raise document.error(f"channel {quote(name)}", f"pixels of the type {code} are unknown")
+        channels.append(Channel(name, form, (x, y)))
+        at = end + 17
+    if any(channel.sampling != (1, 1) for channel in channels):
+        raise document.error("", "some channels have fewer pixels than others; save all of them")
+    return tuple(channels)
+
+
+def _word(document: Document, at: int) -> tuple[str, int]:
+    """Return the text at a place, and where it ends."""
+    end = document.data.find(b"\0", at, at + 256)
+    if end < 0:
+        raise _cut(document)
+    return document.data[at:end].decode("latin-1"), end + 1
+
+
+def _cut(document: Document) -> Exception:
+    return document.error("", "the header of the image is broken or cut off; save it again")
