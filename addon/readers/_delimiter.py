@@ -15,8 +15,15 @@ from ._table import DELIMITERS, EXPECTED, SPACES
 _PEEK = 20  # rows that decide
 
 
-def find_delimiter(document: Document) -> tuple[str, int]:
-    """Return the delimiter, and how many lines at the top only announce it.
+def find_delimiter(document: Document, start: int = 0) -> tuple[str, int]:
+    """Return the delimiter, and how many lines stand above the table.
+
+    Parameters
+    ----------
+    document
+        The file.
+    start
+        How many lines are known to stand above it.
 
     Raises
     ------
@@ -24,7 +31,7 @@ def find_delimiter(document: Document) -> tuple[str, int]:
         None of the known ones separates the lines, or the header has another than the rows.
     """
     announced = _table.announced(next(_table.lines(document)))
-    skip = int(bool(announced))
+    skip = max(start, int(bool(announced)))
     content = (
         (number, line)
         for number, line in enumerate(_table.lines(document), start=1)
@@ -42,7 +49,7 @@ def find_delimiter(document: Document) -> tuple[str, int]:
     usual = Counter(body).most_common(1)[0][0] if body else ""
     number, line = top[0]
     if not usual or "|" in line or announced not in ("", usual):
-        expected = DELIMITERS.get(announced, EXPECTED) if skip else EXPECTED
+        expected = DELIMITERS.get(announced, EXPECTED)
         other = next((name for name, n in _marks(line) if n), "nothing that is known")
         raise document.error(
             f"line {number}", f"expected {expected}, found {other}; export with another delimiter"

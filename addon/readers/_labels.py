@@ -16,7 +16,20 @@ T = TypeVar("T")
 
 NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0}
 
-_BAND = re.compile(r"(?:r|nm)?[ _]?(\d+(?:[.,]\d+)?)\s*(?:nm)?\s*[\[(]?%?[\])]?", re.IGNORECASE)
+_BAND = re.compile(
+    # What stands before: R400, %R400, nm400, SPECTRAL_NM_400, X400 (as R names columns), R[400].
+    r"%?\s*(?:r|refl(?:ectance)?|spec(?:tral)?(?:[ _]?nm)?|nm|wl|w|wavelength|λ|x)?\s*%?"
+    r"[ _.\[(-]{0,2}(\d{1,5}(?:[.,]\d{1,9})?)"
+    r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
+    re.IGNORECASE,
+)
+# ArgyllCMS' family of names is percent, as CGATS readers know.
+_SPEC = re.compile(r"spec_\d", re.IGNORECASE)
+_UNIT = re.compile(
+    r"[\[(]?(?:nm|[µμu]m|nanomet\w+|micromet\w+|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
+    r"(?: ?(?:r|refl\w*|t|transm\w*|abs\w*))?[\])]?",
+    re.IGNORECASE,
+)
 _WAVELENGTH = re.compile(r"(?:wave[ _-]?lengths?|wl|lambda|λ|nm)(?![a-z])", re.IGNORECASE)
 _MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\b", re.IGNORECASE)
 # "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
@@ -46,9 +59,31 @@ class Comments:
 
 
 def band(label: str) -> float | None:
-    """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states."""
-    match = _BAND.fullmatch(label.strip())
-    return float(match[1].replace(",", ".")) if match else None
+    """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states.
+
+    As it stands, or in nanometers where the name itself says micrometers.
+    """
+    match = _BAND.fullmatch(label.strip()[:40])
+    if not match:
+        return None
+    found = float(match[1].replace(",", "."))
+    # Rounded as in `delimited`: 0.57 µm is 570 nm.
+    return round(found * 1000.0, 9) if (match[2] or "nm").lower() != "nm" else found
+
+
+def is_unit_row(cells: list[str]) -> bool:
+    """Return whether a row under the names of columns holds their units."""
+    stated = [cell for cell in cells if cell.strip()]
+    return bool(stated) and all(_UNIT.fullmatch(cell.strip()[:40]) for cell in stated)
+
+
+def percent_of_values(text: str) -> bool:
+    """Return whether a line about a table says that its values are percent.
+
+    A name or a citation may well hold a percent sign, so only talk about the values counts.
+    """
+    pair = _KEY.fullmatch(text)
+    return says_percent(text) and bool(_ABOUT_VALUES.search(pair[1] if pair else text))
 
 
 def is_wavelength(label: str) -> bool:
@@ -65,7 +100,9 @@ def unit_of_wavelengths(label: str) -> str:
 
 def says_percent(label: str) -> bool:
     """Return whether a column name states that its values are percent."""
-    return "%" in label if band(label) is not None else bool(_PERCENT.search(label))
+    if band(label) is not None:
+        return "%" in label or bool(_SPEC.match(label))
+    return bool(_PERCENT.search(label))
 
 
 def comments(document: Document) -> Comments:
@@ -98,8 +135,7 @@ def comments(document: Document) -> Comments:
         elif key in ("instrument", "source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value
-        # A name or a citation may well hold a percent sign, so only talk about the values counts.
-        elif not stated and says_percent(text) and _ABOUT_VALUES.search(key or text):
+        elif not stated and percent_of_values(text):
             found.scale = 100.0
     return found
 

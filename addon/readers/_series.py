@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.errors import InputError
 from ..sample import check_spectrum
 from ._document import Document, quote
 
@@ -22,10 +23,10 @@ _NAMED = 8  # how many of the bands left out a sentence names
 _OTHERS = (
     (re.compile(r"irradian[cz]|µ?w(?:att)?/cm|j/cm", re.IGNORECASE), "irradiance"),
     (re.compile(r"radiance\b(?! factor)", re.IGNORECASE), "radiance"),
-    (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%|^t$", re.IGNORECASE), "transmittance"),
+    (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%", re.IGNORECASE), "transmittance"),
     (
         re.compile(
-            r"absorban|absorpt|extinktion|\babs\b|\ba\.u\.|log\s*\(?\s*1\s*/|optical density|^a$",
+            r"absorban|absorpt|extinktion|\babs\b|\ba\.u\.|log\s*\(?\s*1\s*/|optical density",
             re.IGNORECASE,
         ),
         "absorbance",
@@ -76,6 +77,12 @@ def bands(
     if missing.any():
         altered = (_left_out(nm[missing]),)
         kept = np.flatnonzero(~missing)
+        if kept.size < 2:
+            gap = int(np.flatnonzero(missing)[0])
+            raise InputError(
+                f"{where}: {place(gap)} has no value, and fewer than two bands have one; "
+                "measure again or leave the sample out."
+            )
         nm, values = nm[kept], values[kept]
         first = place
         place = lambda band: first(int(kept[band]))  # noqa: E731

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -21,7 +22,12 @@ DELIMITERS = {"\t": "tabs", ";": "semicolons", ",": "commas", SPACES: "spaces"}
 EXPECTED = "commas, semicolons, tabs or spaces between the columns"
 
 # What instruments' software writes where nothing was measured.
-_MISSING = {"", "-", "--", "n/a", "na", "none", "null", "undefined"}
+_MISSING = {"", "-", "--", "n/a", "na", "nan", "#n/a", "none", "null", "undefined"}
+
+
+def is_missing(cell: str) -> bool:
+    """Return whether a field says that nothing was measured."""
+    return cell.strip().lower() in _MISSING
 
 
 class Row(NamedTuple):
@@ -122,6 +128,7 @@ def numbers(
     texts: Sequence[int] = (),
     *,
     decimal_comma: bool = False,
+    gaps: int | None = None,
 ) -> Block:
     """Return the given columns of a table as numbers.
 
@@ -138,7 +145,10 @@ def numbers(
     texts
         Which columns to return as stripped text.
     decimal_comma
-        Whether ``0,5`` is a number: only where commas do not separate columns.
+        Whether ``0,5`` is a number: only where commas do not separate columns, or in quotation
+        marks.
+    gaps
+        From which of `columns` on a field may say that nothing was measured, which gives NaN.
 
     Raises
     ------
@@ -150,7 +160,7 @@ def numbers(
     for row in table:
         fields = row.fields
         if len(fields) != len(header):
-            fields = _fit(document, row, header, decimal_comma)
+            fields = _fit(document, row, header)
         cells = [fields[column] for column in columns]
         if decimal_comma:
             # "1.234,5" becomes no number, and `_number` below says what is wrong with the original.
@@ -162,8 +172,10 @@ def numbers(
             exact = False
         if not exact:
             found = [
-                _number(document, row.line, header[column], fields[column], decimal_comma)
-                for column in columns
+                math.nan
+                if gaps is not None and i >= gaps and is_missing(fields[column])
+                else _number(document, row.line, header[column], fields[column], decimal_comma)
+                for i, column in enumerate(columns)
             ]
         flat.extend(found)
         block.lines.append(row.line)
@@ -175,7 +187,7 @@ def numbers(
     return block
 
 
-def _fit(document: Document, row: Row, header: Sequence[str], decimal_comma: bool) -> list[str]:
+def _fit(document: Document, row: Row, header: Sequence[str]) -> list[str]:
     """Return the fields without empty ones at the end, if that makes them as many as the header."""
     fields = list(row.fields)
     while len(fields) > len(header) and not fields[-1].strip():
@@ -188,7 +200,9 @@ def _fit(document: Document, row: Row, header: Sequence[str], decimal_comma: boo
             "columns; complete it or leave it out",
         )
     if len(fields) > len(header):
-        comma = "" if decimal_comma else " (decimal commas need semicolons or tabs between columns)"
+        comma = " (decimal commas need semicolons or tabs between columns)"
+        if any("." in field for field in fields) or len(fields) > 2 * len(header):
+            comma = ""
         raise document.error(
             f"line {row.line}",
             f"the line has {len(fields)} columns where the header has {len(header)}; "
@@ -200,7 +214,7 @@ def _fit(document: Document, row: Row, header: Sequence[str], decimal_comma: boo
 def _number(document: Document, line: int, label: str, cell: str, decimal_comma: bool) -> float:
     place = f"line {line}, column {quote(label)}"
     text = cell.strip()
-    if text.lower() in _MISSING:
+    if is_missing(text):
         found = "the value is missing" if not text else f"{quote(text)} stands for a missing value"
         raise document.error(place, f"{found}; measure again or leave the sample out")
     if decimal_comma and text.count(",") == 1 and "." not in text:

@@ -11,33 +11,19 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..sample import Sample, check_spectrum
-from . import _labels, _table
+from ..sample import Sample
+from . import _across, _down, _labels, _start, _table
 from ._delimiter import find_delimiter
 from ._document import Document, quote
-from ._table import EXPECTED, SPACES, Row
+from ._start import LEAST_BAND
+from ._table import SPACES, Row
 
 NAME = "table with wavelengths (CSV, TSV, semicolons or spaces)"
 PRIORITY = 0
 
 _PEEK = 20  # rows from which the layout follows
 _NUMBER = re.compile(r"\d+(?:[.,]\d*)?")
-_NAME_COLUMN = re.compile(r"(?:sample[ _-]?)?(?:name|label)|user color name|sample", re.IGNORECASE)
-_ID_COLUMN = re.compile(r"(?:sample[ _-]?)?(?:id|index|no\.?|number)", re.IGNORECASE)
-# A single column with such a name says what is in it, not which sample it is.
-_QUANTITY = re.compile(
-    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|values?|r|y|spectrum)?"
-    r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
-    re.IGNORECASE,
-)
-# Names of columns in nanometers start here: samples are called 1, 2, 3 more often than 100.
-_LEAST_BAND = 100.0
 
 
 def sniff(document: Document) -> bool:
@@ -69,7 +55,9 @@ def read(document: Document) -> list[Sample]:
         not one (`check_spectrum`).
     """
     said = _labels.comments(document)
-    delimiter, skip = find_delimiter(document)
+    start = _start.find_start(document)
+    fields = _start.above(document, start, said)
+    delimiter, skip = find_delimiter(document, start)
     table = _table.rows(document, delimiter, skip)
     top = list(itertools.islice(table, _PEEK))
     if not top:
@@ -81,7 +69,9 @@ def read(document: Document) -> list[Sample]:
         header.pop()  # a delimiter at the end of each line
     if _is_across(document, header, top, comma):
         next(table)
-        return _read_across(document, said, header, table, top, comma)
+        if len(top) > 1 and _labels.band(header[0]) and len(top[1].fields) == len(header) + 1:
+            header = ["", *header]  # names without a name above them
+        return _across.read(document, said, fields, header, top[0].line, table)
     if _plain_number(header[0], comma) is None:
         next(table)
         if delimiter == SPACES and len(top) > 1 and len(top[1].fields) == 2 != len(header):
@@ -94,139 +84,7 @@ def read(document: Document) -> list[Sample]:
                 "them names in a first line",
             )
         header = ["wavelength", *[""] * (len(header) - 1)]
-    return _read_down(document, said, header, table, comma)
-
-
-def _read_down(
-    document: Document,
-    said: _labels.Comments,
-    header: list[str],
-    table: Iterator[Row],
-    comma: bool,
-) -> list[Sample]:
-    names = header[1:]
-    if not names:
-        raise document.error(
-            "line 1", f"there is only one column; wavelengths need values beside them: {EXPECTED}"
-        )
-    labels = [label or f"column {i}" for i, label in enumerate(header, start=1)]
-    block = _table.numbers(document, table, labels, range(len(header)), decimal_comma=comma)
-    nm = _nanometers(document, said, block.values[:, 0], header[:1])
-    values = np.ascontiguousarray(block.values[:, 1:].T)
-    samples = []
-    for i, label in enumerate(names):
-        generic = len(names) == 1 and _QUANTITY.fullmatch(label)
-        place = f"column {quote(labels[i + 1])}" if label else labels[i + 1]
-        samples.append(
-            _sample(
-                document,
-                said,
-                name=document.path.stem if generic else label or f"{document.path.stem} {i + 1}",
-                nm=nm,
-                values=values[i] / _scale(document, said, place, [label]),
-                position=place,
-                place=lambda band: f"line {block.lines[band]}",
-            )
-        )
-    return samples
-
-
-def _read_across(
-    document: Document,
-    said: _labels.Comments,
-    header: list[str],
-    table: Iterator[Row],
-    top: list[Row],
-    comma: bool,
-) -> list[Sample]:
-    if len(top) > 1 and _labels.band(header[0]) and len(top[1].fields) == len(header) + 1:
-        header = ["", *header]  # names without a name above them
-    bands = [i for i, label in enumerate(header) if (_labels.band(label) or 0) >= _LEAST_BAND]
-    others = [i for i in range(len(header)) if i not in set(bands)]
-    name = next((i for i in others if _NAME_COLUMN.fullmatch(header[i])), None)
-    if name is None:
-        name = next((i for i in others if _ID_COLUMN.fullmatch(header[i])), None)
-    if name is None and others:
-        name = others[0]
-    notes: tuple[str, ...] = ()
-    unread = [header[i] for i in others if i != name and header[i]]
-    if unread:
-        more = f" and {len(unread) - 8} more" if len(unread) > 8 else ""
-        notes = (f"Columns not read: {', '.join(unread[:8])}{more}.",)
-    texts = [] if name is None else [name]
-    block = _table.numbers(document, table, header, bands, texts, decimal_comma=comma)
-    nm = np.array([_labels.band(header[i]) for i in bands], dtype=np.float64)
-    nm = _nanometers(document, said, nm, [header[0], header[bands[0]]])
-    # Of the other columns' names only the corner's is about the values below.
-    about = [header[i] for i in sorted({0, *bands})]
-    values = block.values / _scale(document, said, f"line {top[0].line}", about)
-    samples = []
-    for i, line in enumerate(block.lines):
-        found = block.texts[i][0] if texts else ""
-        alone = document.path.stem if len(block.lines) == 1 else f"{document.path.stem} {i + 1}"
-        samples.append(
-            _sample(
-                document,
-                said,
-                name=found or alone,
-                nm=nm,
-                values=values[i],
-                position=f"line {line}",
-                place=lambda band: f"column {quote(header[bands[band]])}",
-                notes=notes,
-            )
-        )
-    return samples
-
-
-def _sample(
-    document: Document,
-    said: _labels.Comments,
-    *,
-    name: str,
-    nm: NDArray[np.float64],
-    values: NDArray[np.float64],
-    position: str,
-    place: Callable[[int], str],
-    notes: tuple[str, ...] = (),
-) -> Sample:
-    where = f"{document.path}, {position}"
-    wavelengths, fractions = check_spectrum(nm, values, where, place)
-    sample = Sample(
-        name,
-        wavelengths,
-        fractions,
-        said.kind,
-        source=str(document.path),
-        position=position,
-        notes=notes,
-    )
-    return replace(sample, **said.texts) if said.texts else sample  # type: ignore[arg-type]
-
-
-def _nanometers(
-    document: Document, said: _labels.Comments, found: NDArray[np.float64], labels: list[str]
-) -> NDArray[np.float64]:
-    """Return the wavelengths in nm, by the unit that a column name or a comment states."""
-    units = {unit for unit in map(_labels.unit_of_wavelengths, labels) if unit}
-    units |= {said.wavelength_unit} if said.wavelength_unit else set()
-    if len(units) > 1:
-        raise document.error(
-            "wavelength unit", "the comment and the column name disagree; make them agree"
-        )
-    factor = _labels.NM_PER_UNIT[units.pop()] if units else 1.0
-    # Rounded to 1e-9 nm: 0.57 µm is 570 nm, while the product of the two floats is not.
-    return found if factor == 1.0 else np.round(found * factor, 9)
-
-
-def _scale(document: Document, said: _labels.Comments, place: str, labels: list[str]) -> float:
-    """Return what to divide the values by: 100 where a name or a comment says percent."""
-    percent = any(map(_labels.says_percent, labels))
-    if percent and said.scale == 1.0:
-        raise document.error(
-            place, "the column says percent and a comment says fraction; make them agree"
-        )
-    return 100.0 if percent else said.scale or 1.0
+    return _down.read(document, said, fields, header, table)
 
 
 def _plain_number(cell: str, comma: bool) -> float | None:
@@ -244,16 +102,18 @@ def _is_across(document: Document, header: list[str], top: list[Row], comma: boo
     InputError
         Neither does, or both could.
     """
-    down = [_labels.band(row.fields[0]) or 0.0 for row in top[1:]]
-    column_fits = bool(down) and min(down) >= _LEAST_BAND
+    rows = [row for row in top[1:] if _plain_number(row.fields[0], comma) is not None]
+    rows = rows or top[1:]  # units and what is said of samples may stand above the numbers
+    down = [_labels.band(row.fields[0]) or 0.0 for row in rows]
+    column_fits = bool(down) and min(down) >= LEAST_BAND
     bands = [(_labels.band(label) or 0.0) for label in header]
     place = f"line {top[0].line}"
     if _plain_number(header[0], comma) is not None:
-        return min(bands) >= _LEAST_BAND and bool(down) and not column_fits
+        return min(bands) >= LEAST_BAND and bool(down) and not column_fits
     rest = bands[1:]
     if _labels.is_wavelength(header[0]) and _labels.band(header[0]) is None:
-        if not rest or min(rest) < _LEAST_BAND or not column_fits:
-            return bool(rest) and min(rest) >= _LEAST_BAND
+        if not rest or min(rest) < LEAST_BAND or not column_fits:
+            return bool(rest) and min(rest) >= LEAST_BAND
         if _increasing(rest) == _increasing(down):
             raise document.error(
                 place,
@@ -261,9 +121,9 @@ def _is_across(document: Document, header: list[str], top: list[Row], comma: boo
                 "column 'name' if it has names, or begin the names in the first row with a letter",
             )
         return _increasing(rest)
-    if max(bands) >= _LEAST_BAND:
+    if max(bands) >= LEAST_BAND:
         return True
-    if down and _plain_number(top[1].fields[0], comma) is not None and len(header) > 1:
+    if down and _plain_number(rows[0].fields[0], comma) is not None and len(header) > 1:
         return False
     raise document.error(
         place,

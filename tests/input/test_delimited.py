@@ -159,7 +159,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ("wavelength,R\n400,nan\n410,0.5\n", ["line 2", "NaN"]),
+        ("wavelength,R\n400,nan\n410,0.5\n", ["column 'R'", "line 2", "no value"]),
         ("wavelength,R\n400,0.5\n410,1e999\n", ["line 3", "infinite"]),
         ("wavelength,R\n400,0.5\n410,-0.5\n", ["line 3", "410 nm", "below 0"]),
         ("wavelength,R\n400,0.5\n420,0.5\n\n410,0.5\n", ["line 5", "line 3", "410 nm", "sort"]),
@@ -169,7 +169,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
         ("name,400\na,0.5\n", ["line 2", "only one band"]),
         ("name,400 nm,420 nm,410 nm\na,0,0,0\n", ["'410 nm'", "'420 nm'", "sort"]),
         ("name,400 nm,400 nm\na,0,0\n", ["twice"]),
-        ("name,400 nm,410 nm\na,0.5,\n", ["line 2", "'410 nm'", "missing"]),
+        ("name,400 nm,410 nm\na,0.5,\n", ["line 2", "'410 nm'", "no value"]),
         ("name,400 nm,410 nm\na,0.5\n", ["line 2", "before column '410 nm'"]),
         ("name,400 nm,410 nm\n", ["holds no sample"]),
         ("wavelength,R\n0.4,0.5\n0.5,0.5\n", ["0.4 to 0.5", "micrometers"]),
@@ -185,7 +185,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
         ("wavelength;R\n400,0.5\n410,0.5\n", ["line 2", "commas", "header by semicolons"]),
         ("wavelength,R\n400;0,5\n410;0,5\n", ["line 2", "'400;0'", "semicolons", "header"]),
         ("sep=;\nwavelength,R\n400,0.5\n", ["line 2", "expected semicolons", "found commas"]),
-        ("Name: x\nFirst: y\n400 0.5\n410 0.5\n", ["line 1", "no wavelengths found", "'#'"]),
+        ("Name x\nFirst half\nnone\n", ["line 1", "no wavelengths found", "'#'"]),
         ("# units: furlongs\n400,0.5\n410,0.5\n", ["line 1", "'furlongs'", "fraction"]),
         ("# kind: color\n400,0.5\n410,0.5\n", ["line 1", "'color'", "reading", "albedo"]),
         ("# units: fraction\nnm,R %\n400,0.5\n410,0.5\n", ["column 'R %'", "percent", "agree"]),

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables with one sample a column: the wavelengths run down."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..sample import Sample
+from . import _labels, _series, _statements, _table
+from ._across import not_read
+from ._document import Document, quote
+from ._scale import nanometers, scale
+from ._table import EXPECTED, Row
+
+# A single column with such a name says what is in it, not which sample it is.
+_QUANTITY = re.compile(
+    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|values?|r|y|spectrum)?"
+    r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
+    re.IGNORECASE,
+)
+# What stands beside a spectrum and is none.
+_ASIDE = re.compile(
+    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?",
+    re.IGNORECASE,
+)
+# What spectrometers' software saves beside a reflectance that it calls so.
+_RAW = re.compile(r"dark|ref(?:erence)?|white(?: ref\w*)?|sample|raw|target", re.IGNORECASE)
+
+
+def read(
+    document: Document,
+    said: _labels.Comments,
+    fields: dict[str, Any],
+    header: list[str],
+    table: Iterator[Row],
+) -> list[Sample]:
+    """Return one sample a column.
+
+    Parameters
+    ----------
+    document
+        The file.
+    said, fields
+        What comments and the lines above the table say.
+    header
+        The names of the columns.
+    table
+        The rows below.
+    """
+    if len(header) < 2:
+        raise document.error(
+            "line 1", f"there is only one column; wavelengths need values beside them: {EXPECTED}"
+        )
+    labels = [label or f"column {i}" for i, label in enumerate(header, start=1)]
+    axis = next((i for i, label in enumerate(header) if _labels.is_wavelength(label)), 0)
+    units, own, table = _rows_above_numbers(header, axis, table)
+    columns, unread = _columns(document, header, labels, units, axis)
+    block = _table.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
+    nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]])
+    values = block.values[:, 1:].T
+    samples = []
+    for i, column in enumerate(columns):
+        label = header[column]
+        if not label and np.isnan(values[i]).all():
+            continue  # an empty column without a name
+        place = f"column {quote(label)}" if label else labels[column]
+        percent = scale(document, said, place, [label, units[column]])
+        found = _series.bands(
+            nm,
+            values[i] / percent,
+            f"{document.path}, {place}",
+            lambda band: f"line {block.lines[band]}",
+        )
+        known = {**fields, **own.get(column, {})}
+        generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
+        alone = known.get("name") or document.path.stem
+        samples.append(
+            _statements.make(
+                document,
+                said,
+                known,
+                found,
+                name=alone if generic else label or f"{document.path.stem} {column}",
+                position=place,
+                notes=not_read(unread),
+            )
+        )
+    return samples
+
+
+def _columns(
+    document: Document, header: list[str], labels: list[str], units: list[str], axis: int
+) -> tuple[list[int], list[str]]:
+    """Return the columns with reflectance, and the names of those that are left out.
+
+    Raises
+    ------
+    InputError
+        There is none of the former.
+    """
+    rest = [i for i in range(len(header)) if i != axis]
+    others = {
+        i: _series.other_quantity(header[i]) or _series.other_quantity(units[i]) for i in rest
+    }
+    named = any(_series.says_reflectance(header[i]) for i in rest)
+    aside = {
+        i
+        for i in rest
+        if len(rest) > 1 and (_ASIDE.fullmatch(header[i]) or (named and _RAW.fullmatch(header[i])))
+    }
+    found = [i for i in rest if not others[i] and i not in aside]
+    if not found:
+        column = next((i for i in rest if others[i]), rest[0])
+        raise document.not_reflectance(
+            f"column {quote(labels[column])}", others[column] or "of another kind"
+        )
+    return found, [labels[i] for i in rest if i not in found and (header[i] or others[i])]
+
+
+def _rows_above_numbers(
+    header: list[str], axis: int, table: Iterator[Row]
+) -> tuple[list[str], dict[int, dict[str, Any]], Iterator[Row]]:
+    """Return the units of the columns, what rows say of each, and the rows of numbers."""
+    units = [""] * len(header)
+    own: dict[int, dict[str, Any]] = {}
+    for row in table:
+        cells = [cell.strip() for cell in row.fields[: len(header)]]
+        key = cells[axis] if axis < len(cells) else ""
+        if _labels.is_unit_row(cells) and not any(map(str.isdigit, "".join(cells))):
+            units[: len(cells)] = cells
+        elif _statements.field_of(key):
+            for i, cell in enumerate(cells):
+                own.setdefault(i, {}).update(_statements.stated(key, cell) if i != axis else {})
+        else:
+            return units, own, itertools.chain([row], table)
+    return units, own, iter(())
