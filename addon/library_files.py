@@ -1,0 +1,292 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Change the files of a user library: add, remove, rename.
+
+A collection is one file ``<collection>.json``. Each change reads the file again while it holds the
+folder's lock, and writes it beside and renames it: two Blenders lose nothing to each other, and a
+killed one leaves the old file.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import InputError
+from . import outputs
+from .file_lock import locked
+from .readers import library
+from .readers._document import Document, open_document
+from .sample import Sample
+
+_LONGEST = 80  # characters of a collection's name or an id: file names end at 255 bytes
+_NOT_IN_NAMES = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]+')
+_DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Added:
+    """What became of samples that were to be added.
+
+    Parameters
+    ----------
+    ids
+        Of each sample in the library, in their order, also of those that were there before.
+    names
+        Of the samples that are new, as the library calls them.
+    present
+        Names of those that were there already, with the same spectrum, and were not added again.
+    renamed
+        Old and new name of those whose name another sample has.
+    """
+
+    ids: tuple[str, ...]
+    names: tuple[str, ...]
+    present: tuple[str, ...]
+    renamed: tuple[tuple[str, str], ...]
+
+
+def add(samples: Sequence[Sample], collection: str, folder: Path) -> Added:
+    """Add samples to a collection, which is made if it is not there. See `add_all`."""
+    return add_all({collection: samples}, folder)[0]
+
+
+def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[Added]:
+    """Add samples to several collections, all of them or none. Never overwrites a sample.
+
+    Parameters
+    ----------
+    collections
+        Samples by the name of the collection.
+    folder
+        Of the library; made if it is not there.
+
+    Raises
+    ------
+    InputError
+        A name cannot be a file's, or a file that is there has a fault; nothing was changed.
+    OutputError
+        A file cannot be written; nothing was changed.
+    """
+    found = []
+    with locked(folder), outputs.publication() as files:
+        _sweep(folder)
+        for name, samples in collections.items():
+            path = _path(folder, name)
+            fields = _opened(path) if path.is_file() else (_empty(), [])
+            added = _merge(*fields, samples, path.stem)
+            if added.names:
+                # A link to a file elsewhere stays one.
+                files.write(path.resolve(), _to_bytes(fields[0]))
+            found.append(added)
+    return found
+
+
+def remove(entries: Iterable[str], folder: Path) -> None:
+    """Take samples out of their collections; a collection without samples goes too.
+
+    Raises
+    ------
+    InputError
+        An id is not in the library, or its file has a fault; nothing was changed.
+    OutputError
+        A file cannot be written; nothing was changed.
+    """
+    empty = []
+    with locked(folder):
+        _sweep(folder)
+        with outputs.publication() as files:
+            for path, wanted in _by_file(entries, folder).items():
+                fields, samples = _opened(path)
+                known = _ids(fields["samples"], samples)
+                _check_known(wanted, known, path)
+                pairs = zip(fields["samples"], known, strict=True)
+                kept = [record for record, slug in pairs if slug not in wanted]
+                if kept:
+                    files.write(path.resolve(), _to_bytes(fields | {"samples": kept}))
+                else:
+                    empty.append(path)
+        for path in empty:
+            path.unlink()
+
+
+def rename(entry: str, name: str, folder: Path) -> str:
+    """Give a sample another name, and return its new id.
+
+    Raises
+    ------
+    InputError
+        The id is not in the library, the name is empty or another sample's, or the file has a
+        fault; nothing was changed.
+    OutputError
+        The file cannot be written; nothing was changed.
+    """
+    if not name.strip():
+        msg = f"{folder}: a sample needs a name; {entry!r} keeps its own."
+        raise InputError(msg)
+    with locked(folder), outputs.publication() as files:
+        _sweep(folder)
+        [(path, wanted)] = _by_file([entry], folder).items()
+        fields, samples = _opened(path)
+        known = _ids(fields["samples"], samples)
+        _check_known(wanted, known, path)
+        [slug] = wanted
+        at = known.index(slug)
+        if any(sample.name == name for i, sample in enumerate(samples) if i != at):
+            msg = f"{path}: another sample is called {name!r}; choose another name."
+            raise InputError(msg)
+        new = _free(slug_of(name), set(known) - {slug}, "-", {})
+        fields["samples"][at] |= {"name": name, "id": new}
+        files.write(path.resolve(), _to_bytes(fields))
+    return f"{path.stem}/{new}"
+
+
+def ids(fields: dict[str, Any], samples: Sequence[Sample], collection: str) -> list[str]:
+    """Return the id of each sample of a library file, all different: ``collection/slug``."""
+    return [f"{collection}/{slug}" for slug in _ids(fields["samples"], samples)]
+
+
+def slug_of(name: str) -> str:
+    """Return a name in lower case with hyphens for all that is no letter or digit."""
+    return re.sub(r"[\W_]+", "-", name.casefold()).strip("-")[:_LONGEST] or "sample"
+
+
+def collection_name(text: str) -> str:
+    """Return the text as it can be a collection's name, which is a file's on every system."""
+    name = _NOT_IN_NAMES.sub("-", text)[:_LONGEST].strip(" .-")
+    return f"{name}-" if _DEVICES.fullmatch(name) else name or "samples"
+
+
+def _path(folder: Path, collection: str) -> Path:
+    if collection != collection_name(collection):
+        msg = (
+            f"{folder}: a collection cannot be called {collection!r}, because no file can; call "
+            f"it {collection_name(collection)!r}."
+        )
+        raise InputError(msg)
+    wanted = f"{collection}.json".casefold()
+    # Some systems take "Walls.json" and "walls.json" for the same file, so the library does.
+    same = [path for path in sorted(folder.glob("*.json")) if path.name.casefold() == wanted]
+    return same[0] if same else folder / f"{collection}.json"
+
+
+def _by_file(entries: Iterable[str], folder: Path) -> dict[Path, set[str]]:
+    found: dict[Path, set[str]] = {}
+    for entry in entries:
+        collection, _, slug = entry.rpartition("/")
+        path = folder / f"{collection}.json"
+        if not collection or collection != collection_name(collection) or not path.is_file():
+            msg = f"{folder}: there is no sample {entry!r} in a library file here; check its id."
+            raise InputError(msg)
+        found.setdefault(path, set()).add(slug)
+    return found
+
+
+def _check_known(wanted: set[str], known: list[str], path: Path) -> None:
+    missing = wanted - set(known)
+    if missing:
+        msg = f"{path}: there is no sample {min(missing)!r}; it may have been removed elsewhere."
+        raise InputError(msg)
+
+
+def _opened(path: Path) -> tuple[dict[str, Any], list[Sample]]:
+    """Read a library file as what it holds, unknown fields too, and as samples."""
+    document: Document = open_document(path)
+    if not library.sniff(document):
+        raise document.error(
+            "", "it is no Rough Spectra library, and is left as it is; use another collection"
+        )
+    fields = library.parse(document)
+    return fields, library.samples(document, fields)
+
+
+def _empty() -> dict[str, Any]:
+    return {"format": library.FORMAT, "schema": library.SCHEMA, "samples": []}
+
+
+def _ids(records: list[dict[str, Any]], samples: Sequence[Sample]) -> list[str]:
+    """Return the slug of each sample; a file written by hand may lack them or repeat them."""
+    taken: set[str] = set()
+    counters: dict[str, int] = {}
+    found = []
+    for record, sample in zip(records, samples, strict=True):
+        given = record.get("id")
+        slug = slug_of(given if isinstance(given, str) and given else sample.name)
+        slug = _free(slug, taken, "-", counters)
+        taken.add(slug)
+        found.append(slug)
+    return found
+
+
+def _merge(
+    fields: dict[str, Any], old: Sequence[Sample], samples: Sequence[Sample], collection: str
+) -> Added:
+    """Append to `fields` what is not in it yet."""
+    slugs = _ids(fields["samples"], old)
+    taken_slugs, taken_names = set(slugs), {sample.name for sample in old}
+    counters: tuple[dict[str, int], dict[str, int]] = ({}, {})
+    places: dict[tuple[object, ...], list[tuple[str, str]]] = {}
+    for sample, slug in zip(old, slugs, strict=True):
+        places.setdefault(_identity(sample), []).append((sample.name, slug))
+    found, names, present, renamed = [], [], [], []
+    for sample in samples:
+        same = places.setdefault(_identity(sample), [])
+        slug = next((slug for name, slug in same if _is_name(name, sample.name)), "")
+        if slug:
+            present.append(sample.name)
+        else:
+            name = _free(sample.name, taken_names, " ", counters[0])
+            slug = _free(slug_of(name), taken_slugs, "-", counters[1])
+            if name != sample.name:
+                renamed.append((sample.name, name))
+            taken_names.add(name)
+            taken_slugs.add(slug)
+            same.append((name, slug))
+            names.append(name)
+            fields["samples"].append({"id": slug} | library.record(sample) | {"name": name})
+        found.append(f"{collection}/{slug}")
+    return Added(tuple(found), tuple(names), tuple(present), tuple(renamed))
+
+
+def _identity(sample: Sample) -> tuple[object, ...]:
+    spectrum = sample.wavelengths.tobytes(), sample.values.tobytes()
+    return (*spectrum, sample.kind, sample.instrument)
+
+
+def _is_name(stored: str, name: str) -> bool:
+    """Return whether a stored name is this one, or this one with the number that made it free."""
+    return stored == name or (stored.startswith(f"{name} ") and stored[len(name) + 1 :].isdecimal())
+
+
+def _free(name: str, taken: set[str], separator: str, counters: dict[str, int]) -> str:
+    """Return the name, or with the next number that nobody has; `counters` keeps that quick."""
+    if name not in taken:
+        return name
+    number = counters.get(name, 2)
+    while f"{name}{separator}{number}" in taken:
+        number += 1
+    counters[name] = number + 1
+    return f"{name}{separator}{number}"
+
+
+def _to_bytes(fields: dict[str, Any]) -> bytes:
+    """Return the file: one sample a line, so that a change shows as the lines it is in."""
+
+    def dump(value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False)  # floats by repr: to the last bit
+
+    head = [f"{dump(key)}: {dump(value)}" for key, value in fields.items() if key != "samples"]
+    lines = ",\n".join(map(dump, fields["samples"]))
+    text = "{\n" + ",\n".join([*head, f'"samples": [\n{lines}\n]']) + "\n}\n"
+    # Half a surrogate pair has no UTF-8; its escape is what JSON writes for it.
+    return text.encode("utf-8", errors="backslashreplace")
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what a killed process left half written. Nobody else writes: the lock is held."""
+    for path in folder.glob(".*.part"):
+        path.unlink(missing_ok=True)

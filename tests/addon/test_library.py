@@ -1,0 +1,401 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The user library: nothing is lost, whoever writes at the same time and however it ends."""
+
+import dataclasses
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rough_spectra.addon import colorimetry, library, presets, readers, swatches
+from rough_spectra.addon.sample import Sample
+from rough_spectra.core.errors import InputError, OutputError
+
+ROOT = Path(__file__).resolve().parents[2]
+NM = np.arange(400.0, 701.0, 10.0)
+
+
+def sample(name, level=0.4, **fields):
+    values = np.random.default_rng(round(1e6 * level)).uniform(level, level + 0.05, NM.size)
+    return Sample(name, NM, values, fields.pop("kind", "reading"), **fields)
+
+
+def same(one, two):
+    pairs = [(getattr(one, f.name), getattr(two, f.name)) for f in dataclasses.fields(Sample)]
+    return all(np.array_equal(a, b) for a, b in pairs)
+
+
+def own(folder):
+    return [entry for entry in library.entries(folder) if not entry.is_preset]
+
+
+def files(folder):
+    return {p.name: p.read_bytes() for p in folder.iterdir() if p.name != ".lock"}
+
+
+FULL = Sample(
+    'Gips "rauh"\n石膏 \U0001f9f1',
+    np.array([380.0, 400.25, 500.0 + 1e-9, 700.0, 1000.0]),
+    np.array([-0.01, 1 / 3, 0.1 + 0.2, 5e-324, 12.5]),
+    "reading",
+    quantity="radiance factor",
+    instrument="de:8",
+    geometry="de:8°",
+    aperture="8 mm",
+    specular="SCE",
+    sigma_degrees=1 / 7,
+    sigma_source="profilometer",
+    source="C:\\data\\a.cxf",
+    license="CC0-1.0",
+    position="object c1",
+    device="Device",
+    condition="M1",
+    illuminant="D50",
+    observer=2,
+    lab=(1 / 3, -0.1, 2.0),
+    xyz=(0.1, 0.2, 0.3),
+    notes=("One.", "Two."),
+    altered=("Two scans were averaged.",),
+)
+
+
+def test_every_field_comes_back_to_the_last_bit(tmp_path):
+    left = [f.name for f in dataclasses.fields(Sample) if getattr(FULL, f.name) is f.default]
+    assert left == [], "give the sample above a value for each field"
+    plain = sample("plain")
+    assert library.add([FULL, plain], "mine", tmp_path).names == (FULL.name, "plain")
+    assert all(map(same, readers.read(tmp_path / "mine.json"), [FULL, plain]))
+    assert same(library.load("mine/plain", tmp_path), plain)
+    (first, second) = own(tmp_path)
+    assert first.id == "mine/gips-rauh-石膏"
+    assert first.sigma_degrees == 1 / 7
+    assert any("below 0" in sentence for sentence in first.warnings)
+    assert second.warnings == ()
+
+
+def test_a_file_has_one_sample_a_line_so_that_changes_can_be_seen(tmp_path):
+    library.add([sample("a"), sample("b", 0.5)], "mine", tmp_path)
+    before = (tmp_path / "mine.json").read_text(encoding="utf-8").splitlines()
+    library.add([sample("c", 0.6)], "mine", tmp_path)
+    after = (tmp_path / "mine.json").read_text(encoding="utf-8").splitlines()
+    assert next(line for line in after if '"name"' in line).rstrip(",") == before[4].rstrip(",")
+    assert len(after) == len(before) + 1
+    assert len(set(before) - set(after)) == 1  # the last line got its comma
+    assert set(files(tmp_path)) == {"mine.json"}
+
+
+def test_nothing_is_overwritten_and_nothing_added_twice(tmp_path):
+    added = library.add([sample("a"), sample("a", 0.5)], "mine", tmp_path)
+    assert added.names == ("a", "a 2")
+    assert added.ids == ("mine/a", "mine/a-2")
+    assert added.renamed == (("a", "a 2"),)
+    content = files(tmp_path)
+    again = library.add([sample("a"), sample("a", 0.5)], "mine", tmp_path)
+    assert (again.ids, again.names, again.present) == (added.ids, (), ("a", "a"))
+    assert files(tmp_path) == content
+    more = library.add([sample("b"), sample("A!"), sample("a", kind="albedo")], "mine", tmp_path)
+    assert more.names == ("b", "A!", "a 3")
+    assert more.ids == ("mine/b", "mine/a-3", "mine/a-3-2")
+
+
+def test_remove_and_rename_leave_the_other_ids_alone(tmp_path):
+    library.add([sample("x+1"), sample("x-1", 0.5), sample("y", 0.6)], "mine", tmp_path)
+    assert [entry.id for entry in own(tmp_path)] == ["mine/x-1", "mine/x-1-2", "mine/y"]
+    library.remove(["mine/x-1"], tmp_path)
+    assert [(entry.id, entry.name) for entry in own(tmp_path)] == [
+        ("mine/x-1-2", "x-1"),
+        ("mine/y", "y"),
+    ]
+    assert library.rename("mine/y", "Putz, rauh", tmp_path) == "mine/putz-rauh"
+    assert same(library.load("mine/putz-rauh", tmp_path), sample("Putz, rauh", 0.6))
+    content = files(tmp_path)
+    for change, word in (
+        (lambda: library.rename("mine/putz-rauh", "x-1", tmp_path), "another sample is called"),
+        (lambda: library.rename("mine/putz-rauh", " ", tmp_path), "needs a name"),
+        (lambda: library.rename("mine/gone", "z", tmp_path), "'gone'"),
+        (lambda: library.remove(["mine/putz-rauh", "mine/gone"], tmp_path), "'gone'"),
+        (lambda: library.remove(["colorchecker/14-green"], tmp_path), "14-green"),
+        (lambda: library.remove(["../mine/x-1-2"], tmp_path), "'../mine/x-1-2'"),
+    ):
+        with pytest.raises(InputError, match=word):
+            change()
+        assert files(tmp_path) == content
+    library.remove(["mine/x-1-2", "mine/putz-rauh"], tmp_path)
+    assert files(tmp_path) == {}
+
+
+def test_fields_of_others_stay_when_the_file_is_written_again(tmp_path):
+    library.add([sample("a")], "mine", tmp_path)
+    path = tmp_path / "mine.json"
+    fields = json.loads(path.read_text(encoding="utf-8"))
+    fields["curator"] = "someone"
+    fields["samples"][0]["tags"] = ["rough", 1.10]
+    path.write_text(json.dumps(fields, indent=4), encoding="utf-8")
+    library.add([sample("b", 0.5)], "mine", tmp_path)
+    written = json.loads(path.read_text(encoding="utf-8"))
+    assert written["curator"] == "someone"
+    assert written["samples"][0] == fields["samples"][0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        ('"schema": 1', '"schema": 2', "newer Rough Spectra"),
+        ('"schema": 1', '"schema": 0', "'schema'"),
+        ('"samples": [', '"samples": [3,', "'samples'"),
+        ('"samples": [', '"samples": [{"name": "n"},', "sample 1 'n': the field 'kind'"),
+        ('"kind": "reading"', '"kind": "color"', "sample 1 'a': the field 'kind'"),
+        ('"kind": "reading"', '"kind": "reading", "lab": [1, 2]', "'lab' must be three numbers"),
+        ('"kind": "reading"', '"kind": "reading", "observer": "2"', "'observer'"),
+        ('"kind": "reading"', '"kind": "reading", "notes": "x"', "'notes'"),
+        ('"kind": "reading"', '"kind": "reading", "instrument": "x"', "'instrument'"),
+        ('"wavelengths": [400', '"wavelengths": ["400"', "'wavelengths'"),
+        ('"wavelengths": [400', f'"wavelengths": [{"9" * 400}', "too long"),
+        ('"wavelengths": [400', '"wavelengths": [800', "mine.json, sample 1 'a': the wavelength"),
+        ('"values": [', '"values": [NaN, ', "values"),
+        ('"values": [', '"values": ', "line 5"),
+        ("{", "[" * 100000, "brackets"),
+    ],
+)
+def test_a_damaged_or_newer_file_is_reported_and_left_as_it_is(tmp_path, old, new, word):
+    library.add([sample("a", source="elsewhere.csv")], "mine", tmp_path)
+    library.add([sample("b")], "other", tmp_path)
+    path = tmp_path / "mine.json"
+    path.write_text(path.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    before = files(tmp_path)
+    (fault,) = library.contents(tmp_path).faults
+    assert str(path) in fault
+    assert [entry.id for entry in own(tmp_path)] == ["other/b"]
+    for change in (
+        lambda: library.add([sample("c")], "mine", tmp_path),
+        lambda: library.add_all({"other": [sample("c")], "mine": [sample("c")]}, tmp_path),
+        lambda: library.remove(["other/b", "mine/a"], tmp_path),
+        lambda: library.rename("mine/a", "b", tmp_path),
+    ):
+        with pytest.raises(InputError) as caught:
+            change()
+        assert str(path) in str(caught.value)
+        assert word in str(caught.value) or "is no Rough Spectra library" in str(caught.value)
+        assert files(tmp_path) == before
+
+
+def test_preset_files_in_the_folder_are_read_too(tmp_path):
+    green = presets.folder() / "colorchecker" / "14-green.json"
+    shutil.copy(green, tmp_path / "loose.json")
+    (tmp_path / "chart").mkdir()
+    shutil.copy(green, tmp_path / "chart" / "14-green.json")
+    (tmp_path / "colorchecker").mkdir()
+    shutil.copy(green, tmp_path / "colorchecker" / "99-new.json")
+    (tmp_path / "notes.txt").write_text("not a sample", encoding="utf-8")
+    found = library.contents(tmp_path)
+    ids = [entry.id for entry in found.entries if not entry.is_preset]
+    assert ids == ["chart/14-green", "loose/colorchecker-14-green"]
+    assert len(found.faults) == 1
+    assert "'colorchecker' is taken" in found.faults[0]
+    with pytest.raises(InputError, match="no Rough Spectra library"):
+        library.add([sample("a")], "loose", tmp_path)
+
+
+@pytest.mark.parametrize("name", ["a/b", "..", "", "con", ".hidden", "a\0", "x" * 300, "a."])
+def test_a_collection_that_no_file_can_be_called_is_refused(tmp_path, name):
+    with pytest.raises(InputError, match="cannot be called"):
+        library.add([sample("a")], name, tmp_path / "library")
+    assert list(tmp_path.rglob("*.json")) == []
+
+
+def test_a_collection_is_the_same_in_capitals(tmp_path):
+    library.add([sample("a")], "Walls", tmp_path)
+    assert library.add([sample("b")], "walls", tmp_path).ids == ("Walls/b",)
+    assert set(files(tmp_path)) == {"Walls.json"}
+
+
+def test_a_linked_file_stays_a_link(tmp_path):
+    folder, elsewhere = tmp_path / "library", tmp_path / "repository.json"
+    library.add([sample("a")], "mine", folder)
+    shutil.move(folder / "mine.json", elsewhere)
+    (folder / "mine.json").symlink_to(elsewhere)
+    library.add([sample("b")], "mine", folder)
+    assert (folder / "mine.json").is_symlink()
+    assert [found.name for found in readers.read(elsewhere)] == ["a", "b"]
+
+
+def test_an_absent_folder_is_an_empty_library_and_is_not_made(tmp_path):
+    absent = tmp_path / "none"
+    assert len(library.entries(absent)) == len(presets.names())
+    assert library.contents(absent).faults == ()
+    assert library.load("green", absent).name == "ColorChecker 14 Green"
+    assert not absent.exists()
+
+
+def test_load_takes_ids_names_and_presets_and_says_what_else_there_is(tmp_path):
+    library.add([sample("Plaster")], "one", tmp_path)
+    assert library.load("one/plaster", tmp_path).name == "Plaster"
+    assert library.load("Plaster", tmp_path).name == "Plaster"
+    assert library.load("14", tmp_path).name == "ColorChecker 14 Green"
+    library.add([sample("Plaster", 0.6)], "two", tmp_path)
+    with pytest.raises(InputError, match=r"could be any of one/plaster, two/plaster"):
+        library.load("Plaster", tmp_path)
+    with pytest.raises(InputError, match=r"no preset 'Marble'.*nor has the library"):
+        library.load("Marble", tmp_path)
+
+
+def test_search_finds_every_word_in_name_collection_or_source(tmp_path):
+    library.add([sample("Rough Plaster", source="Site 7"), sample("Brick")], "walls", tmp_path)
+    ids = lambda text: [entry.id for entry in library.search(text, tmp_path)]  # noqa: E731
+    assert ids("plaster ROUGH") == ["walls/rough-plaster"]
+    assert ids("site walls") == ["walls/rough-plaster"]
+    assert ids("14 green") == ["colorchecker/14-green"]
+    assert ids("") == [entry.id for entry in library.entries(tmp_path)]
+    assert ids("plaster brick") == []
+
+
+def test_nearest_agrees_with_one_by_one(tmp_path):
+    infrared = Sample("infrared", NM + 1000, np.full(NM.size, 0.3), "reading")
+    library.add([infrared, *(sample(f"{i}", 0.05 + 0.02 * i) for i in range(40))], "m", tmp_path)
+    rgb = (0.3, 0.5, 0.2)
+    found = library.nearest(swatches.to_lab(rgb), 5, tmp_path)
+    white = colorimetry.white("D65", 2)
+    linear = np.where(np.array(rgb) > 0.04045, ((np.array(rgb) + 0.055) / 1.055) ** 2.4, 0)
+    # IEC 61966-2-1, scaled to the white of the spectra
+    matrix = np.array(
+        [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    )
+    lab = colorimetry.xyz_to_lab((matrix @ linear) / matrix.sum(axis=1) * white, white)
+    expected = sorted(
+        (float(colorimetry.delta_e(colorimetry.spectrum_to_lab(s.reflectance, s.wavelengths), lab)))
+        for s in (library.load(e.id, tmp_path) for e in library.entries(tmp_path))
+        if s.wavelengths[0] < 700
+    )
+    assert [difference for _, difference in found] == pytest.approx(expected[:5], abs=0.02)
+    assert all(entry.name != "infrared" for entry, _ in library.nearest(lab, 999, tmp_path))
+    assert next(e for e in own(tmp_path) if e.name == "infrared").swatch is None
+
+
+def test_swatches_of_known_colors():
+    white, black = (Sample(n, NM, np.full(NM.size, v), "albedo") for n, v in (("w", 1), ("b", 0)))
+    rgb, lab = swatches.of_samples([white, black])
+    assert rgb[0] == pytest.approx([1, 1, 1], abs=1e-3)
+    assert rgb[1] == pytest.approx([0, 0, 0], abs=1e-6)
+    assert lab[0] == pytest.approx([100, 0, 0], abs=1e-6)
+    # The published sRGB of ColorChecker 14 Green (BabelColor, 2012) is 70 148 73; ΔE00 below 3.
+    green = presets.load("14")
+    assert (
+        colorimetry.delta_e(
+            swatches.of_samples([green])[1][0], swatches.to_lab(np.array([70, 148, 73]) / 255)
+        )
+        < 3
+    )
+
+
+def test_asking_again_costs_no_reading_and_a_change_is_seen(tmp_path):
+    library.add([sample(f"{i}", i / 2000) for i in range(1000)], "mine", tmp_path)
+    assert library.cached(tmp_path) is None
+    first = library.contents(tmp_path)
+    start = time.perf_counter()
+    for _ in range(10):
+        assert library.contents(tmp_path) is first
+        assert library.cached(tmp_path) is first
+        library.search("77", tmp_path)
+    print(f"asked again: {(time.perf_counter() - start) / 30 * 1e6:.0f} µs")
+    library.add([sample("new", 0.9)], "mine", tmp_path)
+    assert library.cached(tmp_path) is None
+    assert len(own(tmp_path)) == 1001
+
+
+def child(folder, lines):
+    """Start a Python of its own with the extension's modules, and `add(name, level)`."""
+    code = f"""
+import sys
+sys.path.insert(0, {str(ROOT / "tools")!r})
+from run_command_line import load_extension
+load_extension()
+import os, signal
+from pathlib import Path
+import numpy as np
+from rough_spectra.addon import library, outputs
+from rough_spectra.addon.sample import Sample
+NM = np.arange(400.0, 701.0, 10.0)
+folder = Path({str(folder)!r})
+def add(name, level):
+    library.add([Sample(name, NM, np.full(NM.size, level), "reading")], "mine", folder)
+"""
+    return subprocess.Popen(
+        [sys.executable, "-c", code + textwrap.dedent(lines)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"},
+    )
+
+
+def test_two_processes_that_add_at_once_lose_nothing(tmp_path):
+    work = """
+        for i in range(25):
+            add(f"{who} {i}", 0.2 + i / 100)
+    """
+    both = [child(tmp_path, f"who = {who!r}\n{textwrap.dedent(work)}") for who in "AB"]
+    for process in both:
+        assert process.wait(60) == 0, process.stderr.read()
+        process.stderr.close()
+        process.stdout.close()
+    names = [found.name for found in readers.read(tmp_path / "mine.json")]
+    assert sorted(names) == sorted(f"{who} {i}" for who in "AB" for i in range(25))
+    assert set(files(tmp_path)) == {"mine.json"}
+
+
+@pytest.mark.parametrize("moment", ["write", "_finish"])
+def test_a_killed_process_leaves_the_old_file_and_no_lock(tmp_path, moment):
+    library.add([sample("before")], "mine", tmp_path)
+    old = (tmp_path / "mine.json").read_bytes()
+    process = child(
+        tmp_path,
+        f"""
+        real = outputs.Publication.{moment}
+        def die(*arguments):
+            if {moment!r} == "write":
+                real(*arguments)
+            os.kill(os.getpid(), signal.SIGKILL)
+        outputs.Publication.{moment} = die
+        add("lost", 0.3)
+        """,
+    )
+    assert process.wait(60) == -signal.SIGKILL
+    process.stderr.close()
+    process.stdout.close()
+    assert (tmp_path / "mine.json").read_bytes() == old
+    assert any(name.endswith(".part") for name in files(tmp_path))
+    assert [entry.name for entry in own(tmp_path)] == ["before"]
+    library.add([sample("after", 0.5)], "mine", tmp_path)  # neither waits nor trips over it
+    assert [entry.name for entry in own(tmp_path)] == ["before", "after"]
+    assert set(files(tmp_path)) == {"mine.json"}
+
+
+def test_a_lock_that_another_keeps_is_a_sentence_and_not_a_hang(tmp_path):
+    from rough_spectra.addon import file_lock
+
+    refused = pytest.raises(OutputError, match="another program")
+    with file_lock.locked(tmp_path), refused, file_lock.locked(tmp_path, 0.1):
+        pass
+    with file_lock.locked(tmp_path, 0.1):
+        pass
+    (tmp_path / "file").write_text("x", encoding="utf-8")
+    with pytest.raises(OutputError, match="cannot be written"):
+        library.add([sample("a")], "mine", tmp_path / "file")
+
+
+def test_ten_thousand_samples_are_added_quickly(tmp_path):
+    values = np.random.default_rng(1).uniform(0.1, 0.6, (10_000, NM.size))
+    many = [Sample(f"patch {i // 2}", NM, row, "reading") for i, row in enumerate(values)]
+    start = time.perf_counter()
+    assert len(library.add(many, "chart", tmp_path).names) == 10_000
+    seconds = time.perf_counter() - start
+    print(f"added in {seconds:.2f} s")
+    assert seconds < 5  # seen: 0.7; quadratic would be minutes
