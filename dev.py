@@ -263,6 +263,14 @@ def command_fuzz(options: argparse.Namespace) -> int:
     return call([FUZZ.python, script("tools/fuzz.py"), *options.arguments])
 
 
+def command_screenshots(options: argparse.Namespace) -> int:
+    """Take the manual's pictures in the window of a desktop Blender."""
+    status = command_build(options)
+    zips = sorted(BUILD.glob("rough_spectra-*.zip"))
+    tool = script("tools/screenshots.py")
+    return status or call([sys.executable, tool, "--zip", zips[-1], *options.arguments])
+
+
 def command_docs(_options: argparse.Namespace) -> int:
     """Build the manual into site/; a dead link fails."""
     script("mkdocs.yml")
@@ -295,6 +303,7 @@ COMMANDS = {
     "docs": (command_docs, "build the manual into site/"),
     "figures": (command_figures, "draw the figures of the manual"),
     "bench": (command_bench, "measure speed"),
+    "screenshots": (command_screenshots, "take the manual's pictures in a desktop Blender"),
     "fuzz": (command_fuzz, "fuzz the readers of measurement files"),
     "chart": (command_chart, "measure cost against error, peers included, and draw the chart"),
 }
@@ -303,6 +312,7 @@ TAKES_ARGUMENTS = {
     "bench": "tools/bench.py",
     "figures": "docs/figures.py",
     "fuzz": "tools/fuzz.py",
+    "screenshots": "tools/screenshots.py",
 }
 
 

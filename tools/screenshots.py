@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Take the manual's pictures of the real window, so that they stay true.
+
+    python3 dev.py screenshots --blender BLENDER [--scale 1|2] [--theme dark|light] [NAME ...]
+
+BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there. The
+extension's zip is installed into a new, empty user folder: nothing of yours is touched.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+INSIDE = ROOT / "tools" / "screenshots_inside.py"
+SECONDS = 600
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Start Blender and let `screenshots_inside` do the rest."""
+    parser = argparse.ArgumentParser(prog="dev.py screenshots", description=__doc__.splitlines()[0])
+    parser.add_argument("--blender", required=True, help="executable of a desktop Blender")
+    parser.add_argument("--zip", type=Path, required=True, help="the built extension")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "images" / "window")
+    parser.add_argument("--scale", type=float, default=1.0, help="UI scale")
+    parser.add_argument("--theme", choices=("dark", "light"), default="dark")
+    parser.add_argument(
+        "--grab",
+        default="",
+        metavar="COMMAND",
+        help="saves the screen to the file named last; for virtual screens that Blender cannot read",
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="pictures; all without")
+    options = parser.parse_args(arguments)
+    options.output.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
+        command = [
+            *(options.blender, "--gpu-backend", "opengl"),
+            *("--window-geometry", "0", "0", "1600", "1000"),
+            *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
+            *(str(options.zip.resolve()), str(options.output.resolve())),
+            *(str(options.scale), options.theme, options.grab, *options.names),
+        ]
+        try:
+            done = subprocess.run(
+                command,
+                env=os.environ | {"BLENDER_USER_RESOURCES": user},
+                timeout=SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            print(f"Blender did not end within {SECONDS} s.", file=sys.stderr)
+            return 1
+    return done.returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
