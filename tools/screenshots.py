@@ -35,7 +35,7 @@ def main(arguments: Sequence[str]) -> int:
         "--grab",
         default="",
         metavar="COMMAND",
-        help="saves the screen to the file named last; for virtual screens that Blender cannot read",
+        help="saves the screen to the file named last; for screens that Blender cannot read",
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="pictures; all without")
     options = parser.parse_args(arguments)

@@ -93,15 +93,19 @@ def _cut(path: str, area: Any, height: int) -> None:
     """Leave an area of the picture, down to its last button."""
     bpy.utils.expose_bundled_modules()
     import numpy as np
-    import OpenImageIO as oiio
+    import OpenImageIO
 
-    whole = oiio.ImageBuf(path)
+    whole = OpenImageIO.ImageBuf(path)
     top = height - area.y - area.height
-    pixels = whole.get_pixels(oiio.UINT8)[top : top + area.height, area.x : area.x + area.width]
+    pixels = whole.get_pixels(OpenImageIO.UINT8)[
+        top : top + area.height, area.x : area.x + area.width
+    ]
     busy = np.flatnonzero(np.ptp(pixels[:, 8:-40], axis=1).max(axis=-1) > CONTRAST)
     pixels = np.ascontiguousarray(pixels[: min(len(pixels), int(busy.max()) + 12), :, :3])
-    cut = oiio.ImageBuf(oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.UINT8))
-    cut.set_pixels(oiio.ROI(), pixels)
+    cut = OpenImageIO.ImageBuf(
+        OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], 3, OpenImageIO.UINT8)
+    )
+    cut.set_pixels(OpenImageIO.ROI(), pixels)
     cut.write(path)
 
 
@@ -155,21 +159,21 @@ def _green(degrees: float = 30.0) -> Any:
 
 @picture
 def empty() -> str:
-    """A mesh without a material."""
+    """Show a mesh without a material."""
     _fresh()
     return "panel"
 
 
 @picture
 def assigned() -> str:
-    """A preset at 30°."""
+    """Show a preset at 30°."""
     _green()
     return "panel"
 
 
 @picture
 def edited() -> str:
-    """The color was edited by hand."""
+    """Show a color that was edited by hand."""
     material = _green()
     node = next(node for node in material.node_tree.nodes if node.type.startswith("BSDF"))
     node.inputs[0].default_value = (0.4, 0.1, 0.1, 1)
