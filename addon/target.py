@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import cycles, geometry, ladder, reading
+from ..core import cycles, geometry, instruments, ladder, reading
 from ..core.arrays import Array
 from ..core.choice import choose_shader
 from ..core.errors import DomainError
@@ -134,16 +134,11 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
     DomainError
         If a spectrum does not cover the visible range, or σ or illuminant is unknown.
     """
-    instrument = reading.INSTRUMENT_ANGLES[VIRTUAL]
-    spread = geometry.hemisphere(CHOICE_GEOMETRIES)
-    geometries = tuple(
-        np.append(all_over, at) for all_over, at in zip(spread, instrument, strict=True)
-    )
+    geometries = _with_instrument(geometry.hemisphere(CHOICE_GEOMETRIES))
 
     def difference(seen: Array, wanted: Array, white: Array) -> Array:
-        return colorimetry.delta_e(
-            colorimetry.xyz_to_lab(seen, white), colorimetry.xyz_to_lab(wanted, white)
-        )
+        lab_seen, lab_wanted = (colorimetry.xyz_to_lab(xyz, white) for xyz in (seen, wanted))
+        return colorimetry.delta_e(lab_seen, lab_wanted)
 
     found: list[Choice | None] = [None] * len(requests)
     for members in _alike(requests):
@@ -152,7 +147,7 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
             light = colorimetry.weights(first.sample.wavelengths, first.illuminant)
         sigma = np.array([requests[i].sigma for i in members])
         # The closure's albedo stands for the true one: it is what the other models approximate.
-        _, rho = _spectra([replace(requests[i], model="closure") for i in members])
+        rho = _albedos([requests[i] for i in members], "closure")
         choices = ladder.choose_model(
             np.minimum(rho, 1), sigma, geometries, [light], tolerance, difference=difference
         )
@@ -199,13 +194,14 @@ def _solve(
         return space.to_lab(rgb, illuminant)
 
     matched, roughness = cycles.match(readings, targets, geometries, perceive, colorimetry.delta_e)
-    color = np.clip(matched, 0.0, 1.0)
-    wanted = perceive(targets)
-    rough = cycles.reflectance(color[:, None], roughness[:, None], *geometries)
-    over_hemisphere = colorimetry.delta_e(perceive(rough), wanted)
-    smooth = np.clip(readings, 0, 1)
-    flat = smooth[:, None] * np.ones((1, MATCH_GEOMETRIES, 1))
-    lambert = colorimetry.delta_e(perceive(flat), wanted)
+    color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
+    # The instrument comes last. Both materials in one call, which is most of what they cost.
+    everywhere = _with_instrument(geometries)
+    wanted = perceive(np.concatenate((targets, readings[:, np.newaxis]), axis=1))
+    rough = cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *everywhere)
+    flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
+    apart = colorimetry.delta_e(perceive(np.stack((rough, flat))), wanted)
+    (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
     shaders = [
         choose_shader(lambert[i], over_hemisphere[i], TOLERANCE) if reason != ASKED_FOR else None
         for i, (_, reason) in enumerate(settled)
@@ -213,10 +209,8 @@ def _solve(
     judged = judgement.judge_each([request.sample for request in requests])
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
-    over_hemisphere[is_lambert] = lambert[is_lambert]
+    over_hemisphere[is_lambert], met[is_lambert] = lambert[is_lambert], met_smooth[is_lambert]
     high = np.percentile(over_hemisphere, 95, axis=1)
-    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
-    met = colorimetry.delta_e(perceive(at_instrument), perceive(readings))
     return [
         Solution(
             color=color[i],
@@ -267,16 +261,33 @@ def _spectra(requests: list[Request]) -> tuple[Array, Array]:
 
     An albedo is above 1 where the reading is more than white facets give.
     """
-    first = requests[0]
-    values = np.stack([request.sample.reflectance for request in requests])
-    if first.model == "lambert":
-        return values, values
+    model = requests[0].model
+    rho = _albedos(requests, model)
+    if model == "lambert":
+        return rho, rho
     sigma = np.array([request.sigma for request in requests])
-    is_albedo = np.array([request.sample.kind == "albedo" for request in requests])[:, np.newaxis]
-    instrument = first.sample.instrument
-    rho = np.where(is_albedo, values, _to_albedo(values, sigma, first.model, instrument))
-    as_printed = ~is_albedo & (instrument == VIRTUAL)
-    return np.where(as_printed, values, _from_albedo(rho, sigma, first.model)), rho
+    seen = [i for i, request in enumerate(requests) if _as_printed(request)]
+    predicted = rho.copy() if len(seen) == len(requests) else _from_albedo(rho, sigma, model)
+    for i in seen:
+        predicted[i] = requests[i].sample.reflectance
+    return predicted, rho
+
+
+def _as_printed(request: Request) -> bool:
+    """Whether the measured values themselves are what the virtual instrument has to read."""
+    return request.sample.kind == "reading" and request.sample.instrument == VIRTUAL
+
+
+def _albedos(requests: list[Request], model: str) -> Array:
+    """Albedos (materials, bands) by a model, of requests with the same bands and instrument."""
+    instrument = instruments.find(requests[0].sample.instrument).name
+    values = np.stack([request.sample.reflectance for request in requests])
+    is_albedo = np.array([request.sample.kind == "albedo" for request in requests])
+    if model == "lambert" or is_albedo.all():
+        return values
+    sigma = np.array([request.sigma for request in requests])
+    behind = _to_albedo(values, sigma, model, instrument)
+    return np.where(is_albedo[:, np.newaxis], values, behind)
 
 
 def _to_albedo(values: Array, sigma: Array, model: str, instrument: str) -> Array:
@@ -293,6 +304,12 @@ def _from_albedo(rho: Array, sigma: Array, model: str) -> Array:
     """Predict the virtual instrument's readings; beyond 1 in proportion, as `_to_albedo`."""
     seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
     return np.asarray(seen * np.maximum(rho, 1))
+
+
+def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+    """Add the virtual instrument's direction at the end."""
+    light, view, azimuth = map(np.append, geometries, reading.INSTRUMENT_ANGLES[VIRTUAL])
+    return light, view, azimuth
 
 
 def _alike(requests: Sequence[Request]) -> list[list[int]]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -47,16 +48,24 @@ class WorkingSpace:
         """
         weights = colorimetry.weights(wavelengths, illuminant, observer=2)
         adapt = colorimetry.adaptation(weights.sum(axis=0), self.white)
-        return np.asarray(weights @ adapt.T @ self.from_xyz.T)
+        return np.asarray(weights @ (self.from_xyz @ adapt).T)
 
     def to_xyz(self, rgb: Array, illuminant: str) -> Array:
         """XYZ (2° observer, Y = 1 for white) of scene-linear RGB (..., 3) under `illuminant`."""
-        adapt = colorimetry.adaptation(self.white, colorimetry.white(illuminant))
-        return np.asarray(np.asarray(rgb, np.float64) @ (adapt @ np.linalg.inv(self.from_xyz)).T)
+        matrix = _to_xyz(np.asarray(self.from_xyz, np.float64).tobytes(), illuminant)
+        return np.asarray(np.asarray(rgb, np.float64) @ matrix)
 
     def to_lab(self, rgb: Array, illuminant: str) -> Array:
         """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
         return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
+
+
+@lru_cache(maxsize=32)
+def _to_xyz(from_xyz: bytes, illuminant: str) -> Array:
+    """Matrix of `to_xyz`, for the bytes of `from_xyz`: a match asks for it at every step."""
+    back = np.linalg.inv(np.frombuffer(from_xyz).reshape(3, 3))
+    adapt = colorimetry.adaptation(back @ np.ones(3), colorimetry.white(illuminant))
+    return np.asarray((adapt @ back).T)
 
 
 def current() -> WorkingSpace:

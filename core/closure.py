@@ -105,7 +105,7 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
         If σ is out of range or `albedo` has no band axis.
     """
     rho = spectrum(albedo, "the albedo")
-    return _over_blocks(_forward, coefficients(np.asarray(sigma, np.float64)), rho)
+    return over_blocks(forward, coefficients(np.asarray(sigma, np.float64)), rho)
 
 
 def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
@@ -131,7 +131,7 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
         If σ is out of range or `reading` has no band axis.
     """
     r = spectrum(reading, "the reading")
-    return _over_blocks(_inverse, coefficients(np.asarray(sigma, np.float64)), r)
+    return over_blocks(inverse, coefficients(np.asarray(sigma, np.float64)), r)
 
 
 def factors(
@@ -207,7 +207,7 @@ def reflectance(
         If an angle lies outside its range or `albedo` has no band axis.
     """
     rho = spectrum(albedo, "the albedo")
-    return _over_blocks(_forward, factors(theta_i, theta_r, delta_phi, sigma), rho)
+    return over_blocks(forward, factors(theta_i, theta_r, delta_phi, sigma), rho)
 
 
 def monomials(light: Array, view: Array, cosine: Array, degree: int) -> Array:
@@ -268,7 +268,7 @@ def _polynomial(coefficients: Array | Sequence[float], x: Array) -> Array:
     return np.asarray(value)
 
 
-def _over_blocks(
+def over_blocks(
     formula: Callable[..., None], coefficients: tuple[Array, Array, Array], values: Array
 ) -> Array:
     """Apply `formula(out, values, b, a, g)` to spectra, in their precision."""
@@ -280,7 +280,8 @@ def _over_blocks(
     return out
 
 
-def _forward(out: Array, rho: Array, single: Array, walk: Array, ratio: Array) -> None:
+def forward(out: Array, rho: Array, single: Array, walk: Array, ratio: Array) -> None:
+    """Write r of ρ for b, a and g, which broadcast: a formula for `over_blocks`."""
     # A comparison with NaN is false, so NaN goes the longer way, like albedos above 1.
     inside = rho if np.max(rho) <= 1 else np.minimum(rho, 1)
     np.multiply(inside, -ratio, out=out)
@@ -294,7 +295,8 @@ def _forward(out: Array, rho: Array, single: Array, walk: Array, ratio: Array) -
     out *= rho
 
 
-def _inverse(out: Array, reading: Array, single: Array, walk: Array, ratio: Array) -> None:
+def inverse(out: Array, reading: Array, single: Array, walk: Array, ratio: Array) -> None:
+    """Write ρ of r for b, a and g, which broadcast: a formula for `over_blocks`."""
     white = single + walk / (1 + np.sqrt(1 - ratio))
     within = np.max(reading) <= np.min(white)
     inside = reading if within else np.minimum(reading, white)

@@ -141,7 +141,7 @@ def from_albedo(
             return vcavity_series.evaluate(rows, rho)
     if model == "closure":
         found = instrument_curves.closure_coefficients(sigma, instrument)
-        return closure._over_blocks(closure._forward, found, rho)
+        return closure.over_blocks(closure.forward, found, rho)
     return _evaluate(_FORWARD, rho, sigma, model, instrument)
 
 
@@ -178,7 +178,7 @@ def to_albedo(
         return vcavity_series.invert(instrument_curves.series(instrument).rows(sigma), r)
     if model == "closure":
         found = instrument_curves.closure_coefficients(sigma, instrument)
-        return closure._over_blocks(closure._inverse, found, r)
+        return closure.over_blocks(closure.inverse, found, r)
     return _evaluate(_INVERSE, r, sigma, model, instrument)
 
 

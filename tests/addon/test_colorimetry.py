@@ -192,6 +192,33 @@ def test_delta_e_is_ciede2000_to_the_digits_published():
     assert colorimetry.delta_e(table[:, :3].reshape(2, 17, 3), table[0, 3:6]).shape == (2, 17)
 
 
+def random_labs():
+    """Pairs far apart, close together and equal, grays and half grays among them."""
+    rng = np.random.default_rng(2005)
+    lab = rng.uniform([0, -128, -128], [100, 128, 128], (4000, 3))
+    other = lab + rng.normal(0, 1, lab.shape) * np.repeat([0.01, 1, 30, 0], 1000)[:, np.newaxis]
+    lab[:50, 1:], other[25:75, 1:] = 0, 0
+    return lab, other
+
+
+def test_delta_e_and_lab_agree_with_colour_science():
+    lab, other = random_labs()
+    expected = colour().delta_E(lab, other, method="CIE 2000")
+    np.testing.assert_allclose(colorimetry.delta_e(lab, other), expected, rtol=0, atol=1e-9)
+    white = colorimetry.white("A")
+    xyz = np.random.default_rng(31).uniform(-0.1, 1.2, (500, 3))
+    expected = colour().XYZ_to_Lab(xyz, colour().XYZ_to_xy(white))
+    np.testing.assert_allclose(colorimetry.xyz_to_lab(xyz, white), expected, rtol=0, atol=1e-9)
+
+
+def test_adaptation_agrees_with_colour_science():
+    whites = colorimetry.white("A"), colorimetry.white("D65")
+    expected = colour().adaptation.matrix_chromatic_adaptation_VonKries(
+        *whites, transform="Bradford"
+    )
+    np.testing.assert_allclose(colorimetry.adaptation(*whites), expected, rtol=1e-12, atol=1e-15)
+
+
 def test_lab_of_white_gray_and_black():
     white = colorimetry.white("D50", 10)
     np.testing.assert_allclose(colorimetry.xyz_to_lab(white, white), [100, 0, 0], atol=1e-12)
