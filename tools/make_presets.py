@@ -74,15 +74,18 @@ def presets() -> list[dict[str, Any]]:
 
 def text_of(fields: dict[str, Any]) -> str:
     """Return the file's text: one field a line, which keeps differences readable."""
-    lines = (f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in fields.items())
+    lines = (
+        f"  {json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}"
+        for key, value in fields.items()
+    )
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def write(folder: Path) -> list[Path]:
-    """Write all presets into a folder, each whole or not at all, and return their paths."""
+def write_presets(made: list[dict[str, Any]], folder: Path) -> list[Path]:
+    """Write presets into a folder, each whole or not at all, and return their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for fields in presets():
+    for fields in made:
         path = folder / f"{fields['id'].rpartition('/')[2]}.json"
         part = path.with_suffix(".part")
         part.write_bytes(text_of(fields).encode())
@@ -96,7 +99,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("folder", type=Path, nargs="?", default=FOLDER)
     folder = parser.parse_args(arguments).folder
-    print(f"{len(write(folder))} presets in {folder}")
+    print(f"{len(write_presets(presets(), folder))} presets in {folder}")
     return 0
 
 
