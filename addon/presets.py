@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The materials that come with the extension, found by whatever a person calls them.
 
-A preset is a file ``presets/<collection>/<number>-<name>.json``; its id is that path without the
-ending, such as ``colorchecker/14-green``. Ids and names come from the folder alone: a file is read
+A preset is a file ``presets/<collection>/<name>.json``, the name with a number before it where the
+collection has an order; its id is that path without the ending, such as ``colorchecker/14-green``
+or ``everyday/brick``. Ids and names come from the folder alone: a file is read
 only when its spectrum is wanted.
 """
 
@@ -83,15 +84,38 @@ def load(preset: str | os.PathLike[str]) -> Sample:
     return readers.read(path)[0]
 
 
-def load_all() -> list[Sample]:
-    """Return all presets in the order of `names`.
+def load_all(collection: str | None = None) -> list[Sample]:
+    """Return all presets, or those of one collection, in the order of `names`.
 
     Raises
     ------
     InputError
-        A file has a fault.
+        A file has a fault, or there is no such collection.
     """
-    return [load(folder() / f"{name}.json") for name in names()]
+    wanted = names() if collection is None else names_of(collection)
+    return [load(folder() / f"{name}.json") for name in wanted]
+
+
+def collections() -> list[str]:
+    """Return the names of the collections, sorted."""
+    return sorted({name.partition("/")[0] for name in names()})
+
+
+def names_of(collection: str) -> list[str]:
+    """Return the ids of one collection's presets, sorted.
+
+    Raises
+    ------
+    InputError
+        There is no such collection.
+    """
+    found = [name for name in names() if name.startswith(f"{collection}/")]
+    if not found:
+        raise InputError(
+            f"{folder()}: there is no collection {collection!r}; take one of: "
+            f"{', '.join(collections())}."
+        )
+    return found
 
 
 def _files(root: Path) -> list[Path]:

@@ -143,7 +143,7 @@ def to_albedo_row() -> Row:
 def xyz_row() -> Row:
     """Turn spectra into XYZ by one matrix, beside colour-science spectrum by spectrum."""
     science = colour()
-    samples = presets.load_all()
+    samples = presets.load_all("colorchecker")
     values = np.stack([sample.values for sample in samples])
     wavelengths = samples[0].wavelengths
     many = np.tile(values, (ROWS // len(values), 1))
@@ -182,7 +182,7 @@ def xyz_row() -> Row:
 
 def assign_row() -> Row:
     """Assign presets to many materials of one file."""
-    samples = presets.load_all()
+    samples = presets.load_all("colorchecker")
     requests = [
         target.Request(samples[i % len(samples)], float(np.radians(45 * i / MATERIALS)))
         for i in range(MATERIALS)

@@ -56,7 +56,7 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     pairs: list[tuple[Any, Request]] = []
     strips: list[tuple[str, list[Any]]] = []
-    for sample in presets.load_all():
+    for sample in presets.load_all("colorchecker"):
         label = sample.name.removeprefix("ColorChecker ").partition(" (")[0].lower()
         row = [bpy.data.materials.new(f"{label} {degrees}°") for degrees in SIGMAS]
         requests = [Request(sample, math.radians(degrees)) for degrees in SIGMAS]

@@ -84,7 +84,7 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
     Two rows a model and roughness: the matched material as rendered, and the Lambertian one.
     """
     directions = geometry.hemisphere(count)
-    samples = presets.load_all()
+    samples = presets.load_all("colorchecker")
     requests = [
         target.Request(sample, float(np.radians(degrees)), model)
         for model in TARGETS

@@ -42,7 +42,7 @@ def rows() -> list[dict[str, Any]]:
     from rough_spectra.addon import colorimetry, presets
     from rough_spectra.core import instruments, reading
 
-    samples = [sample for sample in presets.load_all() if sample.kind == "albedo"]
+    samples = [sample for sample in presets.load_all("colorchecker") if sample.kind == "albedo"]
     albedos = np.stack([sample.values for sample in samples])
 
     def lab(name: str, degrees: float) -> Any:

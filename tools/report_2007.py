@@ -118,7 +118,7 @@ def uv(xyz: Array) -> Array:
 @lru_cache(maxsize=1)
 def chart() -> tuple[list[Sample], Array, Array]:
     """Give the 24 patches, their wavelengths (bands,) and albedos (24, bands)."""
-    samples = presets.load_all()
+    samples = presets.load_all("colorchecker")
     return samples, samples[0].wavelengths, np.array([sample.values for sample in samples])
 
 

@@ -107,7 +107,7 @@ def in_gamut(solutions):
 def test_presets_and_nix_samples_read_their_target(space, nix, request_for, request):
     if space != "Linear Rec.709":
         request.getfixturevalue("set_working_space")(space)
-    samples = [*presets.load_all(), *nix.values()]
+    samples = [*presets.load_all("colorchecker"), *nix.values()]
     requests, solutions, rgb = assign_and_measure(samples, request_for)
     found = apart(requests, rgb, space)
     good = in_gamut(solutions)
@@ -122,7 +122,7 @@ def test_presets_and_nix_samples_read_their_target(space, nix, request_for, requ
 
 
 def test_with_the_model_left_to_choose_they_read_their_target_too(nix, request_for):
-    samples = [*presets.load_all(), *nix.values()]
+    samples = [*presets.load_all("colorchecker"), *nix.values()]
     requests, solutions, rgb = assign_and_measure(samples, request_for, model=target.AUTO)
     white = peer_xyz(np.ones(43), np.arange(360.0, 781.0, 10.0))
     wanted = []
