@@ -96,7 +96,11 @@ def _table() -> dict[str, tuple[int, Array, Array]]:
         points = [np.cumsum(next(contours), axis=0) for _ in range(count)]
         ends = [np.roll(contour, -1, axis=0) for contour in points]
         nothing = np.zeros((0, 2))
-        table[character] = (advance, np.concatenate([nothing, *points]), np.concatenate([nothing, *ends]))
+        table[character] = (
+            advance,
+            np.concatenate([nothing, *points]),
+            np.concatenate([nothing, *ends]),
+        )
     return table
 
 

@@ -1,0 +1,258 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the figures of a material show: the target from its spectrum, Blender from its node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ...core import cycles, ladder, reading, yardstick
+from ...core.arrays import Array
+from ...core.errors import MaterialError
+from .. import colorimetry, nodes, stamp, storage
+from ..target import AUTO, VIRTUAL, Request
+from ..working_space import WorkingSpace
+from .figures import LARGEST_SIGMA, LIGHT_ANGLE, STEEPEST, VISIBLE_NM
+from .raster import Color
+
+VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
+"""Degrees in the plane of incidence, negative on the side of the light."""
+
+_OUTSIDE = 0.002
+"""How far display-encoded values may leave 0 to 1 before a color counts as outside of the gamut:
+half of what the screen resolves."""
+
+_GRID = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 1, 5.0)
+_LEAST_WEIGHT = 0.02
+"""Share of a channel's largest weight from where on its bar begins."""
+
+# sRGB (IEC 61966-2-1) from XYZ under D65.
+_TO_SRGB = np.array(
+    ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570))
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A color as the screen shows it: display-encoded sRGB, and whether that had to be clipped."""
+
+    color: Color
+    outside: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """Numbers of all figures of one material.
+
+    Parameters
+    ----------
+    target, blender
+        Colors of the reading: wanted, and in Blender.
+    wavelengths, albedo, reading
+        Nanometers and fractions, shape (bands,); the reading is the virtual instrument's.
+    bars
+        First and last wavelength, and value, of Blender's blue, green and red.
+    target_curve, blender_curve, lambert
+        Luminance factors at `VIEW_ANGLES`, shape (angles,), and the Lambertian one.
+    sigma, sigma_max
+        Degrees; None where every σ fits the reading.
+    engine
+        What draws for Blender.
+    """
+
+    target: Patch
+    blender: Patch
+    wavelengths: Array
+    albedo: Array
+    reading: Array
+    bars: tuple[tuple[float, float, float], ...]
+    target_curve: Array
+    blender_curve: Array
+    lambert: float
+    sigma: float
+    sigma_max: float | None
+    engine: str
+
+
+def collect(material: Any, space: WorkingSpace, engine: str = "CYCLES") -> Data:
+    """Compute what a material's figures show.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material` with a spectrum.
+    space
+        The working space that its node is in.
+    engine
+        The scene's render engine; only Cycles shows the roughness.
+
+    Raises
+    ------
+    MaterialError
+        If the material has no spectrum that can be read, or nothing was derived from it yet.
+    DomainError
+        If the spectrum does not cover the visible range.
+    """
+    color, roughness = written(material)
+    found = stamp.get_stamp(material)
+    request = storage.load(material)
+    if request.model == AUTO:
+        request = replace(request, model=found.model if found is not None else "closure")
+    rough = roughness if engine == "CYCLES" else 0.0
+    return of_request(request, color, rough, space, "Cycles" if engine == "CYCLES" else "Eevee")
+
+
+def written(material: Any) -> tuple[Array, float]:
+    """Color and roughness in the material's shader node, or as they were derived.
+
+    Raises
+    ------
+    MaterialError
+        If there is neither.
+    """
+    node = nodes.shader_node(material)
+    if node is not None:
+        color = np.array(nodes.color_socket(node).default_value[:3], np.float64)
+        return color, float(nodes.roughness_socket(node).default_value)
+    found = stamp.get_stamp(material)
+    if found is None:
+        msg = f"Material {material.name!r} has no color derived from its spectrum yet; renew it."
+        raise MaterialError(msg)
+    return np.array(found.color), found.roughness
+
+
+def of_request(
+    request: Request, color: Array, roughness: float, space: WorkingSpace, engine: str = "Cycles"
+) -> Data:
+    """Compute the same from a request with a settled model, and what is in the shader node."""
+    sample, light = request.sample, request.illuminant
+    weights = space.rgb_weights(sample.wavelengths, light)
+    seen, rho = _spectra(request)
+    # Sockets may hold anything; what the closure does to a color above 1 is not defined.
+    color = np.clip(color, 0, 1)
+    roughness = min(max(roughness, 0.0), 1.0)
+    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
+    luminance = colorimetry.weights(sample.wavelengths, light)[:, 1]
+    view = np.radians(np.abs(VIEW_ANGLES))
+    azimuth = np.where(VIEW_ANGLES < 0, 0.0, np.pi)
+    angles = (np.full(view.shape, np.radians(LIGHT_ANGLE)), view, azimuth)
+    shown = cycles.reflectance(color, np.full(view.shape, roughness), *angles)
+    return Data(
+        target=patch(seen @ weights, space),
+        blender=patch(at_instrument, space),
+        wavelengths=sample.wavelengths,
+        albedo=rho,
+        reading=seen,
+        bars=rgb_bars(at_instrument, space, light),
+        target_curve=np.maximum(_model(request, rho, angles) @ luminance, 0),
+        blender_curve=space.to_xyz(shown, light)[:, 1],
+        lambert=float(seen @ luminance),
+        sigma=float(np.degrees(request.sigma)),
+        sigma_max=sigma_max(request),
+        engine=engine,
+    )
+
+
+def patch(rgb: Array, space: WorkingSpace) -> Patch:
+    """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
+    linear = _TO_SRGB @ np.linalg.solve(space.from_xyz, rgb)
+    # The matrix above is rounded to four places; white has to be white.
+    linear = linear / (_TO_SRGB @ space.white)
+    low, high = np.abs(linear), np.maximum(linear, 0)
+    encoded = np.where(low <= 0.0031308, 12.92 * linear, 1.055 * high ** (1 / 2.4) - 0.055)
+    shown = np.clip(encoded, 0, 1)
+    red, green, blue = shown.tolist()
+    return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
+
+
+def rgb_bars(
+    rgb: Array, space: WorkingSpace, illuminant: str
+) -> tuple[tuple[float, float, float], ...]:
+    """Place the three numbers of a color over wavelength.
+
+    Each stands over the wavelengths that its channel weighs more than the other two: for a
+    reflectance that is even there and nothing elsewhere, it would be that reflectance. No spectrum
+    belongs to three numbers; the bars say what is known of it.
+    """
+    spans = _spans(space.from_xyz.astype(np.float64).tobytes(), illuminant)
+    return tuple(
+        (start, end, float(value)) for (start, end), value in zip(spans, rgb[::-1], strict=True)
+    )
+
+
+def sigma_max(request: Request) -> float | None:
+    """Largest σ, degrees, at which white facets read no less than the sample; None without one."""
+    sample, model = request.sample, request.model
+    if sample.kind == "albedo" or model == "lambert":
+        return None
+    # The reference takes seconds at first, and the closure is within 1 % of it for white facets.
+    degrees, white = _white("closure" if model == "reference" else model, sample.instrument)
+    peak = float(sample.reflectance.max())
+    too_dark = np.flatnonzero(white < peak)
+    if not too_dark.size:
+        return None
+    first = int(too_dark[0])
+    if first == 0:
+        return 0.0
+    above, below = white[first - 1], white[first]
+    share = (above - peak) / (above - below)
+    return float(degrees[first - 1] + share * (degrees[first] - degrees[first - 1]))
+
+
+@lru_cache(maxsize=64)
+def _white(model: str, instrument: str) -> tuple[Array, Array]:
+    degrees = np.linspace(0, LARGEST_SIGMA, 361)
+    return degrees, reading.white_reading(np.radians(degrees), model, instrument)
+
+
+def _spectra(request: Request) -> tuple[Array, Array]:
+    """Give reading at the virtual instrument and albedo, as `target` matches them."""
+    sample, sigma, model = request.sample, request.sigma, request.model
+    values = sample.reflectance
+    if model == "lambert":
+        return values, values
+    if sample.kind == "albedo":
+        rho = values
+    else:
+        white = reading.white_reading(sigma, model, sample.instrument)
+        rho = reading.to_albedo(np.minimum(values, white), sigma, model, sample.instrument)
+        rho = rho * np.maximum(values / white, 1)
+        if sample.instrument == VIRTUAL:
+            return values, rho
+    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
+    return np.asarray(seen * np.maximum(rho, 1)), rho
+
+
+def _model(request: Request, rho: Array, angles: tuple[Array, Array, Array]) -> Array:
+    """Reflectance factor in all directions, (angles, bands)."""
+    physical = np.minimum(rho, 1)
+    if request.model == "reference":
+        # The solver takes milliseconds a direction; its table is within a thousandth.
+        [found] = yardstick.reflectance(physical[np.newaxis], *angles, np.array([request.sigma]))
+    else:
+        found = ladder.reflectance(request.model, physical, *angles, request.sigma)
+    return np.asarray(found * np.maximum(rho, 1))
+
+
+@lru_cache(maxsize=16)
+def _spans(matrix: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
+    """First and last wavelength where blue, green and red weigh most."""
+    space = WorkingSpace("", np.frombuffer(matrix).reshape(3, 3))
+    weights = space.rgb_weights(_GRID, illuminant)
+    fine = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 0.5)
+    shares = np.stack([np.interp(fine, _GRID, weights[:, i]) for i in range(3)])
+    found = []
+    for channel in (2, 1, 0):
+        own = shares[channel]
+        ahead = (np.argmax(shares, axis=0) == channel) & (own > _LEAST_WEIGHT * own.max())
+        peak = int(np.argmax(own))
+        before = np.flatnonzero(~ahead[:peak])
+        after = np.flatnonzero(~ahead[peak:])
+        start = fine[before[-1] + 1] if before.size else fine[0]
+        end = fine[peak + after[0] - 1] if after.size else fine[-1]
+        found.append((float(start), float(end)))
+    return tuple(found)

@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the figures have in common: axes with ticks, legends, round numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...core.arrays import Array
+from . import raster, text
+from .theme import Look
+
+Size = tuple[int, int]
+"""Width and height, pixels."""
+
+SMALL = 150.0
+"""Below this width, in pixels of the interface at scale 1, numbers beside the axis are left out."""
+
+_KEY = 16.0
+"""Length of the sample of a line in a legend, at scale 1."""
+
+
+@dataclass(frozen=True)
+class Axes:
+    """A rectangle of pixels and the numbers at its sides."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+    @property
+    def box(self) -> raster.Box:
+        """The rectangle."""
+        return self.left, self.top, self.right, self.bottom
+
+    def place(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
+        """Give pixels (points, 2) of numbers (points,)."""
+        across = (np.asarray(x, float) - self.x[0]) / (self.x[1] - self.x[0])
+        up = (np.asarray(y, float) - self.y[0]) / (self.y[1] - self.y[0])
+        wide, high = self.right - self.left, self.bottom - self.top
+        return np.stack(
+            np.broadcast_arrays(self.left + across * wide, self.bottom - up * high), axis=-1
+        )
+
+
+@dataclass(frozen=True)
+class Key:
+    """One entry of a legend: its name, color, line width at scale 1 and dash at scale 1."""
+
+    name: str
+    color: raster.Color
+    width: float
+    dash: tuple[float, ...] = ()
+
+
+def is_small(size: Size, look: Look) -> bool:
+    """Whether there is no room for numbers beside the axis."""
+    return size[0] < SMALL * look.scale
+
+
+def ceiling(peak: float) -> float:
+    """Round number at or above a value, so that an axis stays where it is while values change."""
+    for top in (0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 3.0):
+        if peak <= top:
+            return top
+    return float(np.ceil(peak))
+
+
+def label(value: float) -> str:
+    """Write a tick; the minus sign is as wide as a digit."""
+    return f"{value:g}".replace("-", "−")
+
+
+def margin(axis: Sequence[float], look: Look) -> int:
+    """Room for the numbers beside an axis, pixels."""
+    widest = max(text.width(label(value), look.font) for value in axis)
+    return int(np.ceil(widest + 5 * look.scale))
+
+
+def draw_grid(
+    canvas: Array, axes: Axes, ticks: Sequence[float], look: Look, *, named: bool
+) -> None:
+    """Draw level lines with their values, the lowest one stronger."""
+    thin = max(1, round(look.scale))
+    for value in ticks:
+        [[_, y]] = axes.place([axes.x[0]], [value])
+        # Whole pixels: a thin line between two rows would be a gray band.
+        row = min(round(float(y)), axes.bottom - thin)
+        strong = value == ticks[0]
+        color = look.faint if strong else look.grid
+        raster.rectangle(canvas, (axes.left, row, axes.right, row + thin), color)
+        if named:
+            middle = row + text.height(look.font) / 2
+            left = axes.left - 4 * look.scale
+            text.draw(canvas, label(value), left, middle, look.font, look.faint, align=1)
+
+
+def name_below(
+    canvas: Array, axes: Axes, ticks: Sequence[tuple[float, str]], row: float, look: Look
+) -> None:
+    """Write numbers below a plot, kept inside the picture."""
+    end = -np.inf
+    for value, name in ticks:
+        [[x, _]] = axes.place([value], [axes.y[0]])
+        half = text.width(name, look.font) / 2
+        x = min(max(float(x), half + 1), canvas.shape[1] - half - 2)
+        if x - half > end:
+            text.draw(canvas, name, x, row, look.font, look.faint, align=0.5)
+            end = x + half + 3 * look.scale
+
+
+def legend_height(look: Look) -> int:
+    """Rows of a legend, pixels."""
+    return int(np.ceil(1.5 * look.font))
+
+
+def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> None:
+    """Name the lines in one row along the top, each with a sample beside its name.
+
+    Samples shrink, then the last names are left out, where the picture is narrow.
+    """
+    room = canvas.shape[1] - left - 1
+    gap = 10 * look.scale
+    for key_length in (_KEY * look.scale, 10 * look.scale):
+        widths = [
+            key_length + 4 * look.scale + text.width(key.name, look.font) + gap for key in keys
+        ]
+        if sum(widths) - gap <= room:
+            break
+    base = text.height(look.font) + 3 * look.scale
+    x = float(left)
+    for key, width in zip(keys, widths, strict=True):
+        if x + width - gap > canvas.shape[1]:
+            return
+        middle = base - text.height(look.font) / 2
+        reach = key.width * look.scale / 2
+        sample = [(x + reach, middle), (x + key_length - reach, middle)]
+        dash = [part * look.scale for part in key.dash]
+        raster.polyline(canvas, sample, key.color, key.width * look.scale, dash)
+        text.draw(canvas, key.name, x + key_length + 4 * look.scale, base, look.font, key.color)
+        x += width
+
+
+def draw_curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Look) -> None:
+    """Draw a line as its entry in the legend shows, cut at the sides of the plot."""
+    # Half a line may cross the border, so that a curve along it does not thin out.
+    spare = int(np.ceil(key.width * look.scale / 2)) + 1
+    within = (axes.left, max(axes.top - spare, 0), axes.right, axes.bottom + spare)
+    dash = [part * look.scale for part in key.dash]
+    points = axes.place(x, np.clip(y, *axes.y))
+    raster.polyline(canvas, points, key.color, key.width * look.scale, dash, within)
