@@ -122,13 +122,18 @@ _presets: list[_File] = []
 def user_folder() -> Path:
     """Return the folder of the user's library; it need not be there yet.
 
-    It is outside of the extension, and an upgrade leaves it alone.
+    The one of the preferences, or else Blender's folder for what an extension's user makes: an
+    upgrade leaves it alone.
     """
     import bpy
 
-    package = __package__.rpartition(".")[0]
+    from . import preferences
+
+    chosen = preferences.defaults().library_folder
+    if chosen:
+        return Path(chosen)
     try:
-        return Path(bpy.utils.extension_path_user(package, path="library"))
+        return Path(bpy.utils.extension_path_user(preferences.PACKAGE, path="library"))
     except ValueError:  # run from a clone, not installed as an extension
         return Path(bpy.utils.user_resource("DATAFILES", path="rough_spectra/library"))
 
