@@ -34,6 +34,8 @@ _PIXEL_TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 _COMPRESSIONS = ["none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"]
 _LINES = {"none": 1, "ZIPS": 1, "ZIP": 16}  # in one chunk
 
+_USED = ("channels", "compression", "dataWindow")
+
 _LARGEST_SIDE = 2**16  # pixels
 _LARGEST_CHUNK = 8 * 2**20  # bytes: 16 lines of 4096 pixels with 64 bands of half floats
 _BLOCK = 2**20  # bytes that become floats at a time
@@ -74,12 +76,16 @@ class Image:
         step = _LINES[self.compression]
         size = self.line_size
         at_once = max(1, _BLOCK // size)
-        for chunk in range(first // step, (first + count - 1) // step + 1):
+        waiting: list[bytes] = []  # a chunk may be a line of one pixel: many go together
+        last = (first + count - 1) // step
+        for chunk in range(first // step, last + 1):
             begin = chunk * step
-            held = min(step, self.height - begin)
-            raw = self._chunk(chunk, begin, held * size)
-            lines = np.frombuffer(raw, np.uint8).reshape(held, size)
-            lines = lines[max(first - begin, 0) : first + count - begin]
+            raw = self._chunk(chunk, begin, min(step, self.height - begin) * size)
+            waiting.append(raw[max(first - begin, 0) * size : (first + count - begin) * size])
+            if chunk < last and len(waiting) * step < at_once:
+                continue
+            lines = np.frombuffer(b"".join(waiting), np.uint8).reshape(-1, size)
+            waiting.clear()
             for top in range(0, len(lines), at_once):
                 yield self._floats(lines[top : top + at_once])
 
@@ -184,7 +190,7 @@ def open_image(document: Document) -> Image:
 
 
 def _attributes(document: Document) -> tuple[dict[str, bytes], int]:
-    """Return the attributes' values by name, and where the header ends."""
+    """Return the values of the attributes that are used, and where the header ends."""
     data, at = document.data, 8
     attributes: dict[str, bytes] = {}
     while at < len(data) and data[at]:
@@ -196,7 +202,8 @@ def _attributes(document: Document) -> tuple[dict[str, bytes], int]:
         at += 4
         if size < 0 or at + size > len(data):
             raise _cut(document)
-        attributes.setdefault(name, data[at : at + size])
+        if name in _USED:
+            attributes.setdefault(name, data[at : at + size])
         at += size
     if at >= len(data):
         raise _cut(document)

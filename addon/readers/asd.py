@@ -129,7 +129,8 @@ def _wavelengths(document: Document) -> NDArray[np.float64]:
         raise document.error(
             f"byte {_CHANNELS + 1}", f"it states {channels} channels; a spectrum has at least two"
         )
-    return first + step * np.arange(channels, dtype=np.float64)
+    with np.errstate(invalid="ignore", over="ignore"):  # not finite: `check_spectrum` names it
+        return first + step * np.arange(channels, dtype=np.float64)
 
 
 def _spectrum(
@@ -147,7 +148,8 @@ def _spectrum(
     if end > len(document.data):
         raise _truncated(document, what, end)
     numbers = np.frombuffer(document.data, form, channels, start)
-    return numbers.astype(np.float64), end
+    with np.errstate(invalid="ignore"):  # a signaling NaN
+        return numbers.astype(np.float64), end
 
 
 def _reference(document: Document, start: int, channels: int) -> NDArray[np.float64] | None:

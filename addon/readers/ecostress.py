@@ -25,7 +25,9 @@ NAME = "ECOSTRESS or ASTER library file"
 PRIORITY = 100
 
 _MARKS = ("x units", "y units", "first x value")
+_KEYS = {*_MARKS, "last x value", "number of x values", "name", "measurement"}
 _KEY = re.compile(r"\s*([A-Za-z][A-Za-z .]*?)\s*:\s*(.*?)\s*")
+_TOP = 200  # lines within which the rows begin; the header has about 20
 _COLUMNS = ("wavelength", "value")
 
 # In the words of `Y Units` and of `Measurement`; what matches first is meant.
@@ -58,7 +60,8 @@ def read(document: Document) -> list[Sample]:
     keys, top = _header(document)
     scale = _scale(document, keys)
     factor = _nanometers_per_unit(document, keys)
-    block = _table.numbers(document, _rows(document, top), _COLUMNS, (0, 1))
+    table = _table.rows(document, _table.SPACES, skip=top)
+    block = _table.numbers(document, table, _COLUMNS, (0, 1))
     notes = _check_count(document, keys, block)
     order, altered = _bands.in_order(block.values[:, 0])
     x, y = block.values[order].T
@@ -89,15 +92,15 @@ def read(document: Document) -> list[Sample]:
 
 
 def _header(document: Document) -> tuple[dict[str, Row], int]:
-    """Return line and value of each key, and the number of lines above the first row."""
+    """Return line and value of each key that is used, and how many lines stand above the rows."""
     keys: dict[str, Row] = {}
     number = 0
-    for number, line in enumerate(_table.lines(document), start=1):
+    for number, line in enumerate(itertools.islice(_table.lines(document), _TOP), start=1):
         fields = line.split()
         if len(fields) > 1 and all(map(_is_number, fields)):
             break
         pair = _KEY.fullmatch(line)
-        if pair:
+        if pair and pair[1].lower() in _KEYS:
             keys.setdefault(pair[1].lower(), Row(number, [pair[2]]))
     else:
         raise document.error(f"line {number}", "no rows of numbers follow; download the file again")
@@ -106,12 +109,6 @@ def _header(document: Document) -> tuple[dict[str, Row], int]:
             f"line {number}", "numbers begin above the units; download the file again"
         )
     return keys, number - 1
-
-
-def _rows(document: Document, top: int) -> itertools.filterfalse[Row]:
-    return itertools.filterfalse(
-        lambda row: row.line <= top, _table.rows(document, _table.SPACES, skip=top)
-    )
 
 
 def _text(keys: dict[str, Row], key: str) -> str:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -31,6 +32,11 @@ PRIORITY = 100
 
 _ROOT = "IESTM2714"
 _DEEPEST = 20  # levels; the format has three
+_MOST_UNKNOWN = 1000  # elements with other names than the format has: `CustomElement` and such
+_LONG_TAG = re.compile(rb"<[^<>]{65536}")  # its attributes would take a lot of memory
+_HEADER = ("Description", "CatalogNumber", "MeasurementEquipment")
+_TEXTS = ("SpectralQuantity", "ReflectionGeometry", "BandwidthFWHM", "BandwidthCorrected")
+_KNOWN = {"SpectralData", "SpectralDistribution", *_HEADER, *_TEXTS}
 _QUANTITIES = {"reflectance": "reflectance", "r-factor": "reflectance factor"}
 _REFUSED = {
     "flux": "radiant flux, an emission",
@@ -125,7 +131,7 @@ def _parse(document: Document) -> tuple[dict[str, str], list[_Distribution]]:
     for parent, element in _elements(document):
         tag, text = _tag(element), (element.text or "").strip()
         if parent == "Header":
-            if text and text != "N/A":
+            if tag in _HEADER and text and text != "N/A":
                 header[tag] = " ".join(text.split())
         elif parent == "SpectralDistribution" and distributions:
             current = distributions[-1]
@@ -134,7 +140,7 @@ def _parse(document: Document) -> tuple[dict[str, str], list[_Distribution]]:
                 place += f", SpectralData {len(current.nm) + 1}"
                 current.nm.append(_number(document, place, element.get("wavelength", "")))
                 current.values.append(_number(document, place, text))
-            else:
+            elif tag in _TEXTS:
                 current.texts[tag] = " ".join(text.split())
         elif tag == "SpectralDistribution":
             distributions.append(_Distribution())
@@ -146,7 +152,10 @@ def _elements(document: Document) -> Iterator[tuple[str, Element]]:
     from defusedxml import DefusedXmlException
     from defusedxml.ElementTree import ParseError, iterparse
 
+    if _LONG_TAG.search(document.data):
+        raise document.error("", "one of its XML tags is longer than 64 kB; export it again")
     path: list[Element] = []
+    unknown = 0
     try:
         for event, element in iterparse(
             io.BytesIO(document.data), events=("start", "end"), forbid_dtd=True
@@ -160,6 +169,9 @@ def _elements(document: Document) -> Iterator[tuple[str, Element]]:
                     yield parent, element
                 continue
             path.pop()
+            unknown += _tag(element) not in _KNOWN
+            if unknown > _MOST_UNKNOWN:
+                raise document.error("", f"it has more than {_MOST_UNKNOWN} elements of no TM-27")
             if path:
                 if _tag(element) != "SpectralDistribution":
                     yield _tag(path[-1]), element

@@ -241,10 +241,13 @@ def _column(document: Document) -> tuple[str, str, NDArray[np.float64]]:
         raise document.error("line 1", f"{quote(first.strip())} is no title of a USGS record")
     numbers = array("d")
     for number, line in enumerate(table, start=2):
-        if _VALUE.fullmatch(line):
-            numbers.append(float(line))
-        elif line.strip():
-            raise document.error(f"line {number}", f"{quote(line.strip())} is not a number")
+        try:
+            numbers.append(float(line.replace("_", "x")))  # Python reads 1_0 as ten
+        except ValueError:
+            if line.strip():
+                raise document.error(
+                    f"line {number}", f"{quote(line.strip())} is not a number; download it again"
+                ) from None
     return match[1], match[3], np.array(numbers, dtype=np.float64)
 
 
