@@ -1,0 +1,236 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find, for each material in the picture, its lights and the directions that matter.
+
+Rays go from the camera to what it sees, and from there to the lamps; first bounce only, nothing
+is rendered, and nothing in the file changes.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...core.arrays import Array
+from .. import light_spectrum, working_space
+from ..scene_view import SceneView, make_light
+from . import camera, sampling, sources, surfaces
+from .camera import View
+from .sampling import Samples
+from .sources import Lamp
+from .surfaces import Hits
+
+__all__ = ["SceneReport", "View", "analyze"]
+
+_HITS_A_MATERIAL = 96
+"""Places of a material from which lamps are looked for; more do not change the matching."""
+_LOOKS = 4
+"""Lamps looked for from each place, chosen by what they would shed there."""
+_SEED = 20
+_OFFSET = 1e-5
+"""Start of a shadow ray above the surface, in diagonals of the scene."""
+
+
+@dataclass(frozen=True)
+class SceneReport:
+    """What an analysis found.
+
+    Parameters
+    ----------
+    views
+        Material and its view, for each that the camera sees and light reaches.
+    unlit
+        Materials that are seen, and no lamp reaches.
+    pixels
+        Share of the picture that each seen material covers, 0 to 1.
+    warnings
+        Sentences for the user.
+    seconds
+        How long it took.
+    """
+
+    views: dict[Any, SceneView]
+    unlit: tuple[Any, ...] = ()
+    pixels: dict[Any, float] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+
+def analyze(depsgraph: Any, scene: Any, view: View | None = None) -> SceneReport:
+    """Look at a scene through its camera, or a viewport.
+
+    Parameters
+    ----------
+    depsgraph
+        Evaluated `bpy.types.Depsgraph` of the scene.
+    scene
+        A `bpy.types.Scene`.
+    view
+        What looks at it, or None for the scene's camera.
+
+    Raises
+    ------
+    InputError
+        If there is nothing to look through.
+    """
+    start = time.perf_counter()
+    random = np.random.default_rng(_SEED)
+    origins, ways = camera.rays(depsgraph, scene, view, random)
+    found = surfaces.gather(depsgraph)
+    space = working_space.current()
+    lamps, warnings = sources.find(depsgraph, scene, found, space)
+    hits = found.hit(origins, ways)
+    counts = np.bincount(hits.materials[hits.materials >= 0], minlength=len(found.materials))
+    seen = np.flatnonzero(counts)
+    samples, places = _look(found, hits, ways, lamps, space, random)
+    views = _views(scene.name, samples, hits.materials[places], found.materials, lamps, space)
+    unlit = tuple(found.materials[i] for i in seen if found.materials[i] not in views)
+    return SceneReport(
+        views,
+        unlit,
+        {found.materials[i]: float(counts[i]) / len(ways) for i in seen},
+        tuple(warnings),
+        time.perf_counter() - start,
+    )
+
+
+def _look(
+    found: surfaces.Surfaces,
+    hits: Hits,
+    ways: Array,
+    lamps: list[Lamp],
+    space: working_space.WorkingSpace,
+    random: np.random.Generator,
+) -> tuple[Samples, Array]:
+    """Send rays towards lamps; gives the ways that arrive and the hits they start from."""
+    places = _some_of_each(hits.materials, random)
+    points, normals, facing = hits.points[places], hits.normals[places], hits.facing[places]
+    view = -ways[hits.ray[places]]
+    parts = []
+    if lamps and len(places):
+        luminance = np.array([np.linalg.solve(space.from_xyz, lamp.rgb)[1] for lamp in lamps])
+        linked = _linked(lamps, found, hits.objects[places], hits.materials[places])
+        start = points + facing * (_OFFSET * found.scale)
+        for _ in range(_LOOKS):
+            parts.append(
+                _one_look(found, lamps, luminance, linked, start, normals, facing, view, random)
+            )
+    empty = np.zeros(0)
+    if not parts:
+        return Samples(empty, empty, empty, empty.astype(int), empty.astype(int), empty), places
+    joined = [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+    return Samples(*joined), places
+
+
+def _one_look(
+    found: surfaces.Surfaces,
+    lamps: list[Lamp],
+    luminance: Array,
+    linked: Array,
+    start: Array,
+    normals: Array,
+    facing: Array,
+    view: Array,
+    random: np.random.Generator,
+) -> tuple[Array, ...]:
+    count = len(start)
+    sampled = [lamp.source.sample(start, normals, random) for lamp in lamps]
+    would = np.stack([part.irradiance for part in sampled]) * luminance[:, np.newaxis] * linked
+    above = np.stack([np.einsum("ij,ij->i", part.toward, facing) > 0 for part in sampled])
+    would = np.where(above, would, 0)
+    total = would.sum(axis=0)
+    passed = np.cumsum(would, axis=0)
+    lamp = (passed < random.uniform(size=count) * total).sum(axis=0)
+    lamp = np.minimum(lamp, len(lamps) - 1)
+    own = np.arange(count)
+    toward = np.stack([part.toward for part in sampled])[lamp, own]
+    distance = np.stack([part.distance for part in sampled])[lamp, own]
+    tried = np.flatnonzero((total > 0) & ((view * normals).sum(axis=1) > 0))
+    # Ends short of the lamp, whose own surface would be in the way.
+    hidden = found.blocked(start[tried], toward[tried], distance[tried] * (1 - 1e-3))
+    free = tried[~hidden]
+    angles = sampling.angles(normals[free], view[free], toward[free])
+    return (*angles, free, lamp[free], total[free] / _LOOKS)
+
+
+def _some_of_each(materials: Array, random: np.random.Generator) -> Array:
+    """Choose at most so many hits of each material."""
+    order = random.permutation(len(materials))
+    order = order[np.argsort(materials[order], kind="stable")]
+    sorted_ = materials[order]
+    first = np.searchsorted(sorted_, sorted_, side="left")
+    kept = (np.arange(len(order)) - first < _HITS_A_MATERIAL) & (sorted_ >= 0)
+    return order[kept]
+
+
+def _linked(
+    lamps: list[Lamp], found: surfaces.Surfaces, objects: Array, materials: Array
+) -> Array:
+    """Which lamps may reach which places, shape (lamps, places)."""
+    rows = []
+    for lamp in lamps:
+        if lamp.receivers is None and not lamp.excluded:
+            row = np.ones(len(objects), bool)
+        else:
+            row = np.array([lamp.lights(name) for name in found.objects], bool)[objects]
+        rows.append(row & (materials != lamp.emitter))
+    return np.stack(rows)
+
+
+def _views(
+    scene: str,
+    samples: Samples,
+    material_of_place: Array,
+    materials: list[Any],
+    lamps: list[Lamp],
+    space: working_space.WorkingSpace,
+) -> dict[Any, SceneView]:
+    weights = sampling.per_place(samples, len(material_of_place))
+    power = np.bincount(samples.lamp, weights, minlength=len(lamps))
+    if not power.sum() > 0:
+        return {}
+    xyz = np.array([np.linalg.solve(space.from_xyz, lamp.rgb) for lamp in lamps])
+    groups = sampling.group_colors(xyz, power)
+    colors = [_color(groups == light, xyz, power, lamps) for light in range(groups.max() + 1)]
+    views = {}
+    of_material = material_of_place[samples.hit]
+    for index in np.unique(of_material):
+        mine = np.flatnonzero((of_material == index) & (weights > 0))
+        if not mine.size:
+            continue
+        own = samples[mine]
+        chosen, weight = sampling.reduce(own, weights[mine], groups[own.lamp])
+        views[materials[index]] = _view(scene, own[chosen], weight, groups, colors)
+    return views
+
+
+def _view(
+    scene: str, ways: Samples, weight: Array, groups: Array, colors: list[tuple[str, str, Array]]
+) -> SceneView:
+    group = groups[ways.lamp]
+    shares = np.bincount(group, weight, minlength=len(colors))
+    order = [int(light) for light in np.argsort(-shares, kind="stable") if shares[light] > 0]
+    rank = {light: place for place, light in enumerate(order)}
+    lights = tuple(make_light(*colors[light], float(shares[light])) for light in order)
+    rows = zip(ways.theta_i, ways.theta_r, ways.delta_phi, group, weight, strict=True)
+    geometries = tuple(
+        (*(round(float(a), 4) for a in (i, r, phi)), rank[int(light)], round(float(w), 6))
+        for i, r, phi, light, w in rows
+    )
+    return SceneView(scene, lights, tuple(sorted(geometries, key=lambda row: row[3:])))
+
+
+def _color(
+    members: Array, xyz: Array, power: Array, lamps: list[Lamp]
+) -> tuple[str, str, Array]:
+    """Name and spectrum of the lamps of one color."""
+    found = np.flatnonzero(members)
+    found = found[np.argsort(-power[found], kind="stable")]
+    mean = (xyz[found] / xyz[found, 1:2] * power[found, np.newaxis]).sum(axis=0)
+    main = lamps[found[0]]
+    spd, words = light_spectrum.like(mean, main.temperature)
+    more = len(found) - 1
+    return main.name + (f" and {more} more" if more else ""), words, spd

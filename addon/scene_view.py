@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a scene shows of one material: its lights, and the directions they and the camera meet it.
+
+Holds nothing of Blender's. Stored with the material as JSON text.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..core.arrays import Array
+from ..core.errors import InputError
+from . import light_spectrum
+
+SCHEMA = 1
+_DIGITS = 5
+"""Significant digits of a stored spectrum: a hundredth of what shows in ΔE00."""
+
+
+@dataclass(frozen=True)
+class SceneLight:
+    """One color of light in the scene.
+
+    Parameters
+    ----------
+    name
+        The lights that have it, such as "Lamp" or "Lamp and 5 more".
+    words
+        What its spectrum was taken for.
+    spd
+        Spectrum at `light_spectrum.GRID`, with a luminance Y of 1.
+    share
+        Its part in the light that falls on the material, 0 to 1; all lights' add up to 1.
+    """
+
+    name: str
+    words: str
+    spd: tuple[float, ...]
+    share: float
+
+    @cached_property
+    def white(self) -> Array:
+        """XYZ of the light, Y = 1, shape (3,)."""
+        return light_spectrum.to_xyz(self.spd)
+
+    def weights(self, wavelengths: Array) -> Array:
+        """Give the matrix, shape (bands, 3), from reflectance to XYZ under this light, Y = 1."""
+        return light_spectrum.weights(tuple(wavelengths.tolist()), self.spd)
+
+
+@dataclass(frozen=True)
+class SceneView:
+    """Lights and directions of one material in a scene.
+
+    Parameters
+    ----------
+    scene
+        Name of the scene.
+    lights
+        Sorted by share, largest first.
+    geometries
+        Each θi, θr and Δφ in radians, the index of the light, and a weight; the weights of a
+        light's directions add up to its share.
+    """
+
+    scene: str
+    lights: tuple[SceneLight, ...]
+    geometries: tuple[tuple[float, float, float, int, float], ...]
+
+    @cached_property
+    def angles(self) -> tuple[Array, Array, Array]:
+        """θi, θr and Δφ, each of shape (geometries,)."""
+        table = np.array([row[:3] for row in self.geometries])
+        return table[:, 0], table[:, 1], table[:, 2]
+
+    @cached_property
+    def light_indices(self) -> Array:
+        """Index of each geometry's light, shape (geometries,)."""
+        return np.array([row[3] for row in self.geometries])
+
+    @cached_property
+    def weights(self) -> Array:
+        """Weight of each geometry; they add up to 1. Shape (geometries,)."""
+        return np.array([row[4] for row in self.geometries])
+
+    def to_json(self) -> str:
+        """Give the text that `from_json` reads; equal views give equal text."""
+        return json.dumps({"schema": SCHEMA} | asdict(self), ensure_ascii=False)
+
+
+def make_light(name: str, words: str, spd: Array, share: float) -> SceneLight:
+    """Make a light with its spectrum rounded to what is stored."""
+    rounded = tuple(float(f"{value:.{_DIGITS}g}") for value in spd.tolist())
+    return SceneLight(name, words, rounded, round(share, 6))
+
+
+def from_json(text: str) -> SceneView:
+    """Read back what `SceneView.to_json` gave.
+
+    Raises
+    ------
+    InputError
+        If the text is something else.
+    """
+    try:
+        data = json.loads(text)
+        if data["schema"] != SCHEMA:
+            raise ValueError(f"schema {data['schema']}")
+        lights = tuple(
+            SceneLight(**(light | {"spd": tuple(map(float, light["spd"]))}))
+            for light in data["lights"]
+        )
+        geometries = tuple(
+            (float(i), float(r), float(phi), int(light), float(weight))
+            for i, r, phi, light, weight in data["geometries"]
+        )
+        known = {row[3] for row in geometries} <= set(range(len(lights)))
+        lengths = {len(light.spd) for light in lights}
+        if not geometries or not known or lengths != {light_spectrum.GRID.size}:
+            raise ValueError("lights and directions do not belong together")
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        msg = f"The stored analysis of the scene cannot be read ({error}); analyze it again."
+        raise InputError(msg) from error
+    return SceneView(str(data["scene"]), lights, geometries)
