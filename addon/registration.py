@@ -7,9 +7,22 @@ from __future__ import annotations
 import bpy
 
 from . import command_line, panels, preferences, properties
-from .operators import assign_file, assign_preset, bake, measure, renew
+from .operators import (
+    assign_file,
+    assign_preset,
+    bake,
+    find_nearest,
+    import_review,
+    import_samples,
+    library,
+    measure,
+    renew,
+)
 
-_MODULES = (properties, preferences, assign_preset, assign_file, renew, bake, measure, panels)
+_MODULES = (
+    *(properties, preferences, assign_preset, assign_file, renew, bake, measure),
+    *(import_samples, import_review, library, find_nearest, panels),
+)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 
@@ -18,12 +31,14 @@ def register() -> None:
     for cls in classes:
         bpy.utils.register_class(cls)
     properties.register_pointer()
+    import_samples.register_menu()
     command_line.register()
 
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
     command_line.unregister()
+    import_samples.unregister_menu()
     properties.unregister_pointer()
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)

@@ -79,7 +79,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
 
     def _ask(self, samples: list[Any]) -> set[str]:
         _items[:] = [(s.name, s.name, f"{s.position} of the file") for s in samples]
-        bpy.ops.rough_spectra.assign_sample(
+        bpy.ops.rough_spectra.assign_file_sample(
             "INVOKE_DEFAULT",
             filepath=self.filepath,
             kind=self.kind,
@@ -90,10 +90,10 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
         return {"CANCELLED"}
 
 
-class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operator):
     """Choose one of a measurement file's samples for the material"""
 
-    bl_idname = "rough_spectra.assign_sample"
+    bl_idname = "rough_spectra.assign_file_sample"
     bl_label = "Assign Sample of File"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
     bl_property = "sample"
@@ -142,4 +142,4 @@ def _choose(samples: list[Any], name: str, path: str) -> Any:
     raise InputError(msg)
 
 
-classes = (ROUGHSPECTRA_OT_assign_file, ROUGHSPECTRA_OT_assign_sample)
+classes = (ROUGHSPECTRA_OT_assign_file, ROUGHSPECTRA_OT_assign_file_sample)

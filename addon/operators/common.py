@@ -15,6 +15,7 @@ from ..properties import SHADER_ITEMS
 
 if TYPE_CHECKING:
     from ..nodes import Shader
+    from ..sample import Sample
     from ..target import Request, Solution
 
 SCOPE_ITEMS = (
@@ -80,6 +81,15 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
         msg = "The active object has no material; give it one first."
         raise RoughSpectraError(msg)
     return [material]
+
+
+def new_request(sample: Sample, sigma: float) -> Request:
+    """Give the request of a new material, with the user's preferences."""
+    from .. import preferences
+    from ..target import Request
+
+    chosen = preferences.defaults()
+    return Request(sample, sigma, illuminant=chosen.illuminant, observer=chosen.observer)
 
 
 def assign_in_scope(

@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Use and tend the user's library: assign, rename and remove samples, open the folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import radians
+from typing import Any
+
+import bpy
+from bpy.props import StringProperty
+
+from ...core.errors import RoughSpectraError
+from . import common
+
+
+def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
+    """List ids and names of presets and library for a text field."""
+    from .. import library
+
+    for entry in library.search(text, library.user_folder()):
+        yield entry.id, entry.name
+
+
+class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
+    """Make the material read like a sample of the library or a preset, and store its spectrum"""
+
+    bl_idname = "rough_spectra.assign_sample"
+    bl_label = "Assign Sample"
+    bl_options = {"REGISTER", "UNDO"}
+
+    sample: StringProperty(
+        name="Sample",
+        description="Collection and name of the sample, as in colorchecker/14-green",
+        search=matching_samples,
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Need something that can carry a material."""
+        return common.can_have_material(cls, context)
+
+    def invoke(self, context: Any, _event: Any) -> set[str]:
+        """Assign the sample of a button; otherwise ask which."""
+        if self.properties.is_property_set("sample") and self.sample:
+            return self.execute(context)
+        return context.window_manager.invoke_props_dialog(self, width=400)
+
+    def execute(self, context: Any) -> set[str]:
+        """Assign to all materials in scope, or to none; σ is the sample's unless it is given."""
+        from .. import library
+
+        try:
+            sample = library.load(self.sample, library.user_folder())
+            if not self.properties.is_property_set("sigma"):
+                self.sigma = radians(sample.sigma_degrees or 0.0)
+            request = common.new_request(sample, self.sigma)
+            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+        except RoughSpectraError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        common.report_warnings(self, assigned)
+        names = ", ".join(material.name for material, _ in assigned[:3])
+        self.report({"INFO"}, f"{names}: {sample.name} assigned")
+        return {"FINISHED"}
+
+
+class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
+    """Give a sample of your library another name"""
+
+    bl_idname = "rough_spectra.rename_sample"
+    bl_label = "Rename Sample"
+    bl_options = {"REGISTER"}
+
+    sample: StringProperty(
+        name="Sample", description="Collection and name of the sample", options={"HIDDEN"}
+    )
+    new_name: StringProperty(name="Name", description="What it is to be called")
+
+    def invoke(self, context: Any, _event: Any) -> set[str]:
+        """Ask for the name, beginning with the present one."""
+        from .. import library
+
+        try:
+            self.new_name = library.load(self.sample, library.user_folder()).name
+        except RoughSpectraError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, _context: Any) -> set[str]:
+        """Rename it in its file."""
+        from .. import library
+
+        try:
+            new = library.rename(self.sample, self.new_name, library.user_folder())
+        except RoughSpectraError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{self.sample} is now {new}")
+        return {"FINISHED"}
+
+
+class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
+    """Take a sample out of your library; materials that have it keep it"""
+
+    bl_idname = "rough_spectra.remove_sample"
+    bl_label = "Remove Sample"
+    bl_options = {"REGISTER"}
+
+    sample: StringProperty(
+        name="Sample", description="Collection and name of the sample", options={"SKIP_SAVE"}
+    )
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Ask first, since there is no undo for files."""
+        return context.window_manager.invoke_confirm(
+            self,
+            event,
+            title="Remove Sample",
+            message=f"Remove {self.sample} from the library? This cannot be undone.",
+            confirm_text="Remove",
+            icon="WARNING",
+        )
+
+    def execute(self, _context: Any) -> set[str]:
+        """Remove it from its file."""
+        from .. import library
+
+        try:
+            library.remove([self.sample], library.user_folder())
+        except RoughSpectraError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{self.sample} removed from the library")
+        return {"FINISHED"}
+
+
+class ROUGHSPECTRA_OT_open_library(bpy.types.Operator):
+    """Show the folder of your library, whose files can be shared"""
+
+    bl_idname = "rough_spectra.open_library"
+    bl_label = "Open Library Folder"
+    bl_options = {"REGISTER"}
+
+    def execute(self, _context: Any) -> set[str]:
+        """Make the folder if it is not there, and open it in the system's file manager."""
+        from .. import library
+
+        folder = library.user_folder()
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            reason = error.strerror or error
+            self.report({"ERROR"}, f"{folder} cannot be made ({reason}); choose another folder")
+            return {"CANCELLED"}
+        return set(bpy.ops.wm.path_open(filepath=str(folder)))
+
+
+classes = (
+    ROUGHSPECTRA_OT_assign_sample,
+    ROUGHSPECTRA_OT_rename_sample,
+    ROUGHSPECTRA_OT_remove_sample,
+    ROUGHSPECTRA_OT_open_library,
+)
