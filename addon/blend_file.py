@@ -49,7 +49,7 @@ def save(output: Path | None) -> Path:
         part = Path(name)
         part.unlink()  # Blender would keep the empty file as an older version
         bpy.ops.wm.save_as_mainfile(filepath=name, copy=True, check_existing=False)
-        if not _is_whole(part):
+        if not is_whole(part):
             raise OSError("the disk is full")
         _keep_older(path)
         part.replace(path)
@@ -66,7 +66,7 @@ def save(output: Path | None) -> Path:
     return path
 
 
-def _is_whole(path: Path) -> bool:
+def is_whole(path: Path) -> bool:
     """Whether a .blend, compressed or not, has its end."""
     with path.open("rb") as file:
         head = file.read(len(_ZSTD_MAGIC))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
 NAME = "rough_spectra"
-VERBS = ("assign", "bake", "check", "merge", "validate")
+VERBS = ("assets", "assign", "bake", "check", "merge", "validate")
 
 _UNUSABLE = 2
 _INTERRUPTED = 130
@@ -77,7 +77,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     for verb in VERBS:
-        module = importlib.import_module(f".verbs.{verb}", __package__)
+        module = importlib.import_module(f".verbs.{_MODULES.get(verb, verb)}", __package__)
         sub = verbs.add_parser(verb, help=module.SUMMARY, description=module.DESCRIPTION)
         sub.add_argument(
             "--blend",

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fill the open, empty file with materials marked as assets. Runs in the second Blender."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from .. import assign
+from ..sample import Sample
+from ..spectrophotometer.worker import end_if_orphaned, report
+from ..target import Request
+from . import previews
+
+if TYPE_CHECKING:
+    from ..target import Solution
+
+BLEND = "assets.blend"
+RESULT = "result.json"
+"""Files that a job leaves; the second is the last one, and holds the warnings by material."""
+
+_LISTS = ("lab", "xyz", "notes", "altered")
+_SUMMARY = 1000
+"""Characters of a citation in a description: some libraries cite twenty authors."""
+
+
+def run(job: dict[str, Any], folder: Path) -> None:
+    """Make what the job lists and save it in the job's folder."""
+    entries = job["assets"]
+    materials = [_material(entry["name"]) for entry in entries]
+    requests = [_request(entry, job) for entry in entries]
+    solutions = assign.assign(list(zip(materials, requests, strict=True)), job["shader"])
+    for material, entry, request, solution in zip(
+        materials, entries, requests, solutions, strict=True
+    ):
+        _mark(material, entry, request, solution)
+    report(folder, 0, len(materials))
+    for done, (material, picture) in enumerate(previews.render(materials, folder), start=1):
+        previews.put(material, picture)
+        report(folder, done, len(materials))
+        end_if_orphaned(job["asked_by"], folder)
+    bpy.ops.wm.save_as_mainfile(
+        filepath=str(folder / BLEND), check_existing=False, compress=True, copy=True
+    )
+    warnings = {m.name: s.warnings for m, s in zip(materials, solutions, strict=True)}
+    (folder / RESULT).write_text(
+        json.dumps({name: found for name, found in warnings.items() if found}), encoding="utf-8"
+    )
+
+
+def _material(name: str) -> Any:
+    material = bpy.data.materials.new(name)
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    material.node_tree.nodes.clear()  # a new material has a shader that nobody asked for
+    return material
+
+
+def _request(entry: dict[str, Any], job: dict[str, Any]) -> Request:
+    fields = entry["sample"]
+    pairs = {name: tuple(fields[name]) for name in _LISTS if fields[name] is not None}
+    return Request(
+        sample=Sample(**(fields | pairs)),
+        sigma=entry["sigma"],
+        model=job["model"],
+        illuminant=job["illuminant"],
+        observer=job["observer"],
+    )
+
+
+def _mark(material: Any, entry: dict[str, Any], request: Request, solution: Solution) -> None:
+    sample = request.sample
+    material.asset_mark()
+    asset = material.asset_data
+    asset.catalog_id = entry["catalog_id"]
+    asset.author = entry["author"]
+    asset.license = sample.license
+    asset.copyright = _shortened(sample.source)
+    asset.description = _description(sample, solution)
+    # What the material viewport shows; a thumbnail shows it better.
+    color = tuple(float(c) for c in solution.color)
+    material.diffuse_color = (*color, 1.0)
+    for tag in ("Rough Spectra", entry["catalog"], f"σ {sample.sigma_degrees:g}°", sample.kind):
+        asset.tags.new(tag, skip_if_exists=True)
+
+
+def _description(sample: Sample, solution: Solution) -> str:
+    """Say what an artist wants to know: σ, how close the material comes, and whose numbers."""
+    return "\n".join(
+        (
+            f"σ {sample.sigma_degrees:g}°: {sample.sigma_source}",
+            f"Predicted ΔE00: {solution.delta_e_instrument:.2f} at 45°/0°, over all angles mean "
+            f"{solution.delta_e_mean:.2f}, 95 % {solution.delta_e_95:.2f}.",
+            f"Source: {_shortened(sample.source)}",
+            *sample.notes,
+            *solution.warnings,
+        )
+    )
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _SUMMARY else f"{text[: _SUMMARY - 1]}…"
