@@ -38,7 +38,7 @@ _USED = ("channels", "compression", "dataWindow")
 
 _LARGEST_SIDE = 2**16  # pixels
 _LARGEST_CHUNK = 8 * 2**20  # bytes: 16 lines of 4096 pixels with 64 bands of half floats
-_BLOCK = 2**20  # bytes that become floats at a time
+_BLOCK = 2**17  # bytes that become floats at a time
 _MOST_RUNS = 64  # changes of the pixels' type from channel to channel; there are one or two
 # An even color packs a hundredfold, noise hardly. Beyond both of these nobody has measured.
 _LARGEST_PACKED = 64  # times the file's size
@@ -76,7 +76,9 @@ class Image:
         step = _LINES[self.compression]
         size = self.line_size
         at_once = max(1, _BLOCK // size)
-        waiting: list[bytes] = []  # a chunk may be a line of one pixel: many go together
+        waiting: list[
+            bytes | bytearray
+        ] = []  # a chunk may be a line of one pixel: many go together
         last = (first + count - 1) // step
         for chunk in range(first // step, last + 1):
             begin = chunk * step
@@ -104,7 +106,7 @@ class Image:
             at, index = at + size, index + run
         return pixels
 
-    def _chunk(self, chunk: int, begin: int, size: int) -> bytes:
+    def _chunk(self, chunk: int, begin: int, size: int) -> bytes | bytearray:
         """Return `size` bytes of pixels, unpacked."""
         data, place = self.document.data, f"line {begin + 1} of the image"
         (at,) = struct.unpack_from("<Q", data, self.chunks + 8 * chunk)
@@ -128,7 +130,7 @@ def _runs(channels: tuple[Channel, ...]) -> list[tuple[np.dtype[np.generic], int
     return [(form, len(list(group))) for form, group in grouped]
 
 
-def _unpack(packed: bytes, size: int) -> bytes:
+def _unpack(packed: bytes, size: int) -> bytes | bytearray:
     """Undo ZIP: deflated differences of bytes, all even bytes before all odd ones."""
     try:
         raw = zlib.decompressobj().decompress(packed, size + 1)
@@ -138,11 +140,11 @@ def _unpack(packed: bytes, size: int) -> bytes:
         return b""
     steps = np.frombuffer(raw, np.uint8) ^ 0x80  # the same as minus 128, modulo 256
     steps[0] ^= 0x80
-    summed = np.add.accumulate(steps, dtype=np.uint8)
-    pixels = np.empty(size, np.uint8)
+    np.add.accumulate(steps, dtype=np.uint8, out=steps)
+    pixels = bytearray(raw)
     half = (size + 1) // 2
-    pixels[0::2], pixels[1::2] = summed[:half], summed[half:]
-    return pixels.tobytes()
+    pixels[0::2], pixels[1::2] = steps[:half].data, steps[half:].data
+    return pixels
 
 
 def open_image(document: Document) -> Image:

@@ -170,7 +170,7 @@ def _stated(document: Document) -> list[str]:
     notes = []
     comment = " ".join(document.data[_COMMENT].partition(b"\0")[0].decode("latin-1").split())
     if comment and comment.isprintable():
-        notes.append(f"The file's comment: {comment}")
+        notes.append(f"The file's comment: {comment!r}.")
     flags = document.data[_SATURATION]
     saturated = [name for bit, name in _DETECTORS.items() if flags & bit]
     if saturated:

@@ -18,6 +18,13 @@ ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = [
     *sorted((ROOT / "tests" / "fixtures").glob("nix/*.csv"))[:2],
     *sorted((ROOT / "tests" / "fixtures" / "delimited").glob("*.[ct]*")),
+    *sorted((ROOT / "tests" / "fixtures" / "relab").glob("test.*")),
+    *sorted((ROOT / "tests" / "fixtures" / "usgs").glob("*BECKb_AREF.txt")),
+    ROOT / "tests" / "fixtures" / "usgs" / "splib06a-testite.txt",
+    ROOT / "tests" / "fixtures" / "ecostress" / "concrete.spectrum.txt",
+    ROOT / "tests" / "fixtures" / "spdx" / "tile.spdx",
+    ROOT / "tests" / "fixtures" / "asd" / "tile.asd",
+    ROOT / "tests" / "fixtures" / "spectral_exr" / "pixels.spectral.exr",
     ROOT / "presets" / "colorchecker" / "14-green.json",
 ]
 SLOW = 5.0  # seconds; a reader takes about a millisecond, so only a hang comes near
