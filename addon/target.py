@@ -18,8 +18,9 @@ from ..core import cycles, geometry, instruments, ladder, reading
 from ..core.arrays import Array
 from ..core.choice import choose_shader
 from ..core.errors import DomainError
-from . import colorimetry, judgement
+from . import colorimetry, judgement, scene_match
 from .sample import Sample
+from .scene_view import SceneView
 from .working_space import WorkingSpace
 
 if TYPE_CHECKING:
@@ -69,6 +70,12 @@ class Request:
         The light under which the color is right.
     observer
         Of the colorimetry in reports; scene RGB is always of the 2° observer.
+    scene
+        Lights and directions that it is matched for instead of the illuminant and the whole
+        hemisphere, or None.
+    flat
+        Whether the scene is rendered by an engine that ignores roughness. Only a scene has an
+        engine: without one, a material is always made for Cycles.
     """
 
     sample: Sample
@@ -76,6 +83,8 @@ class Request:
     model: str = AUTO
     illuminant: str = "D65"
     observer: int = 2
+    scene: SceneView | None = None
+    flat: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,15 +102,20 @@ class Solution:
     model, model_reason
         The model that gave the target, and why it was taken.
     delta_e_instrument
-        ΔE00 predicted between target and Cycles at the instrument.
+        ΔE00 predicted between target and Cycles at the instrument; in a scene, the mean over its
+        lights, each with its share.
     delta_e_mean, delta_e_95
-        Mean and 95th percentile over the hemisphere below 80°.
+        Mean and 95th percentile over the hemisphere below 80°, or over the scene's directions.
     shader_reason
         Whether the material is Lambertian or rough, and why.
     delta_e_lambert
         Mean of the same for the Lambertian material with the same reading.
     warnings
         Sentences about what could not be met.
+    delta_e_lights
+        Name and mean ΔE00 of each of the scene's lights; empty without a scene.
+    scene_reason
+        One sentence about what the scene decided; empty without a scene.
     """
 
     color: Array
@@ -115,6 +129,8 @@ class Solution:
     delta_e_lambert: float
     shader_reason: str
     warnings: tuple[str, ...]
+    delta_e_lights: tuple[tuple[str, float], ...] = ()
+    scene_reason: str = ""
 
 
 def target_reading(request: Request) -> Array:
@@ -127,14 +143,15 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
     """Choose the cheapest model that is good enough, for every request.
 
     Good enough is a predicted ΔE00 within `tolerance` of the V-cavity reference, under the
-    request's illuminant, at the instrument and in directions all over the hemisphere.
+    request's illuminant, at the instrument and in directions all over the hemisphere; with a
+    scene, under its lights and in its directions.
 
     Raises
     ------
     DomainError
         If a spectrum does not cover the visible range, or σ or illuminant is unknown.
     """
-    geometries = _with_instrument(geometry.hemisphere(CHOICE_GEOMETRIES))
+    hemisphere = geometry.hemisphere(CHOICE_GEOMETRIES)
 
     def difference(seen: Array, wanted: Array, white: Array) -> Array:
         lab_seen, lab_wanted = (colorimetry.xyz_to_lab(xyz, white) for xyz in (seen, wanted))
@@ -144,12 +161,16 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
     for members in _alike(requests):
         first = requests[members[0]]
         with _naming(first.sample):
-            light = colorimetry.weights(first.sample.wavelengths, first.illuminant)
+            lights = [colorimetry.weights(first.sample.wavelengths, first.illuminant)]
+        geometries = _with_instrument(hemisphere)
+        if first.scene is not None:
+            geometries = _with_instrument(first.scene.angles)
+            lights = [light.weights(first.sample.wavelengths) for light in first.scene.lights]
         sigma = np.array([requests[i].sigma for i in members])
         # The closure's albedo stands for the true one: it is what the other models approximate.
         rho = _albedos([requests[i] for i in members], "closure")
         choices = ladder.choose_model(
-            np.minimum(rho, 1), sigma, geometries, [light], tolerance, difference=difference
+            np.minimum(rho, 1), sigma, geometries, lights, tolerance, difference=difference
         )
         for i, choice in zip(members, choices, strict=True):
             found[i] = choice
@@ -175,8 +196,12 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
     """
     settled = settle(requests)
     solutions: list[Solution | None] = [None] * len(requests)
-    for illuminant in sorted({request.illuminant for request in requests}):
-        members = [i for i, request in enumerate(requests) if request.illuminant == illuminant]
+    for i, (request, reason) in enumerate(settled):
+        if request.scene is not None:
+            solutions[i] = _solve_in_scene(request, reason, request.scene, space)
+    open_ones = [i for i, solution in enumerate(solutions) if solution is None]
+    for illuminant in sorted({requests[i].illuminant for i in open_ones}):
+        members = [i for i in open_ones if requests[i].illuminant == illuminant]
         of_light = _solve([settled[i] for i in members], space, illuminant)
         for i, solution in zip(members, of_light, strict=True):
             solutions[i] = solution
@@ -227,6 +252,43 @@ def _solve(
         )
         for i, (request, reason) in enumerate(settled)
     ]
+
+
+def _solve_in_scene(
+    request: Request, reason: str, view: SceneView, space: WorkingSpace
+) -> Solution:
+    sample = request.sample
+    with _naming(sample):
+        colorimetry.weights(sample.wavelengths)
+    [read], [albedo] = _spectra([request])
+    rough, lambert, target = scene_match.match(
+        view, albedo, read, request.model, request.sigma, sample.wavelengths, space
+    )
+    taken, shader_reason = rough, _ROUGH
+    if request.flat:
+        taken, shader_reason = lambert, scene_match.FLAT
+    elif reason != ASKED_FOR:
+        choice = choose_shader(lambert.over_scene, rough.over_scene, TOLERANCE)
+        taken, shader_reason = (lambert if choice.model == "lambert" else rough), choice.reason
+    per_light = scene_match.mean_of_lights(view, taken.over_scene)
+    missed = scene_match.mean_over_lights(view, taken.instrument)
+    [judged] = judgement.judge_each([sample])
+    found = (space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space))
+    return Solution(
+        color=taken.color,
+        roughness=taken.roughness,
+        target=target,
+        model=request.model,
+        model_reason=reason,
+        delta_e_instrument=missed,
+        delta_e_mean=float(np.average(taken.over_scene, weights=view.weights)),
+        delta_e_95=scene_match.percentile(taken.over_scene, view.weights, 0.95),
+        delta_e_lambert=float(np.average(lambert.over_scene, weights=view.weights)),
+        shader_reason=shader_reason,
+        warnings=(*judged, *(sentence for sentence in found if sentence)),
+        delta_e_lights=per_light,
+        scene_reason=scene_match.explain(view, per_light),
+    )
 
 
 def _colors(
@@ -313,11 +375,11 @@ def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Arr
 
 
 def _alike(requests: Sequence[Request]) -> list[list[int]]:
-    """Group requests that share wavelengths, illuminant, model and instrument: their matrices."""
-    groups: dict[tuple[bytes, str, str, str], list[int]] = {}
+    """Group requests that share wavelengths, light, model and instrument: their matrices."""
+    groups: dict[tuple[object, ...], list[int]] = {}
     for i, request in enumerate(requests):
-        sample = request.sample
-        key = (sample.wavelengths.tobytes(), request.illuminant, request.model, sample.instrument)
+        sample, light = request.sample, request.scene or request.illuminant
+        key = (sample.wavelengths.tobytes(), light, request.model, sample.instrument)
         groups.setdefault(key, []).append(i)
     return list(groups.values())
 

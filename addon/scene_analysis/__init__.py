@@ -166,9 +166,7 @@ def _some_of_each(materials: Array, random: np.random.Generator) -> Array:
     return order[kept]
 
 
-def _linked(
-    lamps: list[Lamp], found: surfaces.Surfaces, objects: Array, materials: Array
-) -> Array:
+def _linked(lamps: list[Lamp], found: surfaces.Surfaces, objects: Array, materials: Array) -> Array:
     """Which lamps may reach which places, shape (lamps, places)."""
     rows = []
     for lamp in lamps:
@@ -223,9 +221,7 @@ def _view(
     return SceneView(scene, lights, tuple(sorted(geometries, key=lambda row: row[3:])))
 
 
-def _color(
-    members: Array, xyz: Array, power: Array, lamps: list[Lamp]
-) -> tuple[str, str, Array]:
+def _color(members: Array, xyz: Array, power: Array, lamps: list[Lamp]) -> tuple[str, str, Array]:
     """Name and spectrum of the lamps of one color."""
     found = np.flatnonzero(members)
     found = found[np.argsort(-power[found], kind="stable")]

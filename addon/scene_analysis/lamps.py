@@ -185,7 +185,9 @@ class Glow:
         picked = np.minimum(picked, len(area) - 1)
         u, v = random.uniform(size=(2, len(points), 1))
         u, v = np.where(u + v > 1, (1 - u, 1 - v), (u, v))
-        toward, distance = _toward(points, first[picked] + u * edges[picked, 0] + v * edges[picked, 1])
+        toward, distance = _toward(
+            points, first[picked] + u * edges[picked, 0] + v * edges[picked, 1]
+        )
         facing = across[picked] / np.maximum(2 * area[picked], 1e-30)[:, np.newaxis]
         leaving = np.abs(np.einsum("ij,ij->i", toward, facing))
         irradiance = _cosine(toward, normals) * leaving * total[-1] / distance**2

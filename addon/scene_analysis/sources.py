@@ -72,9 +72,7 @@ def find(
     return lamps, list(dict.fromkeys(warnings))
 
 
-def _of_light(
-    thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str]
-) -> Lamp | None:
+def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str]) -> Lamp | None:
     light = thing.data
     rgb = np.array(light.color[:]) * light.energy * 2.0**light.exposure
     neutral = np.ptp(light.color[:]) < 1e-6
@@ -157,7 +155,4 @@ def _glowing(surfaces: Surfaces, space: WorkingSpace, warnings: list[str]) -> It
                 "which cannot be read without rendering; it counts as white."
             )
         triangles = np.concatenate([part for _, part in surfaces.triangles_of(index)])
-        yield Lamp(
-            material.name, Glow(triangles), shining.rgb, shining.temperature, emitter=index
-        )
-
+        yield Lamp(material.name, Glow(triangles), shining.rgb, shining.temperature, emitter=index)

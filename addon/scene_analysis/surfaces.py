@@ -286,7 +286,9 @@ def _barycentric(points: Array, corners: Array) -> Array:
     """Shares of three corners in points of triangles, shape (points, 3)."""
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     way = points - corners[:, 0]
-    aa, ab, bb = (np.einsum("ij,ij->i", *pair) for pair in ((first, first), (first, second), (second, second)))
+    aa, ab, bb = (
+        np.einsum("ij,ij->i", *pair) for pair in ((first, first), (first, second), (second, second))
+    )
     wa, wb = np.einsum("ij,ij->i", way, first), np.einsum("ij,ij->i", way, second)
     area = np.maximum(aa * bb - ab * ab, 1e-30)
     u, v = (bb * wa - ab * wb) / area, (aa * wb - ab * wa) / area

@@ -1,0 +1,257 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Match a material to the lights and directions of its scene. No Blender data here.
+
+The color seen in each of the scene's directions, under the light that comes from there, is to be
+the spectrum's; color and roughness are chosen for the least mean ΔE00 over all of them. A reading
+at 45°/0° is then no longer met by itself: what the material reads there follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core import compromise, cycles, geometry, ladder, reading
+from ..core.arrays import Array
+from . import colorimetry
+from .scene_view import SceneLight, SceneView
+from .working_space import WorkingSpace
+
+_ELSEWHERE = 12
+"""Directions all over the hemisphere, which decide what the scene leaves open."""
+_WEIGHT_ELSEWHERE = 0.03
+"""Their part in the mean: the scene's directions win wherever they have a say."""
+_ROUGHNESSES = (0.1, 0.5, 0.9)
+"""Cycles' roughnesses that the search starts from."""
+FLAT = "lambert: the render engine ignores diffuse roughness; the color is right for its scene."
+_ENOUGH = 1e-4
+"""Overshoot of the gamut that nobody sees."""
+_FAINT = 0.01
+"""Part of a light's strongest channel below which its color hangs on almost nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    """A color and roughness, and what they leave over.
+
+    Parameters
+    ----------
+    color, roughness
+        Of the shader; the color within 0 to 1, shape (3,).
+    over_scene
+        ΔE00 in each of the view's geometries, shape (geometries,).
+    instrument
+        ΔE00 at 45°/0° under each of the view's lights, shape (lights,).
+    """
+
+    color: Array
+    roughness: float
+    over_scene: Array
+    instrument: Array
+
+
+def match(
+    view: SceneView,
+    albedo: Array,
+    read: Array,
+    model: str,
+    sigma: float,
+    bands: Array,
+    space: WorkingSpace,
+) -> tuple[Match, Match, Array]:
+    """Match one material, with roughness and without.
+
+    Parameters
+    ----------
+    view
+        Its lights and directions.
+    albedo, read
+        ρ(λ), and r(λ) at the virtual instrument, each of shape (bands,).
+    model
+        One of `core.ladder.RUNGS`.
+    sigma
+        Roughness, radians.
+    bands
+        Wavelengths, nanometers, shape (bands,).
+    space
+        The working space.
+
+    Returns
+    -------
+    rough, lambert, target
+        The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
+    """
+    places = _Places.of(view, space)
+    wanted_xyz = places.under_lights(_reflected(albedo, model, sigma, places), bands)
+    ratio = places.to_ratio(wanted_xyz)
+    wanted = colorimetry.xyz_to_lab(wanted_xyz, places.whites)
+    # Rows of the search: several roughnesses, and last the material without any.
+    roughness = np.array([*_ROUGHNESSES, 0.0])
+    mean = np.clip(np.einsum("g,gc->c", places.weights, ratio), 1e-4, 1)
+    color = np.clip(cycles.color_for_reading(np.tile(mean, (len(roughness), 1)), roughness), 0, 1)
+    free = np.ones((len(roughness), 4), bool)
+    free[-1, 3] = False
+    found, apart = compromise.fit(
+        places.perceive,
+        wanted,
+        places.weights,
+        colorimetry.delta_e,
+        np.column_stack((color, roughness)),
+        free,
+    )
+    best = int(np.argmin((apart * places.weights).sum(axis=-1)[:-1]))
+    targets = [_read_under(light, read, bands, space) for light in view.lights]
+    matches = [
+        Match(
+            found[row, :3],
+            float(found[row, 3]),
+            apart[row, : len(view.geometries)],
+            _at_instrument(found[row], view, read, bands, space),
+        )
+        for row in (best, len(found) - 1)
+    ]
+    return matches[0], matches[1], np.average(targets, axis=0, weights=_shares(view))
+
+
+def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
+    """Mean ΔE00 of the directions of each light, with the light's name."""
+    return tuple(
+        (light.name, float(np.average(apart[mine], weights=view.weights[mine])))
+        for index, light in enumerate(view.lights)
+        if (mine := view.light_indices == index).any()
+    )
+
+
+def mean_over_lights(view: SceneView, of_lights: Array) -> float:
+    """Mean of a number that each light has, by the lights' shares."""
+    return float(np.average(of_lights, weights=_shares(view)))
+
+
+def percentile(values: Array, weights: Array, share: float) -> float:
+    """Value below which that share of the weights lies."""
+    order = np.argsort(values)
+    passed = np.cumsum(weights[order]) / weights.sum()
+    return float(values[order][min(int(np.searchsorted(passed, share)), len(values) - 1)])
+
+
+def explain(view: SceneView, per_light: tuple[tuple[str, float], ...]) -> str:
+    """Say in one sentence what the scene's lights decided."""
+    if len(view.lights) == 1:
+        light = view.lights[0]
+        return f"Matched to one color of light, {light.name} ({light.words})."
+    shares = {light.name: light.share for light in view.lights}
+    parts = ", ".join(
+        f"{name} ΔE00 {apart:.2f} ({shares[name]:.0%} of the light)" for name, apart in per_light
+    )
+    return (
+        f"Matched to {len(view.lights)} colors of light, which no single color can satisfy "
+        f"alike; the mean over the picture is least with {parts}."
+    )
+
+
+def gamut(name: str, target: Array, space: WorkingSpace) -> str:
+    """Say when the reading needs a channel below 0 or above 1; an empty sentence if not."""
+    outside = np.maximum(-target, target - 1)
+    channel = int(np.argmax(outside))
+    if outside[channel] <= _ENOUGH:
+        return ""
+    return (
+        f"{name!r} lies outside the gamut of {space.name} under the scene's light: its reading "
+        f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."
+    )
+
+
+def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
+    """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
+    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES["45a:0"])
+    return to_lab(seen, view.lights[0], space)
+
+
+def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
+    """L*a*b* of a surface's scene-linear reflectance (..., 3), rendered under a light."""
+    xyz = (rgb * light_rgb(light, space)) @ np.linalg.inv(space.from_xyz).T
+    return colorimetry.xyz_to_lab(xyz, light.white)
+
+
+def light_rgb(light: SceneLight, space: WorkingSpace) -> Array:
+    """Scene-linear RGB of a light with a luminance of 1; never negative, as in Blender."""
+    return np.maximum(space.from_xyz @ light.white, 0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Directions of a scene and, with little weight, some all over the hemisphere."""
+
+    angles: tuple[Array, Array, Array]
+    lights: tuple[SceneLight, ...]
+    index: Array
+    weights: Array
+    whites: Array
+    rgb: Array
+    from_xyz: Array
+
+    @classmethod
+    def of(cls, view: SceneView, space: WorkingSpace) -> _Places:
+        spread = geometry.hemisphere(_ELSEWHERE)
+        light, view_angle, azimuth = map(np.append, view.angles, spread)
+        index = np.append(view.light_indices, np.zeros(_ELSEWHERE, int))
+        elsewhere = np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE)
+        scene = view.weights / view.weights.sum() * (1 - _WEIGHT_ELSEWHERE)
+        whites = np.stack([lamp.white for lamp in view.lights])[index]
+        rgb = np.stack([light_rgb(lamp, space) for lamp in view.lights])[index]
+        weights = np.append(scene, elsewhere)
+        return cls(
+            (light, view_angle, azimuth), view.lights, index, weights, whites, rgb, space.from_xyz
+        )
+
+    def under_lights(self, reflected: Array, bands: Array) -> Array:
+        """XYZ of spectra (places, bands), each under the light of its place."""
+        matrices = np.stack([light.weights(bands) for light in self.lights])
+        return np.asarray(np.einsum("gb,gbx->gx", reflected, matrices[self.index]))
+
+    def to_ratio(self, xyz: Array) -> Array:
+        """Per-channel ratio to the light; where a light lacks a channel, that of its luminance."""
+        rgb = xyz @ self.from_xyz.T
+        faint = self.rgb < _FAINT * self.rgb.max(axis=1, keepdims=True)
+        return np.where(faint, xyz[:, 1:2], rgb / np.where(faint, 1, self.rgb))
+
+    def perceive(self, parameters: Array) -> Array:
+        """Lab of Cycles' material with parameters (..., 4), color and roughness, in all places."""
+        color, roughness = parameters[..., np.newaxis, :3], parameters[..., np.newaxis, 3]
+        seen = cycles.reflectance(color, roughness, *self.angles)
+        xyz = (seen * self.rgb) @ np.linalg.inv(self.from_xyz).T
+        return colorimetry.xyz_to_lab(xyz, self.whites)
+
+
+def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
+    spread = ladder.reflectance(model, np.minimum(albedo, 1), *places.angles, sigma)
+    # The published model turns negative at grazing opposite directions; no surface does. Facets
+    # that return more light than reaches them are kept in proportion, as in `target`.
+    return np.maximum(spread * np.maximum(albedo, 1), np.minimum(albedo, 0))
+
+
+def _read_under(light: SceneLight, read: Array, bands: Array, space: WorkingSpace) -> Array:
+    rgb = light_rgb(light, space)
+    xyz = read @ light.weights(bands)
+    faint = rgb < _FAINT * rgb.max()
+    return np.where(faint, xyz[1], space.from_xyz @ xyz / np.where(faint, 1, rgb))
+
+
+def _at_instrument(
+    shader: Array, view: SceneView, read: Array, bands: Array, space: WorkingSpace
+) -> Array:
+    seen = cycles.reflectance(shader[:3], shader[3], *reading.INSTRUMENT_ANGLES["45a:0"])
+    labs = [
+        (
+            to_lab(seen, light, space),
+            colorimetry.xyz_to_lab(read @ light.weights(bands), light.white),
+        )
+        for light in view.lights
+    ]
+    return np.array([float(colorimetry.delta_e(*pair)) for pair in labs])
+
+
+def _shares(view: SceneView) -> Array:
+    return np.array([light.share for light in view.lights])
