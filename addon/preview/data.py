@@ -56,8 +56,10 @@ class Data:
         Nanometers and fractions, shape (bands,); the reading is the virtual instrument's.
     bars
         First and last wavelength, and value, of Blender's blue, green and red.
+    view
+        `VIEW_ANGLES`.
     target_curve, blender_curve, lambert
-        Luminance factors at `VIEW_ANGLES`, shape (angles,), and the Lambertian one.
+        Luminance factors there, shape (angles,), and the Lambertian one.
     sigma, sigma_max
         Degrees; None where every σ fits the reading.
     engine
@@ -70,6 +72,7 @@ class Data:
     albedo: Array
     reading: Array
     bars: tuple[tuple[float, float, float], ...]
+    view: Array
     target_curve: Array
     blender_curve: Array
     lambert: float
@@ -148,6 +151,7 @@ def of_request(
         albedo=rho,
         reading=seen,
         bars=rgb_bars(at_instrument, space, light),
+        view=VIEW_ANGLES,
         target_curve=np.maximum(_model(request, rho, angles) @ luminance, 0),
         blender_curve=space.to_xyz(shown, light)[:, 1],
         lambert=float(seen @ luminance),

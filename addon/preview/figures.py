@@ -128,9 +128,10 @@ def spectrum(
     axes = spectrum_axes(size, look, peak)
     canvas = _spectrum_ground(axes, size, look).copy(order="K")
     keys = _spectrum_keys(look)
+    half = keys[2].width * look.scale / 2
     for start, end, value in bars:
-        edges = np.array((start, end))
-        plot.draw_curve(canvas, axes, edges, np.full(2, value), keys[2], look)
+        (left, y), (right, _) = axes.place(np.clip((start, end), *axes.x), [max(value, 0.0)] * 2)
+        raster.rectangle(canvas, (left, y - half, right, y + half), keys[2].color)
     nm = _thinned(wavelengths[shown], axes)
     for values, key in ((albedo, keys[1]), (reading, keys[0])):
         plot.draw_curve(canvas, axes, nm, np.interp(nm, wavelengths, values), key, look)
@@ -369,19 +370,3 @@ def _hatch(canvas: Array, box: tuple[int, int, int, int], look: Look) -> None:
     distance = np.minimum(place, period - place) * np.sqrt(0.5)
     coverage = np.clip(width / 2 + 0.5 - distance, 0, min(width, 1)).astype(np.float32)
     raster.paint(canvas, coverage, left, top, look.faint)
-
-
-def stack(pictures: Sequence[Array], size: Size) -> Array:
-    """Put pictures below each other, as far apart as the height allows."""
-    width, height = size
-    canvas = raster.blank(height, width)
-    spare = height - sum(len(picture) for picture in pictures)
-    gap = spare / max(len(pictures) - 1, 1)
-    row = 0.0
-    for picture in pictures:
-        at = round(row)
-        wide = min(picture.shape[1], width)
-        high = min(picture.shape[0], height - at)
-        canvas[at : at + high, :wide] = picture[:high, :wide]
-        row += len(picture) + gap
-    return canvas

@@ -209,6 +209,8 @@ def _distance(x: Array, y: Array, start: Array, end: Array, piece: Array) -> Arr
 def _short(start: Array, end: Array) -> tuple[Array, Array]:
     """Cut pieces so that none is longer than `_LONGEST`."""
     parts = np.maximum(np.ceil(np.hypot(*(end - start).T) / _LONGEST), 1).astype(np.intp)
+    if parts.max(initial=1) == 1:
+        return start, end
     piece = np.repeat(np.arange(len(start)), parts)
     step = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
     share = 1 / parts[piece, np.newaxis]

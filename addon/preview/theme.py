@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .raster import Color
+if TYPE_CHECKING:
+    from .raster import Color
 
 # Okabe and Ito, "Color Universal Design" (2008): told apart by color-blind readers too.
 _BLUE = (0.0, 114 / 255, 178 / 255)
@@ -90,7 +91,12 @@ def current(preferences: Any) -> Look:
     )
     text = space.text if panels is not None else theme.user_interface.panel_text
     ink = tuple(round(c, 3) for c in text[:3])
-    return look(background, ink, round(preferences.system.ui_scale, 4))
+    return look(background, ink, scale(preferences))
+
+
+def scale(preferences: Any) -> float:
+    """Give the scale of the interface; without a window Blender says 0."""
+    return round(preferences.system.ui_scale, 4) or 1.0
 
 
 def readable(color: Color, background: Color, ratio: float = _SHAPES) -> Color:

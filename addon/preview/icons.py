@@ -1,0 +1,282 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of materials as icons that a panel draws with `layout.template_icon`.
+
+A panel asks for an icon and gets at once what there is: drawing never computes. What is missing or
+out of date is made in a timer, right after drawing, and the editors are drawn again. Whoever
+changes a material while the user watches, such as a slider, calls `refresh` to have it in the same
+redraw.
+
+Blender draws such an icon in a square: `template_icon(icon, scale=units)` takes as many widget
+heights, less a border of 0.3, and scales the picture into the rest, letterboxed. A picture of
+exactly `side(units)` pixels in both directions is drawn pixel for pixel; it is blended as
+premultiplied, display-encoded color. All figures here are therefore squares, and the wide plots
+share one, "sheet".
+"""
+
+from __future__ import annotations
+
+import time
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+from bpy.utils import previews
+
+from ...core.errors import RoughSpectraError
+from .. import nodes, stamp
+from . import theme
+
+_BOUND = 64
+"""Pictures kept; a sheet has about 0.3 MB at scale 1."""
+_SWATCH_BOUND = 4096
+_SWATCH_SIDE = 16
+_AT_ONCE = 0.012
+"""Seconds of work in one go of the timer: less than a frame."""
+_WATCHED = 2.0
+"""Seconds since a picture was last drawn while it counts as visible."""
+
+_BORDER = 0.3
+"""Widget heights that `template_icon` leaves free, both sides together."""
+_PANEL_MARGIN = 1.7
+"""Widget heights that a panel and its scroll bar take of the width of a region."""
+
+FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
+"""Names of pictures of a material: target and Blender side by side; range of σ, spectrum and angles
+below each other; and each plot alone."""
+
+
+@dataclass
+class _Picture:
+    name: str
+    state: int
+    icon: int
+    drawn: float
+
+
+@dataclass(frozen=True)
+class _Wish:
+    material: int
+    figure: str
+    side: int
+
+
+_collection: Any = None
+_pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
+_swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
+_pending: dict[_Wish, int] = {}
+
+
+def unit(preferences: Any) -> int:
+    """Height of a widget, pixels."""
+    return round(18 * theme.scale(preferences)) + 2 * max(int(preferences.system.pixel_size), 1)
+
+
+def side(units: float, preferences: Any) -> int:
+    """Pixels of a picture that `template_icon(…, scale=units)` draws one to one."""
+    height = unit(preferences)
+    return max(int(int(height * units) - _BORDER * height), 1)
+
+
+def fit(context: Any, inset: float = 0.0) -> float:
+    """Give the `scale` for `template_icon` at which a picture fills the width of a panel.
+
+    Parameters
+    ----------
+    inset
+        Widget heights that boxes around the picture take of the width.
+
+    Half units, so that dragging the border of an editor does not make a picture for every pixel.
+    """
+    height = unit(context.preferences)
+    free = context.region.width / height - _PANEL_MARGIN - inset
+    return max(int(free * 2) / 2, 1.0)
+
+
+def icon_id(material: Any, figure: str, units: float, context: Any) -> int:
+    """Give the icon of a figure, to be called while drawing; 0 while there is none yet.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`.
+    figure
+        One of `FIGURES`.
+    units
+        The `scale` that the panel gives to `template_icon`.
+
+    A picture that is out of date is shown until the new one is there, within a frame: an empty
+    square for a moment would flicker.
+    """
+    wish = _Wish(material.session_uid, figure, side(units, context.preferences))
+    state = _state(material, context)
+    picture = _pictures.get(wish)
+    if picture is None or picture.state != state:
+        _pending[wish] = state
+        if not bpy.app.timers.is_registered(_work):
+            bpy.app.timers.register(_work, first_interval=0)
+    if picture is None:
+        return 0
+    picture.drawn = time.monotonic()
+    _pictures.move_to_end(wish)
+    return picture.icon
+
+
+def refresh(material: Any) -> None:
+    """Make the visible pictures of a material again, now; not to be called while drawing."""
+    uid, now = material.session_uid, time.monotonic()
+    wishes = [
+        wish
+        for wish, picture in _pictures.items()
+        if wish.material == uid and now - picture.drawn < _WATCHED
+    ]
+    if wishes:
+        _make(material, wishes)
+        _redraw()
+
+
+def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
+    """Give icons of plain colors for lists, display-encoded sRGB; not to be called while drawing.
+
+    Equal colors share an icon. The 4,096 used last are kept.
+    """
+    from . import figures
+
+    keys = [tuple(round(255 * min(max(c, 0.0), 1.0)) for c in color) for color in colors]
+    missing = list(dict.fromkeys(key for key in keys if key not in _swatches))
+    if missing:
+        look = theme.current(bpy.context.preferences)
+        wanted = [[c / 255 for c in key] for key in missing]
+        for key, canvas in zip(missing, figures.swatches(wanted, _SWATCH_SIDE, look), strict=True):
+            name = "swatch-{:02x}{:02x}{:02x}".format(*key)
+            preview = _previews().new(name)
+            _upload(preview, canvas, small=True)
+            _swatches[key] = name
+    for key in keys:
+        _swatches.move_to_end(key)
+    while len(_swatches) > max(_SWATCH_BOUND, len(set(keys))):
+        _, name = _swatches.popitem(last=False)
+        del _previews()[name]
+    return [_previews()[_swatches[key]].icon_id for key in keys]
+
+
+def clear() -> None:
+    """Forget all pictures."""
+    global _collection
+    if bpy.app.timers.is_registered(_work):
+        bpy.app.timers.unregister(_work)
+    _pending.clear()
+    _pictures.clear()
+    _swatches.clear()
+    if _collection is not None:
+        previews.remove(_collection)
+        _collection = None
+
+
+def _previews() -> Any:
+    global _collection
+    if _collection is None:
+        _collection = previews.new()
+    return _collection
+
+
+def _state(material: Any, context: Any) -> int:
+    """Digest of everything that a picture depends on; some microseconds."""
+    group = material.rough_spectra
+    node = nodes.shader_node(material)
+    written: tuple[float, ...] = ()
+    if node is not None:
+        color = nodes.color_socket(node).default_value
+        written = (*color[:3], nodes.roughness_socket(node).default_value)
+    return hash(
+        (
+            group.stamp,
+            group.spectrum,
+            (group.kind, group.instrument, group.illuminant, group.model, group.sigma),
+            written,
+            context.scene.render.engine,
+            stamp.working_space_name(),
+            theme.current(context.preferences),
+        )
+    )
+
+
+def _work() -> float | None:
+    """Make what drawing asked for; comes back where that takes longer than a frame."""
+    end = time.monotonic() + _AT_ONCE
+    by_uid = {material.session_uid: material for material in bpy.data.materials}
+    while _pending:
+        uid = next(iter(_pending)).material
+        wishes = [wish for wish in _pending if wish.material == uid]
+        for wish in wishes:
+            del _pending[wish]
+        if uid in by_uid:
+            _make(by_uid[uid], wishes)
+        if _pending and time.monotonic() > end:
+            _redraw()
+            return 0.0
+    _redraw()
+    return None
+
+
+def _make(material: Any, wishes: Sequence[_Wish]) -> None:
+    from .. import working_space
+    from . import compose, data
+
+    context = bpy.context
+    state = _state(material, context)
+    look = theme.current(context.preferences)
+    try:
+        found = data.collect(material, working_space.current(), context.scene.render.engine)
+    except RoughSpectraError:
+        # The panel says what is wrong with the material; there is nothing to picture.
+        for wish in wishes:
+            _store(wish, state, None)
+        return
+    for wish in wishes:
+        _store(wish, state, compose.picture(wish.figure, found, wish.side, look))
+
+
+def _store(wish: _Wish, state: int, canvas: Any) -> None:
+    picture = _pictures.get(wish)
+    if picture is None:
+        name = f"{wish.material}-{wish.figure}-{wish.side}"
+        picture = _pictures[wish] = _Picture(name, state, 0, time.monotonic())
+    picture.state = state
+    if canvas is None:
+        picture.icon = 0
+        return
+    preview = _previews().get(picture.name) or _previews().new(picture.name)
+    _upload(preview, canvas)
+    picture.icon = preview.icon_id
+    while len(_pictures) > _BOUND:
+        _, oldest = _pictures.popitem(last=False)
+        if oldest.name in _previews():
+            del _previews()[oldest.name]
+
+
+def _upload(preview: Any, canvas: Any, *, small: bool = False) -> None:
+    """Give pixels to Blender: from the lowest row up, four bytes each, alpha highest."""
+    import numpy as np
+
+    height, width = canvas.shape[:2]
+    packed = np.zeros((height, width), np.uint32)
+    for channel in range(4):
+        # Whole planes at once: a canvas has its channels one after the other.
+        value = (canvas[::-1, :, channel] * np.float32(255) + np.float32(0.5)).astype(np.uint32)
+        packed |= value << np.uint32(8 * channel)
+    flat = packed.reshape(-1).view(np.int32)
+    preview.image_size = (width, height)
+    preview.image_pixels.foreach_set(flat)
+    if small:
+        preview.icon_size = (width, height)
+        preview.icon_pixels.foreach_set(flat)
+
+
+def _redraw() -> None:
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"PROPERTIES", "NODE_EDITOR"}:
+                area.tag_redraw()
