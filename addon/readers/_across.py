@@ -46,7 +46,8 @@ def read(
         The rows below.
     """
     bands = [i for i, label in enumerate(header) if (_labels.band(label) or 0) >= LEAST_BAND]
-    others = [i for i in range(len(header)) if i not in set(bands)]
+    inside = set(bands)
+    others = [i for i in range(len(header)) if i not in inside]
     name = next((i for i in others if _NAME_COLUMN.fullmatch(header[i])), None)
     if name is None:
         name = next((i for i in others if _ID_COLUMN.fullmatch(header[i])), None)

@@ -23,6 +23,8 @@ _TOKEN = re.compile(
     r"|(?P<other>[^\s,;])"
 )
 
+_PLAIN = re.compile(r"[-+.\d \t]+")
+
 
 def _digits(positive: str, negative: str) -> dict[str, str]:
     found = {letter: str(i) for i, letter in enumerate(positive)}
@@ -36,7 +38,7 @@ _DUP = {letter: str(i) for i, letter in enumerate("STUVWXYZs", start=1)}
 # A line of the format has at most 80 characters, but none of the digits may run away.
 _LONGEST_NUMBER = 40
 # DUP makes many points of three bytes. No measured spectrum is so even that it has more points than
-# these while its file has less than two bytes for each.
+# these and than its file has bytes.
 _FREE_POINTS = 100_000
 
 
@@ -61,7 +63,7 @@ class Ordinates:
         self.values = array("d")
         self.abscissas: list[tuple[int, str, int]] = []
         self._document = document
-        self._most = max(_FREE_POINTS, len(document.data) // 2)
+        self._most = max(_FREE_POINTS, len(document.data))
         self._ends_in_difference = False
 
     def feed(self, line: int, text: str) -> None:
@@ -73,6 +75,8 @@ class Ordinates:
             It does not begin with X, holds something else than the forms above, or contradicts the
             last ordinate of the line before.
         """
+        if not self._ends_in_difference and self._plain(line, text):
+            return
         tokens = _TOKEN.finditer(text)
         first = next(tokens, None)
         if first is None:
@@ -105,6 +109,21 @@ class Ordinates:
                     self._append(line, value)
             begun, check = True, False
             self._ends_in_difference = difference is not None
+
+    def _plain(self, line: int, text: str) -> bool:
+        """Decode a line with nothing but numbers and spaces, the most frequent form, at once."""
+        if not _PLAIN.fullmatch(text):
+            return False
+        fields = text.split()
+        try:
+            _, *found = map(float, fields)
+        except ValueError:
+            return False  # packed: signs stand between the numbers
+        if len(self.values) + len(found) > self._most:
+            return False
+        self.abscissas.append((line, fields[0], len(self.values)))
+        self.values.extend(found)
+        return True
 
     def _value(self, line: int, token: re.Match[str]) -> float:
         if token["missing"]:

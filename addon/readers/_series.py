@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from array import array
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -131,8 +132,8 @@ def number(document: Document, place: str, text: str) -> float:
 
 
 def two_columns(
-    document: Document, numbered: Sequence[tuple[int, str]]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], list[int]]:
+    document: Document, numbered: Iterable[tuple[int, str]]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], Sequence[int]]:
     """Return wavelengths, values and line numbers of lines with two numbers each.
 
     Columns are apart by tabs, semicolons or spaces; commas are decimal commas.
@@ -142,8 +143,8 @@ def two_columns(
     InputError
         A line has another number of columns, or a field is not a number.
     """
-    found: list[float] = []
-    at: list[int] = []
+    found = array("d")
+    at = array("L")
     for line, text in numbered:
         fields = text.replace(";", " ").replace(",", ".").split()
         if not fields:
@@ -153,9 +154,9 @@ def two_columns(
                 f"line {line}",
                 f"two columns were expected, found {len(fields)}; export one spectrum a file",
             )
-        found += (number(document, f"line {line}", field) for field in fields)
+        found.extend([number(document, f"line {line}", field) for field in fields])
         at.append(line)
-    table = np.array(found, dtype=np.float64).reshape(-1, 2)
+    table = np.array(found).reshape(-1, 2)
     return table[:, 0], table[:, 1], at
 
 

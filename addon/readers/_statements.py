@@ -7,7 +7,9 @@ The keys stand in lines above a table, in its first column, or name its columns.
 
 from __future__ import annotations
 
+import functools
 import re
+from collections.abc import Mapping
 from typing import Any
 
 from ...core.instruments import REGISTRY
@@ -45,7 +47,8 @@ def field_of(key: str) -> str:
     return _KEYS.get(re.sub(r"[^a-z0-9]", "", key.lower()), "")
 
 
-def stated(key: str, value: str) -> dict[str, Any]:
+@functools.lru_cache(maxsize=1024)
+def stated(key: str, value: str) -> Mapping[str, Any]:
     """Return the fields of `Sample` that one key and its value give, none if it is not known.
 
     `finish` turns all of a sample's fields into arguments.
@@ -101,18 +104,21 @@ def color_columns(header: list[str]) -> tuple[list[int], dict[str, Any]]:
 def finish(fields: dict[str, Any]) -> dict[str, Any]:
     """Return arguments for `Sample`: the instrument and its note follow from the geometry."""
     found = dict(fields)
-    geometry = found.get("geometry", "")
-    if not geometry and found.get("specular"):
-        # Only spheres can leave specular light out or let it in.
-        found["instrument"], note = instrument_of("d/8", found["specular"])
-    elif geometry:
-        found.setdefault("specular", specular_of(geometry))
-        found["instrument"], note = instrument_of(geometry, found["specular"])
-    else:
+    geometry, specular = found.get("geometry", ""), found.get("specular", "")
+    if not geometry and not specular:
         return found
+    found["instrument"], note, found["specular"] = _instrument(geometry, specular)
     if note:
         found["notes"] = (note,)
     return found
+
+
+@functools.lru_cache(maxsize=256)
+def _instrument(geometry: str, specular: str) -> tuple[str, str, str]:
+    """Return instrument, note and specular component: tables repeat them in each row."""
+    specular = specular or specular_of(geometry)
+    # Only spheres can leave specular light out or let it in.
+    return (*instrument_of(geometry or "d/8", specular), specular)
 
 
 def make(

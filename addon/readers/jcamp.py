@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..sample import Sample
-from . import _series, _table
+from . import _labels, _series, _table
 from ._document import Document, quote
 from ._geometry import instrument_of, specular_of
 from ._ordinates import Ordinates, Pairs
@@ -27,11 +27,7 @@ from ._ordinates import Ordinates, Pairs
 NAME = "JCAMP-DX"
 PRIORITY = 95
 
-_NM_PER_UNIT = {
-    **dict.fromkeys(("NANOMETERS", "NANOMETER", "NANOMETRES", "NM", "WAVELENGTH (NM)"), 1.0),
-    **dict.fromkeys(("MICROMETERS", "MICROMETER", "MICROMETRES", "UM", "MICRONS", "µM"), 1000.0),
-}
-_WAVENUMBERS = ("1/CM", "CM-1", "CM^-1", "WAVENUMBERS", "WAVENUMBER")
+_WAVENUMBERS = re.compile(r"1/cm|cm *\^?-1|wave *numbers?", re.IGNORECASE)
 _NM_CM = 1e7  # nanometers in a centimeter
 _PERCENT = re.compile(r"%|percent|pct", re.IGNORECASE)
 _LABEL = re.compile(r"##([^=]{1,80})=(.*)")
@@ -113,7 +109,7 @@ def _blocks(document: Document) -> Iterator[_Block]:
 
 def _new_table(document: Document, line: int, label: str, form: str) -> Ordinates | Pairs:
     plain = re.sub(r"\s", "", form).upper()
-    if plain.startswith("(X++(Y..Y))"):
+    if plain.startswith("(X++(Y..Y)"):
         return Ordinates(document)
     if plain.startswith("(XY..XY)"):
         return Pairs(document)
@@ -136,14 +132,16 @@ def _other(document: Document, block: _Block) -> Exception:
 
 def _sample(document: Document, block: _Block, notes: list[str]) -> Sample:
     x, y, at = _points(document, block)
-    units = block.texts.get("XUNITS", "").strip().upper()
-    if units in _WAVENUMBERS:
+    units = block.texts.get("XUNITS", "")
+    unit = _labels.unit_of_wavelengths(units)
+    if _WAVENUMBERS.search(units):
         if not (x > 0.0).all():
             raise document.error(f"line {at(0)}", "a wavenumber is not above 0; export it again")
         nm = _NM_CM / x
         notes = [*notes, "Wavenumbers were converted to wavelengths."]
-    elif units in _NM_PER_UNIT:
-        nm = np.round(x * _NM_PER_UNIT[units], 9)
+    elif unit:
+        factor = _labels.NM_PER_UNIT[unit]
+        nm = x if factor == 1.0 else np.round(x * factor, 9)
     else:
         raise document.error(
             f"line {block.lines.get('XUNITS', block.line)}, ##XUNITS=",
@@ -195,8 +193,13 @@ def _points(
         step = _number(document, block, "DELTAX")
     _check_abscissas(document, table, first, step, _factor(document, block, "XFACTOR"))
     starts = [start for _, _, start in table.abscissas]
-    x = first + step * np.arange(count)
-    y = np.array(table.values) * _factor(document, block, "YFACTOR")
+    # In place: a compressed table has few bytes a point.
+    x = np.arange(count, dtype=np.float64)
+    x *= step
+    x += first
+    y = np.frombuffer(table.values) if count else np.empty(0)
+    y *= _factor(document, block, "YFACTOR")
+    y.flags.writeable = False
     return x, y, lambda point: table.abscissas[bisect.bisect_right(starts, point) - 1][0]
 
 

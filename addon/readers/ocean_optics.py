@@ -11,7 +11,9 @@ is 100 (S - D) / (R - D).
 
 from __future__ import annotations
 
+import itertools
 import re
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,20 +58,14 @@ def read(document: Document) -> list[Sample]:
         spectrum is not one.
     """
     top: list[str] = []
-    rows: list[tuple[int, str]] = []
-    begun = False
-    for number, line in enumerate(_table.lines(document), start=1):
-        text = line.strip()
-        if begun and text.startswith(">>>>>"):
+    lines = enumerate(_table.lines(document), start=1)
+    for _, line in lines:
+        if _BEGIN.match(line.strip()):
             break
-        if begun and text:
-            rows.append((number, text))
-        elif _BEGIN.match(text):
-            begun = True
-        elif text:
-            top.append(text)
+        if line.strip():
+            top.append(line.strip())
     notes = _refuse_or_note(document, top)
-    nm, percent, at = _values(document, rows)
+    nm, percent, at = _values(document, _rows(lines))
     where = f"{document.path}, line {at[0]}" if at else str(document.path)
     found = _series.bands(nm, percent / _PERCENT, where, lambda band: f"line {at[band]}")
     instrument, assumed = instrument_of("")
@@ -120,28 +116,43 @@ def _mode(line: str) -> bool:
     return "mode" in key and "xaxis" not in key and "trigger" not in key
 
 
+def _rows(lines: Iterator[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+    """Return the rows of the spectrum, which ends with the file or with a line like its first."""
+    for number, line in lines:
+        text = line.strip()
+        if text.startswith(">>>>>"):
+            return
+        if text:
+            yield number, text
+
+
 def _values(
-    document: Document, rows: list[tuple[int, str]]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], list[int]]:
+    document: Document, rows: Iterator[tuple[int, str]]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], Sequence[int]]:
     """Return wavelengths, processed values and lines; a Jaz file names its columns by letters."""
-    if not rows:
+    first = next(rows, None)
+    if first is None:
         raise document.error("", "there is no spectrum in it; save it again")
-    names = rows[0][1].split()
+    names = first[1].split()
     if names[0].upper() != "W":
-        return _series.two_columns(document, rows)
+        return _series.two_columns(document, itertools.chain([first], rows))
     if "P" not in names or "R" not in names:
-        raise document.not_reflectance(f"line {rows[0][0]}", "counts")
+        raise document.not_reflectance(f"line {first[0]}", "counts")
+    return _series.two_columns(document, _processed(document, names, rows))
+
+
+def _processed(
+    document: Document, names: list[str], rows: Iterator[tuple[int, str]]
+) -> Iterator[tuple[int, str]]:
     column = names.index("P")
-    kept = []
-    for line, text in rows[1:]:
+    for line, text in rows:
         fields = text.split()
         if len(fields) != len(names):
             raise document.error(
                 f"line {line}",
                 f"{len(names)} columns were expected, found {len(fields)}; save the file again",
             )
-        kept.append((line, f"{fields[0]} {fields[column]}"))
-    return _series.two_columns(document, kept)
+        yield line, f"{fields[0]} {fields[column]}"
 
 
 def _name(document: Document, top: list[str]) -> str:

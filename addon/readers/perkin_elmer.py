@@ -36,16 +36,12 @@ def read(document: Document) -> list[Sample]:
         The units are not nanometers and reflectance, or the spectrum is not one.
     """
     top: list[str] = []
-    rows: list[tuple[int, str]] | None = None
-    for number, line in enumerate(_table.lines(document), start=1):
-        text = line.strip()
-        if rows is not None:
-            rows.append((number, text))
-        elif text == "#DATA":
-            rows = []
-        else:
-            top.append(text)
-    if rows is None or "#GR" not in top[:-2]:
+    lines = enumerate(_table.lines(document), start=1)
+    for _, line in lines:
+        top.append(line.strip())
+        if top[-1] == "#DATA":
+            break
+    if "#DATA" not in top[-1:] or "#GR" not in top[:-3]:
         raise document.error("", "the sections #GR and #DATA are not there; save the file again")
     units = top.index("#GR") + 1
     x, y = top[units], top[units + 1]
@@ -56,7 +52,7 @@ def read(document: Document) -> list[Sample]:
     if not _REFLECTANCE.fullmatch(y):
         other = _series.other_quantity(y) or f"in units of {quote(y)}"
         raise document.not_reflectance(f"line {units + 2}", other)
-    nm, values, at = _series.two_columns(document, rows)
+    nm, values, at = _series.two_columns(document, lines)
     found = _series.bands(
         nm,
         values / 100.0 if "%" in y else values,

@@ -185,7 +185,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
         ("wavelength;R\n400,0.5\n410,0.5\n", ["line 2", "commas", "header by semicolons"]),
         ("wavelength,R\n400;0,5\n410;0,5\n", ["line 2", "'400;0'", "semicolons", "header"]),
         ("sep=;\nwavelength,R\n400,0.5\n", ["line 2", "expected semicolons", "found commas"]),
-        ("Name x\nFirst half\nnone\n", ["line 1", "no wavelengths found", "'#'"]),
+        ("Name x\nFirst half\nlast third\n", ["line 1", "no wavelengths found", "'#'"]),
         ("# units: furlongs\n400,0.5\n410,0.5\n", ["line 1", "'furlongs'", "fraction"]),
         ("# kind: color\n400,0.5\n410,0.5\n", ["line 1", "'color'", "reading", "albedo"]),
         ("# units: fraction\nnm,R %\n400,0.5\n410,0.5\n", ["column 'R %'", "percent", "agree"]),
