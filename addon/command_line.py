@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     import argparse
 
 NAME = "rough_spectra"
-VERBS = ("assets", "assign", "bake", "check", "merge", "validate")
+VERBS = ("assets", "assign", "bake", "check", "import", "merge", "search", "validate")
+_MODULES = {"import": "import_files"}
+"""Of verbs that are words of Python's own."""
 
 _UNUSABLE = 2
 _INTERRUPTED = 130

@@ -226,31 +226,34 @@ def load(name: str, folder: Path) -> Sample:
     Parameters
     ----------
     name
-        An id; anything that `presets.load` takes; or the name of one library sample.
+        An id; anything that `presets.load` takes; or the name of one library sample, unless a
+        preset is called so: what a mapping file means must not change with what others collect.
 
     Raises
     ------
     InputError
         Nothing is called so, or several are, or its file has a fault.
     """
-    everything = contents(folder)
-    place = everything._places.get(name)
-    if place is not None:
-        return everything._samples[place]
-    named = [
-        i
-        for i, entry in enumerate(everything.entries)
-        if not entry.is_preset and entry.name == name
-    ]
-    if len(named) == 1:
-        return everything._samples[named[0]]
-    if named:
-        could = ", ".join(everything.entries[i].id for i in named[:5])
-        raise InputError(f"{folder}: sample {name!r} could be any of {could}; give the whole id.")
+    if "/" in name and name not in presets.names():
+        place = contents(folder)._places.get(name)
+        if place is not None:
+            return contents(folder)._samples[place]
     try:
         return presets.load(name)
     except InputError as error:
-        if not folder.is_dir():
+        everything = contents(folder)
+        named = [
+            i
+            for i, entry in enumerate(everything.entries)
+            if not entry.is_preset and entry.name == name
+        ]
+        if len(named) == 1:
+            return everything._samples[named[0]]
+        if named:
+            could = ", ".join(everything.entries[i].id for i in named[:5])
+            msg = f"{folder}: sample {name!r} could be any of {could}; give the whole id."
+            raise InputError(msg) from None
+        if name.lower().endswith(".json") or not folder.is_dir():
             raise
         faults = "".join(f" ({fault.rstrip('.')})" for fault in everything.faults[:1])
         msg = f"{str(error).rstrip('.')}; nor has the library {folder} a sample called so{faults}."

@@ -15,7 +15,7 @@ from typing import Any, cast
 import bpy
 
 from ..core.errors import InputError, MaterialError
-from . import presets, readers, selection
+from . import library, readers, selection
 from .sample import KINDS, Kind, Sample
 from .target import Request
 
@@ -45,7 +45,7 @@ def rows(options: argparse.Namespace) -> list[Row]:
             raise InputError(msg)
         return read_mapping(options.mapping)
     if options.preset is not None:
-        sample = presets.load(options.preset)
+        sample = library.load(options.preset, library.user_folder())
         if not options.material:
             msg = f"Name the materials that get {sample.name!r}, with --material NAME."
             raise InputError(msg)
@@ -192,7 +192,7 @@ def _sample(
 ) -> Sample:
     if not cells["file"]:
         try:
-            return presets.load(cells["sample"])
+            return library.load(cells["sample"], library.user_folder())
         except InputError as error:
             msg = f"{where}: {error}"
             raise InputError(msg) from error

@@ -182,7 +182,7 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
         elif operator.materials == "CREATE":
             assigned = _create(operator, chosen)
     except RoughSpectraError as error:
-        operator.report({"ERROR"}, f"{error} ({said}.)" if said else str(error))
+        operator.report({"ERROR"}, f"{error} Nonetheless, {said}." if said else str(error))
         return {"CANCELLED"}
     seen = {sentence for each in chosen for sentence in each.sentences}
     for material, solution in assigned:

@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg, kind; a sample without a file is a preset",
+        "sigma_deg, kind; a sample without a file is a preset or of the library",
     )
     source.add_argument(
         "--by-name",
@@ -35,7 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="measurement files; materials get the sample of the same name",
     )
-    source.add_argument("--preset", metavar="NAME", help="a preset for the materials of --material")
+    source.add_argument(
+        "--preset", metavar="NAME", help="a preset or library sample for --material"
+    )
     parser.add_argument(
         "--material",
         action="append",

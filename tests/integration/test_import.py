@@ -1,0 +1,269 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From measurement files to library and materials: operators and verbs."""
+
+import json
+import math
+import shutil
+
+import bpy
+import pytest
+from rough_spectra.addon import importing, library, readers
+from rough_spectra.addon.operators import import_review, import_samples
+
+from tests.integration.support import ROOT, contents, rgb_material, spectrum_csv
+from tests.integration.test_operators import mesh_object, refusal
+
+OPS = bpy.ops.rough_spectra
+BRICK = ROOT / "tests" / "fixtures" / "nix" / "brick.csv"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The user's library, which must not be that of whoever runs the tests."""
+    path = tmp_path / "library"
+    monkeypatch.setattr(library, "user_folder", lambda: path)
+    return path
+
+
+@pytest.fixture
+def two(tmp_path):
+    return spectrum_csv(tmp_path / "two.csv", "plaster", "chalk")
+
+
+@pytest.fixture
+def noisy(tmp_path):
+    path = spectrum_csv(tmp_path / "noisy.csv", "dark")
+    text = path.read_text(encoding="utf-8").replace("400,0.200000", "400,-0.001")
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def broken(tmp_path):
+    path = tmp_path / "broken.csv"
+    path.write_text("wavelength,x\n400,0.5\n410,oops\n", encoding="utf-8")
+    return path
+
+
+def own(folder):
+    return [entry.id for entry in library.entries(folder) if not entry.is_preset]
+
+
+def test_operator_adds_several_files_at_once(folder, two):
+    shutil.copy(BRICK, two.parent)
+    files = [{"name": "two.csv"}, {"name": "brick.csv"}]
+    done = OPS.import_samples("EXEC_DEFAULT", directory=str(two.parent), files=files)
+    assert done == {"FINISHED"}
+    assert own(folder) == ["brick/brick", "two/plaster", "two/chalk"]
+    done = OPS.import_samples("EXEC_DEFAULT", filepath=str(two), collection="Walls, white")
+    assert own(folder)[:2] == ["Walls, white/plaster", "Walls, white/chalk"]
+    assert not bpy.data.materials
+
+
+def test_operator_refuses_all_for_one_broken_file_unless_told_otherwise(folder, two, broken):
+    files = [{"name": two.name}, {"name": broken.name}]
+    options = {"directory": str(two.parent), "files": files}
+    assert "broken.csv, line 3" in refusal(OPS.import_samples, **options, materials="CREATE")
+    assert own(folder) == []
+    assert not bpy.data.materials
+    assert OPS.import_samples("EXEC_DEFAULT", **options, keep_going=True) == {"FINISHED"}
+    assert own(folder) == ["two/plaster", "two/chalk"]
+    with pytest.raises(RuntimeError, match="choose a measurement file"):
+        OPS.import_samples("EXEC_DEFAULT")
+
+
+def test_operator_assigns_the_first_or_makes_materials_of_all(folder, two):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    options = {"filepath": str(two), "add_to_library": False, "sigma": math.radians(20)}
+    OPS.import_samples("EXEC_DEFAULT", **options, materials="ASSIGN")
+    group = wall.active_material.rough_spectra
+    assert group.sample_name == "plaster"
+    assert math.degrees(group.sigma) == pytest.approx(20, abs=1e-5)
+    OPS.import_samples("EXEC_DEFAULT", **options, materials="CREATE")
+    assert {"plaster", "chalk"} <= set(bpy.data.materials.keys())
+    assert bpy.data.materials["chalk"].rough_spectra.sample_name == "chalk"
+    assert bpy.data.materials["chalk"].use_fake_user
+    assert not folder.exists()
+
+
+def test_a_spectrum_without_a_color_makes_no_material_and_leaves_none(folder, tmp_path):
+    path = tmp_path / "short.csv"
+    path.write_text("wavelength,short\n400,0.3\n410,0.3\n", encoding="utf-8")
+    assert "short" in refusal(OPS.import_samples, filepath=str(path), materials="CREATE")
+    assert not bpy.data.materials
+    assert own(folder) == ["short/short"]  # a library may hold what Cycles cannot show
+
+
+def review(batch, chosen, **options):
+    """Press OK in the dialog, with the samples checked that `chosen` says."""
+    import_review._batch[:] = [batch]
+    empty = {"swatch": (0, 0, 0), "has_color": False, "about": "", "sentences": ""}
+    items = [{"name": "", "chosen": is_chosen, **empty} for is_chosen in chosen]
+    return OPS.import_review("EXEC_DEFAULT", items=items, **options)
+
+
+def test_review_imports_what_is_checked_and_assigns_what_is_highlighted(folder, two):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    batch = importing.read([two, BRICK])
+    with pytest.raises(RuntimeError, match="No sample is checked"):
+        review(batch, [False] * 3)
+    with pytest.raises(RuntimeError, match="import them again"):
+        review(batch, [True])
+    assert own(folder) == []
+    review(batch, [True, False, True], index=2, collection="mine", materials="ASSIGN")
+    assert own(folder) == ["mine/plaster", "mine/brick"]
+    assert wall.active_material.rough_spectra.sample_name == "Brick"
+    review(batch, [True, False, True], index=1, collection="mine", materials="ASSIGN")
+    assert wall.active_material.rough_spectra.sample_name == "plaster"
+    assert own(folder) == ["mine/plaster", "mine/brick"]
+
+
+def test_drop_takes_every_ending_of_the_files_that_tests_read():
+    handler = import_samples.ROUGHSPECTRA_FH_import
+    endings = set(handler.bl_file_extensions.split(";"))
+    assert all(ending.startswith(".") and ending == ending.lower() for ending in endings)
+    assert ".exr" not in endings  # images are dropped more often than spectral ones
+    assert not handler.poll_drop(bpy.context)  # no area under the mouse
+    assert hasattr(bpy.ops.rough_spectra, handler.bl_import_operator.partition(".")[2])
+
+
+def test_library_operators_assign_rename_and_remove(folder, two):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    OPS.import_samples("EXEC_DEFAULT", filepath=str(two))
+    assert OPS.assign_sample("EXEC_DEFAULT", sample="two/chalk") == {"FINISHED"}
+    assert wall.active_material.rough_spectra.sample_name == "chalk"
+    assert OPS.assign_sample("EXEC_DEFAULT", sample="colorchecker/14-green", sigma=0.5)
+    assert wall.active_material.rough_spectra.sample_name == "ColorChecker 14 Green"
+    assert wall.active_material.rough_spectra.sigma == pytest.approx(0.5)
+    OPS.rename_sample("EXEC_DEFAULT", sample="two/chalk", new_name="Tafelkreide")
+    assert own(folder) == ["two/plaster", "two/tafelkreide"]
+    assert "another sample" in refusal(
+        OPS.rename_sample, sample="two/plaster", new_name="Tafelkreide"
+    )
+    OPS.remove_sample("EXEC_DEFAULT", sample="two/plaster")
+    assert own(folder) == ["two/tafelkreide"]
+    assert "14-green" in refusal(OPS.remove_sample, sample="colorchecker/14-green")
+    assert "'none'" in refusal(OPS.assign_sample, sample="none")
+
+
+def test_a_stated_sigma_is_taken_unless_another_is_given(folder, two):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    fields = json.loads((ROOT / "presets" / "colorchecker" / "14-green.json").read_bytes())
+    folder.mkdir()
+    text = json.dumps(fields | {"sigma_degrees": 25, "sigma_source": "profilometer"})
+    (folder / "loose.json").write_text(text, encoding="utf-8")
+    name = "loose/colorchecker-14-green"
+    OPS.assign_sample("EXEC_DEFAULT", sample=name)
+    assert math.degrees(wall.active_material.rough_spectra.sigma) == pytest.approx(25, abs=1e-5)
+    OPS.assign_sample("EXEC_DEFAULT", sample=name, sigma=0.1)
+    assert wall.active_material.rough_spectra.sigma == pytest.approx(0.1)
+
+
+def test_nearest_color_is_assigned(folder, two):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    OPS.import_samples("EXEC_DEFAULT", filepath=str(two))
+    entry = next(e for e in library.entries(folder) if e.id == "two/chalk")
+    assert OPS.find_nearest("EXEC_DEFAULT", color=entry.swatch) == {"FINISHED"}
+    assert wall.active_material.rough_spectra.sample_name == "chalk"
+    (_, (second, _)) = library.nearest(entry.lab, 2, folder)
+    assert OPS.find_nearest("EXEC_DEFAULT", color=entry.swatch, index=1) == {"FINISHED"}
+    assert wall.active_material.rough_spectra.sample_name == second.name
+    assert "only 3 matches" in refusal(OPS.find_nearest, count=3, index=3)
+
+
+def test_import_verb_prints_ids_and_warns(main, folder, two, noisy, tmp_path):
+    result = main("import", two, noisy, "--folder", tmp_path / "other")
+    assert result.status == 0
+    assert result.out.splitlines() == ["two/plaster", "two/chalk", "noisy/dark"]
+    warning, summary = result.err.splitlines()
+    assert warning.startswith(f"warning: {noisy}: 'dark' is below 0 in one band")
+    assert summary.startswith("3 samples added to the library")
+    assert set(contents(tmp_path / "other")) == {"two.json", "noisy.json", ".lock"}
+    assert not folder.exists()
+    again = main("import", two, "--folder", tmp_path / "other")
+    assert again.status == 0
+    assert again.out.splitlines() == ["two/plaster", "two/chalk"]
+    assert "0 samples added to the library; 2 already there" in again.err
+
+
+def test_import_verb_adds_nothing_when_a_file_is_unusable(main, folder, two, broken):
+    result = main("import", two, broken, "--collection", "mine")
+    assert result.status == 2
+    assert f"{broken}, line 3" in result.sentence
+    assert not folder.exists()
+    result = main("import", two, broken, "--collection", "mine", "--keep-going")
+    assert result.status == 2
+    assert result.out.splitlines() == ["mine/plaster", "mine/chalk"]
+    assert own(folder) == ["mine/plaster", "mine/chalk"]
+    result = main("import", two, "--collection", "a/b")
+    assert result.status == 2
+    assert "'a-b'" in result.sentence
+
+
+def test_a_shared_library_file_is_imported_as_any_other(main, folder, two, tmp_path):
+    assert main("import", two, "--folder", tmp_path / "hers").status == 0
+    assert main("import", tmp_path / "hers" / "two.json", "--collection", "from her").status == 0
+    assert own(folder) == ["from her/plaster", "from her/chalk"]
+    (first, _) = readers.read(folder / "from her.json")
+    assert first.source == str(two)
+
+
+def test_search_verb_by_words_and_by_color(main, folder, two):
+    assert main("import", two).status == 0
+    assert main("search", "TWO", "chalk").out == "two/chalk\tchalk\n"
+    assert main("search", "nowhere").out == ""
+    lab = ",".join(f"{x:.4f}" for x in next(e for e in library.entries(folder)).lab)
+    first, second = main("search", "--near", lab, "--count", "2").out.splitlines()
+    assert first == "colorchecker/01-dark-skin\tColorChecker 01 Dark skin\t0.00"
+    assert float(second.split("\t")[2]) > 0
+    assert len(main("search", "--near", "#735244").out.splitlines()) == 10
+    for words in (
+        ["search"],
+        ["search", "x", "--near", "#000000"],
+        ["search", "--near", "red"],
+        ["search", "--near", "1,2"],
+        ["search", "--near", "50,nan,0"],
+        ["search", "--near", "#000000", "--count", "0"],
+    ):
+        result = main(*words)
+        assert result.status == 2
+        assert result.sentence.startswith("rough_spectra search: ")
+    (folder / "bad.json").write_text("{", encoding="utf-8")
+    assert "bad.json" in main("search", "chalk").err
+
+
+def test_mapping_and_assign_take_library_ids(main, folder, two, tmp_path):
+    assert main("import", two).status == 0
+    for name in ("Wall", "Floor"):
+        rgb_material(name)
+    blend = tmp_path / "plain.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend))
+    mapping = tmp_path / "mapping.csv"
+    mapping.write_text("material,sample\nWall,two/chalk\nFloor,green\n", encoding="utf-8")
+    assert main("assign", "--blend", blend, "--mapping", mapping).status == 0
+    assert bpy.data.materials["Wall"].rough_spectra.sample_name == "chalk"
+    assert bpy.data.materials["Floor"].rough_spectra.sample_name == "ColorChecker 14 Green"
+    assert main("assign", "--preset", "two/plaster", "--material", "Floor").status == 0
+    mapping.write_text("material,sample\nWall,two/none\n", encoding="utf-8")
+    result = main("assign", "--blend", blend, "--mapping", mapping)
+    assert result.status == 2
+    assert "row 1" in result.sentence
+    assert "nor has the library" in result.sentence
+
+
+def test_library_of_an_installed_extension_is_outside_of_it(blender):
+    found = blender("""
+        extension = load_extension()
+        extension.register()
+        from rough_spectra.addon import library, preferences
+        clone = str(library.user_folder())
+        preferences.PACKAGE = "bl_ext.user_default.rough_spectra"
+        installed = str(library.user_folder())
+        extension.unregister()
+        user = bpy.utils.resource_path("USER")
+        print(json.dumps([clone, installed, bpy.utils.user_resource("EXTENSIONS"), user]))
+    """)
+    clone, installed, extensions, user = found
+    assert clone.startswith(user)
+    assert installed.startswith(f"{extensions}/.user/user_default/rough_spectra")
