@@ -142,7 +142,7 @@ def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     return (
         Key("Reading", look.target, 1.6),
         Key("Albedo", look.albedo, 1.4, (4.5, 2.5)),
-        Key("Blender RGB", look.blender, 3.2),
+        Key("Blender RGB", look.blender, 3.2, short="RGB"),
     )
 
 

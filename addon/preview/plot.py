@@ -22,6 +22,8 @@ SMALL = 150.0
 
 _KEY = 16.0
 """Length of the sample of a line in a legend, at scale 1."""
+_SMALL_KEY = 10.0
+"""The same in a narrow picture."""
 
 
 @dataclass(frozen=True)
@@ -52,12 +54,16 @@ class Axes:
 
 @dataclass(frozen=True)
 class Key:
-    """One entry of a legend: its name, color, line width at scale 1 and dash at scale 1."""
+    """One entry of a legend: its name, color, line width at scale 1 and dash at scale 1.
+
+    `short` is its name where the picture is narrow.
+    """
 
     name: str
     color: raster.Color
     width: float
     dash: tuple[float, ...] = ()
+    short: str = ""
 
 
 def is_small(size: Size, look: Look) -> bool:
@@ -124,28 +130,29 @@ def legend_height(look: Look) -> int:
 def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> None:
     """Name the lines in one row along the top, each with a sample beside its name.
 
-    Samples shrink, then the last names are left out, where the picture is narrow.
+    Where the picture is narrow names get short and samples small, then the last ones are left out.
     """
-    room = canvas.shape[1] - left - 1
-    gap = 10 * look.scale
-    for key_length in (_KEY * look.scale, 10 * look.scale):
-        widths = [
-            key_length + 4 * look.scale + text.width(key.name, look.font) + gap for key in keys
-        ]
-        if sum(widths) - gap <= room:
+    end = canvas.shape[1] - 1
+    gap, space = 10 * look.scale, 4 * look.scale
+    names = [key.name for key in keys]
+    short = [key.short or key.name for key in keys]
+    for sample, shown in ((_KEY, names), (_SMALL_KEY, names), (_SMALL_KEY, short)):
+        length = sample * look.scale
+        widths = [length + space + text.width(name, look.font) for name in shown]
+        if left + sum(widths) + gap * (len(keys) - 1) <= end:
             break
     base = text.height(look.font) + 3 * look.scale
+    middle = base - text.height(look.font) / 2
     x = float(left)
-    for key, width in zip(keys, widths, strict=True):
-        if x + width - gap > canvas.shape[1]:
+    for key, name, width in zip(keys, shown, widths, strict=True):
+        if x + width > end:
             return
-        middle = base - text.height(look.font) / 2
         reach = key.width * look.scale / 2
-        sample = [(x + reach, middle), (x + key_length - reach, middle)]
+        line = [(x + reach, middle), (x + length - reach, middle)]
         dash = [part * look.scale for part in key.dash]
-        raster.polyline(canvas, sample, key.color, key.width * look.scale, dash)
-        text.draw(canvas, key.name, x + key_length + 4 * look.scale, base, look.font, key.color)
-        x += width
+        raster.polyline(canvas, line, key.color, key.width * look.scale, dash)
+        text.draw(canvas, name, x + length + space, base, look.font, key.color)
+        x += width + gap
 
 
 def draw_curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Look) -> None:

@@ -175,35 +175,43 @@ def polyline(
         start, end = line[:-1], line[1:]
     start, end = _short(start, end)
     height, across = canvas.shape[:2]
-    left, top, right, bottom = within or (0, 0, across, height)
+    box = within or (0, 0, across, height)
     reach = width / 2 + 0.5
-    limit = ((left, right), (top, bottom))
-    low = [np.clip(np.floor(np.minimum(start[:, i], end[:, i]) - reach), *limit[i]) for i in (0, 1)]
-    high = [np.clip(np.ceil(np.maximum(start[:, i], end[:, i]) + reach), *limit[i]) for i in (0, 1)]
-    x0, y0, x1, y1 = (int(v) for v in (low[0].min(), low[1].min(), high[0].max(), high[1].max()))
+    low = np.clip(np.floor(np.minimum(start, end) - reach), box[:2], box[2:]).astype(np.int32)
+    high = np.clip(np.ceil(np.maximum(start, end) + reach), box[:2], box[2:]).astype(np.int32)
+    (x0, y0), (x1, y1) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
     if x0 >= x1 or y0 >= y1:
         return
+    piece, x, y = _pixels(low - (x0, y0), high - (x0, y0))
+    away = _distance(x, y, start - (x0 + 0.5, y0 + 0.5), end - start, piece)
+    share = np.clip(np.float32(reach) - away, 0, min(width, 1.0))
     coverage = np.zeros((y1 - y0, x1 - x0), np.float32)
-    columns, rows = (np.asarray(high[i] - low[i], np.intp) for i in (0, 1))
-    count = columns * rows
-    piece = np.repeat(np.arange(len(start)), count)
-    number = np.arange(piece.size) - np.repeat(np.cumsum(count) - count, count)
-    x = low[0][piece] + number % columns[piece]
-    y = low[1][piece] + number // columns[piece]
-    share = np.clip(reach - _distance(x + 0.5, y + 0.5, start, end, piece), 0, min(width, 1.0))
-    at = ((y - y0) * (x1 - x0) + x - x0).astype(np.intp)
-    np.maximum.at(coverage.reshape(-1), at, share.astype(np.float32))
+    np.maximum.at(coverage.reshape(-1), y * (x1 - x0) + x, share)
     paint(canvas, coverage, x0, y0, color, alpha)
 
 
-def _distance(x: Array, y: Array, start: Array, end: Array, piece: Array) -> Array:
-    """Distance of points from their piece of the line."""
-    along = end - start
-    squared = np.maximum((along * along).sum(axis=1), 1e-12)
-    dx, dy = x - start[piece, 0], y - start[piece, 1]
-    ax, ay = along[piece, 0], along[piece, 1]
-    t = np.clip((dx * ax + dy * ay) / squared[piece], 0, 1)
-    return np.asarray(np.hypot(dx - t * ax, dy - t * ay))
+def _pixels(low: Array, high: Array) -> tuple[Array, Array, Array]:
+    """List the pixels of many boxes, (boxes, 2) each: number of the box, column and row."""
+    columns, rows = (high - low).T
+    count = columns * rows
+    piece = np.repeat(np.arange(len(low), dtype=np.int32), count)
+    first = np.cumsum(count, dtype=np.int32) - count
+    number = np.arange(piece.size, dtype=np.int32) - first.astype(np.int32)[piece]
+    row, column = np.divmod(number, columns.astype(np.int32)[piece])
+    corner = low.astype(np.int32)
+    return piece, column + corner[:, 0][piece], row + corner[:, 1][piece]
+
+
+def _distance(x: Array, y: Array, start: Array, along: Array, piece: Array) -> Array:
+    """Distance of points from their piece of the line; single precision, for speed."""
+    sx, sy, ax, ay = np.concatenate((start, along), axis=1).astype(np.float32).T
+    inverse = 1 / np.maximum(ax * ax + ay * ay, np.float32(1e-12))
+    dx, dy = x - sx[piece], y - sy[piece]
+    ax, ay = ax[piece], ay[piece]
+    t = np.clip((dx * ax + dy * ay) * inverse[piece], 0, 1)
+    dx -= t * ax
+    dy -= t * ay
+    return np.asarray(np.sqrt(dx * dx + dy * dy), np.float32)
 
 
 def _short(start: Array, end: Array) -> tuple[Array, Array]:
