@@ -69,7 +69,7 @@ def read(document: Document) -> list[Sample]:
         if columns.spectra:
             found.append(_numbers(document, table, columns))
         else:
-            others.append(f"line {table.line}")
+            others.append(f"at line {table.line}")
     if not found:
         raise refused[0] if refused else _no_spectra(document, bool(others))
     if refused:

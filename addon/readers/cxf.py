@@ -222,10 +222,11 @@ def _choose(said: Specification, spectrum: Spectrum) -> _Chosen:
 def _color(
     thing: Thing, spectrum: Spectrum, kind: str, like: str
 ) -> tuple[str, tuple[float, float, float] | None]:
-    """Return the object's own color: under the spectrum's specification if there are several."""
+    """Return the object's own color: that of the spectrum's specification, or its only one."""
     found = thing.colors.get(kind, [])
     for wanted in (like, spectrum.specification):
         for specification, color in found:
             if wanted and specification == wanted:
                 return specification, color
-    return found[0] if found else ("", None)
+    # With several spectra, a color of another specification may belong to another one of them.
+    return found[0] if found and len(thing.spectra) == 1 else ("", None)

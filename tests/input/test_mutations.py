@@ -25,6 +25,8 @@ FIXTURES = [
     ROOT / "tests" / "fixtures" / "spdx" / "tile.spdx",
     ROOT / "tests" / "fixtures" / "asd" / "tile.asd",
     ROOT / "tests" / "fixtures" / "spectral_exr" / "pixels.spectral.exr",
+    *sorted((ROOT / "tests" / "fixtures" / "cgats").glob("*.[ts]*")),
+    *sorted((ROOT / "tests" / "fixtures" / "cxf").glob("*.cxf")),
     ROOT / "presets" / "colorchecker" / "14-green.json",
 ]
 SLOW = 5.0  # seconds; a reader takes about a millisecond, so only a hang comes near
