@@ -15,11 +15,12 @@ from tools.ground import package, wheels
 from tools.ground.errors import GroundError
 
 ROOT = Path(__file__).resolve().parents[2]
+CXF = ROOT / "tests" / "fixtures" / "cxf" / "two.cxf"
 ALLOWED = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md"}
 ALLOWED_FOLDERS = {"core", "addon", "presets", "wheels"}
 
 INSTALL = """
-import json, sys, unittest.mock
+import importlib, json, sys, unittest.mock
 import bpy
 before = set(sys.modules)
 bpy.ops.extensions.package_install_files(
@@ -33,11 +34,17 @@ stand_ins = [
 ]
 bpy.ops.preferences.addon_disable(module=name)
 bpy.ops.preferences.addon_enable(module=name)
+# The tests' own environment has the library too; what Blender unpacked comes first now.
+sys.path.sort(key=lambda entry: "extensions" not in entry)
+readers = importlib.import_module(name + ".addon.readers")
+samples = readers.read(sys.argv[2])
 print("RESULT " + json.dumps({
     "enabled": enabled,
     "again": name in bpy.context.preferences.addons,
     "colour": [key for key in added if key.partition(".")[0] == "colour"],
     "stand_ins": stand_ins,
+    "samples": [[sample.name, sample.values.tolist()] for sample in samples],
+    "defusedxml": sys.modules["defusedxml"].__file__,
     "bare": sorted(key for key in added if key.partition(".")[0] in ("core", "addon")),
 }))
 """
@@ -48,7 +55,7 @@ def built(tmp_path_factory):
     folder = tmp_path_factory.mktemp("package")
     python = Path(sys.executable)
     output = folder / "rough_spectra.zip"
-    package.build(ROOT, python, wheels.ensure(ROOT, python), folder / "stage", output)
+    package.build(ROOT, python, wheels.shipped(ROOT, python), folder / "stage", output)
     return output
 
 
@@ -57,7 +64,10 @@ def test_zip_holds_what_ships_and_nothing_else(built):
     assert {name for name in names if "/" not in name} == ALLOWED
     assert {name.split("/")[0] for name in names if "/" in name} == ALLOWED_FOLDERS
     assert not [name for name in names if "__pycache__" in name or "/." in name]
-    assert [n for n in names if n.endswith(".whl")] == [f"wheels/{wheels.pin(ROOT).trimmed}"]
+    assert sorted(name for name in names if name.endswith(".whl")) == [
+        f"wheels/{wheels.pin(ROOT).trimmed}",
+        f"wheels/{wheels.pin(ROOT, wheels.DEFUSEDXML).upstream}",
+    ]
 
 
 def test_blender_finds_the_zip_valid(built):
@@ -74,7 +84,7 @@ def test_blender_finds_the_zip_valid(built):
 def test_same_sources_give_the_same_bytes(built, tmp_path):
     python = Path(sys.executable)
     again = tmp_path / "again.zip"
-    package.build(ROOT, python, wheels.ensure(ROOT, python), tmp_path / "stage", again)
+    package.build(ROOT, python, wheels.shipped(ROOT, python), tmp_path / "stage", again)
     assert again.read_bytes() == built.read_bytes()
 
 
@@ -86,7 +96,7 @@ def test_builder_refuses_a_broken_manifest(tmp_path):
         (tmp_path / name).mkdir()
     python, output = Path(sys.executable), tmp_path / "out" / "x.zip"
     with pytest.raises(GroundError, match="refuses to build"):
-        package.build(tmp_path, python, wheels.ensure(ROOT, python), tmp_path / "stage", output)
+        package.build(tmp_path, python, wheels.shipped(ROOT, python), tmp_path / "stage", output)
     assert not output.exists()
 
 
@@ -100,7 +110,7 @@ def test_missing_license_is_named(tmp_path):
 def test_installs_into_a_fresh_blender_and_leaves_modules_clean(built, tmp_path):
     environ = {**os.environ, "BLENDER_USER_RESOURCES": str(tmp_path)}
     blender = subprocess.run(
-        [sys.executable, "-c", INSTALL, str(built)],
+        [sys.executable, "-c", INSTALL, str(built), str(CXF)],
         capture_output=True,
         text=True,
         check=False,
@@ -118,3 +128,5 @@ def test_installs_into_a_fresh_blender_and_leaves_modules_clean(built, tmp_path)
     packages = list(tmp_path.glob("extensions/.local/lib/python3.*/site-packages/colour"))
     assert len(packages) == 1, "Blender did not unpack the wheel"
     assert not (packages[0] / "htmlcov").exists()
+    assert [name for name, _ in result["samples"]] == ["Rust", "Slate"]
+    assert Path(result["defusedxml"]).is_relative_to(packages[0].parent)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The trimmed wheel is small, honest about itself, and what the tests run with."""
+"""The wheels that ship are small, honest about themselves, and what the tests run with."""
 
 import base64
 import csv
@@ -68,9 +68,35 @@ def test_build_tag_stands_in_name_and_metadata(wheel):
     assert "\n\n" not in text
 
 
-def test_manifest_names_the_wheel(wheel):
+def test_manifest_names_the_wheels():
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
-    assert f"./wheels/{wheel.name}" in manifest["wheels"]
+    shipped = wheels.shipped(ROOT, Path(sys.executable))
+    assert manifest["wheels"] == [f"./wheels/{wheel.name}" for wheel in shipped]
+
+
+def test_defusedxml_ships_as_its_authors_made_it_and_as_the_tests_use_it():
+    wanted = wheels.pin(ROOT, wheels.DEFUSEDXML)
+    wheel = wheels.shipped(ROOT, Path(sys.executable))[1]
+    assert hashlib.sha256(wheel.read_bytes()).hexdigest() == wanted.sha256
+    assert importlib.metadata.version("defusedxml") == wanted.version
+    for name in ("bpy-4.5.txt", "bpy-5.2.txt"):
+        lines = (ROOT / "requirements" / name).read_text(encoding="utf-8").splitlines()
+        assert f"defusedxml=={wanted.version}" in lines
+
+
+def test_a_damaged_copy_is_replaced_from_the_cache(tmp_path):
+    whole = wheels.shipped(ROOT, Path(sys.executable))
+    for folder in ("requirements", ".cache", "wheels"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "requirements/wheels.txt").write_bytes(
+        (ROOT / "requirements/wheels.txt").read_bytes()
+    )
+    for name in (wheels.COLOUR, wheels.DEFUSEDXML):
+        upstream = wheels.pin(ROOT, name).upstream
+        (tmp_path / ".cache" / upstream).write_bytes((ROOT / ".cache" / upstream).read_bytes())
+    (tmp_path / "wheels" / whole[1].name).write_bytes(b"PK")
+    made = wheels.shipped(tmp_path, Path(sys.executable))
+    assert [path.read_bytes() for path in made] == [path.read_bytes() for path in whole]
 
 
 def test_this_environment_has_exactly_what_ships(wheel):

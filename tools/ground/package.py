@@ -48,7 +48,7 @@ def stage(
         shutil.copytree(root / name, target / name, ignore=NEVER_SHIPPED)
 
 
-def build(root: Path, python: Path, wheel: Path, staging: Path, output: Path) -> None:
+def build(root: Path, python: Path, wheels: Sequence[Path], staging: Path, output: Path) -> None:
     """Build and validate the zip.
 
     Blender's builder takes files in the order the disk returns them. Sorted again, with fixed
@@ -60,8 +60,8 @@ def build(root: Path, python: Path, wheel: Path, staging: Path, output: Path) ->
         Root of the repository.
     python
         Interpreter that has the bpy module.
-    wheel
-        The trimmed wheel.
+    wheels
+        The wheels that ship.
     staging
         Folder to gather the files in; made anew.
     output
@@ -69,7 +69,8 @@ def build(root: Path, python: Path, wheel: Path, staging: Path, output: Path) ->
     """
     stage(root, staging)
     (staging / "wheels").mkdir()
-    shutil.copy2(wheel, staging / "wheels" / wheel.name)
+    for wheel in wheels:
+        shutil.copy2(wheel, staging / "wheels" / wheel.name)
     output.parent.mkdir(parents=True, exist_ok=True)
     built = staging.with_name(f"{staging.name}.zip")
     _builder(python, "build", "--source-dir", str(staging), "--output-filepath", str(built))

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one library that ships: colour-science without its reports, tests and examples.
+"""The libraries that ship: colour-science without its reports, tests and examples, and defusedxml.
 
-The wheel on the package index is 9 MB and unpacks to 88, of which 80 are coverage reports. The
-repacked one carries a build tag, so that nobody takes it for the original of the same version.
+The wheel of colour-science on the package index is 9 MB and unpacks to 88, of which 80 are coverage
+reports. The repacked one carries a build tag, so that nobody takes it for the original of the same
+version. defusedxml, 25 kB, ships as its authors made it.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import csv
 import hashlib
 import io
 import re
+import shutil
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -23,47 +25,70 @@ from .errors import GroundError
 
 DROPPED_FOLDERS = frozenset({"htmlcov", "tests", "examples"})
 BUILD_TAG = "1"
-PIN = re.compile(
-    r"^colour-science==(?P<version>\S+)\s+--hash=sha256:(?P<sha256>[0-9a-f]{64})", re.M
-)
+COLOUR, DEFUSEDXML = "colour-science", "defusedxml"
+_PYTHONS = {COLOUR: "py3", DEFUSEDXML: "py2.py3"}
 
 
 @dataclass(frozen=True)
 class Pin:
-    """The release of colour-science to start from."""
+    """A release on the package index."""
 
+    name: str
     version: str
     sha256: str
 
     @property
     def upstream(self) -> str:
         """File name on the package index."""
-        return f"colour_science-{self.version}-py3-none-any.whl"
+        return f"{self._stem}-{_PYTHONS[self.name]}-none-any.whl"
 
     @property
     def trimmed(self) -> str:
         """File name of the repacked wheel."""
-        return f"colour_science-{self.version}-{BUILD_TAG}-py3-none-any.whl"
+        return f"{self._stem}-{BUILD_TAG}-{_PYTHONS[self.name]}-none-any.whl"
 
     @property
     def recipe(self) -> str:
         """What the bytes of the trimmed wheel follow from."""
         return f"{self.sha256} build {BUILD_TAG} without {' '.join(sorted(DROPPED_FOLDERS))}"
 
+    @property
+    def _stem(self) -> str:
+        return f"{self.name.replace('-', '_')}-{self.version}"
 
-def pin(root: Path) -> Pin:
-    """Read the pinned release from requirements/wheels.txt."""
+
+def pin(root: Path, name: str = COLOUR) -> Pin:
+    """Read a pinned release from requirements/wheels.txt."""
     path = root / "requirements" / "wheels.txt"
-    match = PIN.search(path.read_text(encoding="utf-8"))
+    pattern = rf"^{name}==(?P<version>\S+)\s+--hash=sha256:(?P<sha256>[0-9a-f]{{64}})"
+    match = re.search(pattern, path.read_text(encoding="utf-8"), re.M)
     if match is None:
         raise GroundError(
-            f"{path} has no line 'colour-science==VERSION --hash=sha256:...': put it back from git."
+            f"{path} has no line '{name}==VERSION --hash=sha256:...': put it back from git."
         )
-    return Pin(match["version"], match["sha256"])
+    return Pin(name, match["version"], match["sha256"])
+
+
+def shipped(root: Path, python: Path) -> tuple[Path, ...]:
+    """Return all wheels that ship, in wheels/, getting what is not there.
+
+    Parameters
+    ----------
+    root
+        Root of the repository.
+    python
+        Interpreter whose pip downloads what .cache/ does not have yet.
+    """
+    trimmed = ensure(root, python)
+    wanted = pin(root, DEFUSEDXML)
+    target = root / "wheels" / wanted.upstream
+    if not (target.is_file() and _sha256(target) == wanted.sha256):
+        shutil.copyfile(_download(root, python, wanted), target)
+    return trimmed, target
 
 
 def ensure(root: Path, python: Path) -> Path:
-    """Return the trimmed wheel in wheels/, making it first unless it is there and whole.
+    """Return colour-science's trimmed wheel in wheels/, making it unless it is there and whole.
 
     Parameters
     ----------
@@ -131,14 +156,18 @@ def _download(root: Path, python: Path, wanted: Pin) -> Path:
     if source.is_file() and _sha256(source) == wanted.sha256:
         return source
     folder.mkdir(exist_ok=True)
-    requirements = root / "requirements" / "wheels.txt"
     command = [str(python), "-m", "pip", "download", "--quiet", "--disable-pip-version-check"]
     command += ["--no-deps", "--only-binary=:all:", "--require-hashes"]
     with tempfile.TemporaryDirectory(dir=folder) as fresh:
-        command += ["--dest", fresh, "--requirement", str(requirements)]
+        # The line of this wheel alone: nothing else is fetched on the way.
+        requirement = Path(fresh, "requirement.txt")
+        requirement.write_text(
+            f"{wanted.name}=={wanted.version} --hash=sha256:{wanted.sha256}\n", encoding="utf-8"
+        )
+        command += ["--dest", fresh, "--requirement", str(requirement)]
         if subprocess.run(command, check=False).returncode != 0:
             raise GroundError(
-                f"colour-science {wanted.version} could not be downloaded (pip says why above): "
+                f"{wanted.name} {wanted.version} could not be downloaded (pip says why above): "
                 "check the connection to the package index and run the same command again."
             )
         Path(fresh, wanted.upstream).replace(source)
