@@ -30,7 +30,11 @@ _KINDS = {
     0x800: "a deep image",
     0x1000: "of several parts",
 }
-_PIXEL_TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+_PIXEL_TYPES: dict[int, np.dtype[np.generic]] = {
+    0: np.dtype("<u4"),
+    1: np.dtype("<f2"),
+    2: np.dtype("<f4"),
+}
 _COMPRESSIONS = ["none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"]
 _LINES = {"none": 1, "ZIPS": 1, "ZIP": 16}  # in one chunk
 

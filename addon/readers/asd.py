@@ -48,7 +48,11 @@ _REFUSED = {
     7: "of a kind that the file calls unknown",
     8: "absorbance",
 }
-_FORMATS = {0: np.dtype("<f4"), 1: np.dtype("<i4"), 2: np.dtype("<f8")}
+_FORMATS: dict[int, np.dtype[np.generic]] = {
+    0: np.dtype("<f4"),
+    1: np.dtype("<i4"),
+    2: np.dtype("<f8"),
+}
 _INSTRUMENTS = {
     1: "PS II",
     2: "LS VNIR",

@@ -97,7 +97,7 @@ def read(document: Document) -> list[Sample]:
     instrument, note = _geometry.instrument_of("")
     return [
         Sample(
-            name=document.path.name.removesuffix(".exr").removesuffix(".spectral"),
+            name=document.path.stem.removesuffix(".spectral") or document.path.stem,
             wavelengths=wavelengths,
             values=values,
             kind="reading",
