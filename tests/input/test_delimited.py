@@ -185,7 +185,7 @@ def test_large_values_are_refused_rather_than_scaled(tmp_path):
         ("wavelength;R\n400,0.5\n410,0.5\n", ["line 2", "commas", "header by semicolons"]),
         ("wavelength,R\n400;0,5\n410;0,5\n", ["line 2", "'400;0'", "semicolons", "header"]),
         ("sep=;\nwavelength,R\n400,0.5\n", ["line 2", "expected semicolons", "found commas"]),
-        ("Name x\nFirst half\nlast third\n", ["line 1", "no wavelengths found", "'#'"]),
+        ("Name;a;b\nFirst;5;x\nlast;6;y\n", ["line 1", "no wavelengths found", "'#'"]),
         ("# units: furlongs\n400,0.5\n410,0.5\n", ["line 1", "'furlongs'", "fraction"]),
         ("# kind: color\n400,0.5\n410,0.5\n", ["line 1", "'color'", "reading", "albedo"]),
         ("# units: fraction\nnm,R %\n400,0.5\n410,0.5\n", ["column 'R %'", "percent", "agree"]),
@@ -207,3 +207,95 @@ def test_an_unclosed_quotation_mark_in_a_long_file(tmp_path):
 
 def test_trailing_delimiters_are_no_columns(tmp_path):
     assert summary(read(tmp_path, "wavelength,R,\n400,0.5,\n410,0.25,\n"))[0][2] == [0.5, 0.25]
+
+
+def test_a_spreadsheet_with_lines_above_and_falling_wavelengths():
+    (sample,) = readers.read(FOLDER / "spreadsheet.csv")
+    assert summary([sample]) == [("Chalk wall", [750, 770, 780], [0.125, 0.25, 0.5])]
+    assert (sample.device, sample.geometry, sample.aperture) == ("CM-700d", "d/8", "8 mm")
+    assert (sample.specular, sample.instrument) == ("SCE", "de:8")
+    assert (sample.illuminant, sample.observer) == ("D65", 10)
+    assert sample.altered == ("1 band without a value was left out: 760 nm.",)
+    assert sample.notes == ("Columns not read: std.",)
+
+
+def test_columns_beside_the_bands_say_what_they_say():
+    wall, tile = readers.read(FOLDER / "color-columns.txt")
+    assert summary([wall, tile]) == [
+        ("Wall", [360, 380], [0.125, 0.25]),
+        ("Tile", [360, 370, 380], [0.5, 0.625, 0.75]),
+    ]
+    assert (wall.lab, wall.illuminant, wall.observer) == ((50.5, 1.0, -2.5), "D65", 10)
+    assert (wall.specular, wall.instrument, wall.condition) == ("SCI", "di:8", "M1")
+    assert (tile.lab, tile.specular, tile.condition) == (None, "SCE", "M0")
+    assert wall.notes == ("Columns not read: Group.",)
+
+
+def test_units_below_the_names_and_raw_columns_beside():
+    (sample,) = readers.read(FOLDER / "units-below.txt")
+    assert summary([sample]) == [("units-below", [400, 410], [0.125, 0.25])]
+    assert sample.notes == ("Columns not read: Dark, Reference, Sample.",)
+
+
+def test_rows_of_keys_above_the_numbers():
+    red, blue = readers.read(FOLDER / "key-rows.csv")
+    assert summary([red, blue]) == [
+        ("red", [400, 410], [0.125, 0.5]),
+        ("blue", [400, 410], [0.25, 0.75]),
+    ]
+    assert (red.illuminant, red.observer) == ("D65", 10)
+    assert (blue.illuminant, blue.observer) == ("A", 2)
+
+
+@pytest.mark.parametrize(
+    ("label", "scale"),
+    [
+        *[("X{}", 1), ("SPECTRAL_{}", 1), ("SPEC_{}", 100), ("%R{}", 100)],
+        *[("R[{}]", 1), ("{}[nm]", 1), ("{} nm (%)", 100), ("R_{}.0", 1)],
+    ],
+)
+def test_more_names_of_bands(tmp_path, label, scale):
+    header = ",".join(["name", *(label.format(int(band)) for band in BANDS)])
+    (sample,) = read(tmp_path, f"{header}\na,0.125,0.25,0.5\n")
+    assert summary([sample]) == [("a", BANDS, [value / scale for value in VALUES])]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('wavelength,R\n"400","0,5"\n"410","0,25"\n', [0.5, 0.25]),
+        ("Name: x\nFirst: y\n400 0.5\n410 0.25\n", [0.5, 0.25]),
+        ("Date, 2020, 1300\nOperator: me\nnm R\n400 .5\n410 .25\n", [0.5, 0.25]),
+        ("Title,,\n,,\nwavelength,,a\n400,,.5\n410,,.25\n", [0.5, 0.25]),
+        ("Reflectance (%),\nWavelength,a\n400,50\n410,25\n", [0.5, 0.25]),
+        ("wavelength,absorbance,reflectance\n400,1,.5\n410,1,.25\n", [0.5, 0.25]),
+        ("Index,Wavelength [µm],R [%],std\n0,.4,50,1\n1,.41,25,1\n", [0.5, 0.25]),
+    ],
+)
+def test_what_stands_around_a_table_does_not_hide_it(tmp_path, text, expected):
+    (sample,) = read(tmp_path, text)
+    assert sample.wavelengths.tolist() == [400, 410]
+    assert sample.values.tolist() == expected
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_two_byte_text_without_a_mark(tmp_path, encoding):
+    text = "wavelength;Tür\n400;0,125\n410;0,25\n420;0,5\n"
+    assert summary(read(tmp_path, text, encoding)) == [("Tür", BANDS, VALUES)]
+
+
+@pytest.mark.parametrize(
+    ("top", "quantity"),
+    [
+        ("Wavelength,%T", "transmittance"),
+        ("Wavelength,Absorbance", "absorbance"),
+        ("Wavelength,log(1/R)", "absorbance"),
+        ("Wavelength,Radiance (W/sr/m2/nm)", "radiance"),
+        ("Wavelength,Irradiance", "irradiance"),
+        ("Wavelength,Counts", "counts"),
+        ("Wavelength,Emission", "emission"),
+        ("Units=Radiance\n\nWavelength,x", "line 1: the values are radiance"),
+    ],
+)
+def test_other_quantities_are_refused_by_name(tmp_path, top, quantity):
+    assert quantity in refusal(tmp_path, f"{top}\n400,0.5\n410,0.5\n")

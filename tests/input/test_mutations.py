@@ -27,6 +27,7 @@ FIXTURES = [
     ROOT / "tests" / "fixtures" / "spectral_exr" / "pixels.spectral.exr",
     *sorted((ROOT / "tests" / "fixtures" / "cgats").glob("*.[ts]*")),
     *sorted((ROOT / "tests" / "fixtures" / "cxf").glob("*.cxf")),
+    *sorted((ROOT / "tests" / "fixtures").glob("[oaqj]*/*.[tjq]*")),
     ROOT / "presets" / "colorchecker" / "14-green.json",
 ]
 SLOW = 5.0  # seconds; a reader takes about a millisecond, so only a hang comes near

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Text files of spectrometers' software: Ocean Optics, Avantes, Cary, Lambda, and Datacolor QTX."""
+
+import re
+from pathlib import Path
+
+import pytest
+from rough_spectra.addon import readers
+from rough_spectra.core.errors import InputError
+
+FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
+
+
+def spectrum(sample):
+    return sample.name, sample.wavelengths.tolist(), sample.values.tolist()
+
+
+def pairs(path, begins):
+    """Parse two columns the plain way: what follows a line that begins so, decimal commas too."""
+    text = path.read_text("latin-1").split(begins, 1)[1]
+    found = re.findall(r"^\s*([-\d.,E]+)\s+([-\d.,E]+)\s*$", text, re.MULTILINE)
+    return [tuple(float(cell.replace(",", ".")) for cell in row) for row in found]
+
+
+def refusal(tmp_path, data):
+    path = tmp_path / "wall.txt"
+    path.write_bytes(data)
+    with pytest.raises(InputError) as caught:
+        readers.read(path)
+    sentence = str(caught.value)
+    assert "wall.txt" in sentence
+    assert sentence.endswith(".")
+    return sentence
+
+
+def test_spectrasuite_with_decimal_commas():
+    path = FIXTURES / "ocean_optics" / "spectrasuite-decimal-comma.txt"
+    (sample,) = readers.read(path)
+    expected = pairs(path, "<<<<<")
+    assert len(expected) == 30
+    assert sample.wavelengths.tolist() == [nm for nm, _ in expected]
+    assert sample.values.tolist() == [percent / 100 for _, percent in expected]
+    assert sample.device == "USB2+H11150"
+    assert "does not name what was measured" in sample.notes[0]
+
+
+def test_oceanview_names_its_mode_and_leaves_a_gap():
+    (sample,) = readers.read(FIXTURES / "ocean_optics" / "oceanview.txt")
+    nm = [399.5, 400.0, 400.5, 401.5]
+    assert spectrum(sample) == ("chalk wall_Reflection_00001", nm, [0.5, 0.625, 0.75, 0.875])
+    assert sample.altered == ("1 band without a value was left out: 401 nm.",)
+    assert not any("does not name what" in note for note in sample.notes)
+
+
+def test_jaz_takes_the_processed_column():
+    (sample,) = readers.read(FIXTURES / "ocean_optics" / "jaz.jaz")
+    # 100 (S - D) / (R - D) of the file's own columns.
+    assert spectrum(sample) == ("jaz", [500.0, 500.5, 501.0], [0.5, 0.25, 0.75])
+
+
+BEGIN = b">>>>>Begin Spectral Data<<<<<\n400\t1\n410\t1\n"
+
+
+@pytest.mark.parametrize(
+    ("data", "parts"),
+    [
+        (b"Data from wall_Absorbance_15-33.txt Node\n" + BEGIN, ["line 1", "absorbance"]),
+        (b"Data from wall_Transmission_1.txt Node\n" + BEGIN, ["line 1", "transmittance"]),
+        (b"Jaz Absolute Irradiance File\n" + BEGIN, ["line 1", "irradiance"]),
+        (b"SpectraSuite Data File\nReference Spectrum Present: No\n" + BEGIN, ["line 2", "counts"]),
+        (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n1\t2\t3\n", ["line 3", "found 3"]),
+        (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n400\tx\n", ["line 3", "'x'"]),
+        (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n", ["no spectrum"]),
+        (b"AVS82\x01\x02\x03\x00\x00", ["binary", "AvaSoft"]),
+        (b"Wave ;Sample\n[nm] ;[counts]\n400;1\n", ["line 1", "counts"]),
+        (
+            b"Wave ;Transmittance\n[nm] ;[% transmittance]\n400;1\n",
+            ["column 'Transmittance'", "transmittance"],
+        ),
+        (b"Wave ;Reflectance\n[nm] ;[%]\n400;1;2\n", ["line 3", "found 3"]),
+        (b"A,\nWavelength (nm),Abs\n400,1\n410,1\n", ["line 2", "absorbance"]),
+        (b"PE UV   SUBTECH SPECTRUM ASCII\n#GR\nnm\n%T\n#DATA\n400 1\n", ["line 4", "transmitt"]),
+        (b"PE UV   SUBTECH SPECTRUM ASCII\n#GR\ncm-1\n%R\n#DATA\n", ["line 3", "'cm-1'"]),
+        (b"PE UV   SUBTECH SPECTRUM ASCII\n400 1\n", ["#DATA"]),
+        (b"[STANDARD_DATA 0]\nSTD_NAME=x\nSTD_L=50\n", ["line 1", "no spectrum"]),
+        (b"[STANDARD_DATA 0]\nSTD_R=1,2\nSTD_REFLINTERVAL=10\n", ["STD_REFLLOW is missing"]),
+        (
+            b"[BATCH_DATA 0]\nBAT_REFLPOINTS=3\nBAT_R=1,2\nBAT_REFLLOW=400\nBAT_REFLINTERVAL=10\n",
+            ["line 3", "2 values", "3 are announced"],
+        ),
+        (b"[BATCH_DATA 0]\nBAT_R=1,x\n", ["line 2", "'x'", "not a number"]),
+    ],
+)
+def test_what_is_no_reflectance_is_refused_by_its_name(tmp_path, data, parts):
+    sentence = refusal(tmp_path, data)
+    for part in parts:
+        assert part in sentence
+
+
+def test_avasoft_8_and_7():
+    (new,) = readers.read(FIXTURES / "avantes" / "avasoft8.txt")
+    assert spectrum(new) == ("avasoft8", [400.0, 400.5, 401.0], [0.5, 0.25, 0.75])
+    assert new.device == "1200001U1"
+    (old,) = readers.read(FIXTURES / "avantes" / "avasoft7-comma.ttt")
+    # Zero bytes of the program's buffer are in the file, and are no fault.
+    assert spectrum(old) == ("Brick wall", [300.0, 300.5, 301.0], [0.015625, 0.03125, -0.007812])
+
+
+def test_cary_reads_pairs_of_unequal_length_and_no_log():
+    chalk, brick = readers.read(FIXTURES / "delimited" / "cary.csv")
+    assert spectrum(chalk) == ("Chalk wall", [778.0, 779.0, 780.0], [0.125, 0.25, 0.5])
+    assert spectrum(brick) == ("Brick", [779.0, 780.0], [0.25, 0.125])
+    assert chalk.notes == ("Columns not read: Base.",)
+
+
+def test_lambda():
+    (sample,) = readers.read(FIXTURES / "delimited" / "lambda.asc")
+    assert spectrum(sample) == ("Chalk", [780.0, 790.0, 800.0], [0.125, 0.25, 0.5])
+    assert sample.device == "Lambda 1050"
+
+
+def test_qtx():
+    standard, batch = readers.read(FIXTURES / "qtx" / "two.qtx")
+    nm = [400.0, 410.0, 420.0, 430.0]
+    assert spectrum(standard) == ("Gray cloth", nm, [0.125, 0.25, 0.375, 0.5])
+    assert spectrum(batch) == ("Lot 7", nm, [0.0625, 0.125, 1.1875, 0.25])
+    assert (standard.specular, standard.instrument) == ("SCI", "di:8")
+    assert (batch.specular, batch.instrument) == ("SCE", "de:8")
+    assert standard.aperture == "LAV"
