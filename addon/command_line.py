@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
 NAME = "rough_spectra"
-VERBS = ("assets", "assign", "bake", "check", "import", "merge", "search", "validate")
+VERBS = ("analyze", "assets", "assign", "bake", "check", "import", "merge", "search", "validate")
 _MODULES = {"import": "import_files"}
 """Of verbs that are words of Python's own."""
 

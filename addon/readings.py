@@ -21,7 +21,8 @@ import numpy as np
 
 from ..core.arrays import Array
 from ..core.errors import InputError, OutputError
-from . import colorimetry, stamp, storage, target, working_space
+from . import colorimetry, scene_match, stamp, storage, target, working_space
+from .scene_view import SceneView
 from .spectrophotometer import measure
 from .version import version
 
@@ -29,6 +30,11 @@ FORMAT = "rough-spectra-readings"
 SCHEMA = 1
 INSTRUMENT = "45a:0"
 APERTURE = "none: parallel beams on a flat sample"
+
+_IN_SCENE = (
+    "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
+    "{:.2f} from the spectrum's own reading"
+)
 
 Triple = tuple[float, float, float]
 
@@ -114,6 +120,8 @@ class Prepared:
     """What a reading is to be compared with, taken before the measurement.
 
     Holds nothing of Blender's, so the user may go on editing while the measurement runs.
+    `promised` is what a material that follows its scene is to show: a compromise over the scene's
+    lights and directions, which at 45°/0° is not the spectrum's own reading.
     """
 
     surface: str
@@ -122,6 +130,7 @@ class Prepared:
     model_reason: str
     shader_reason: str
     warnings: tuple[str, ...]
+    promised: target.Solution | None = None
 
 
 def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
@@ -149,10 +158,19 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
             if found is not None:
                 warnings += found.warnings
                 shader_reason = found.shader_reason
-        prepared.append(
-            Prepared(surface, material.name, request, model_reason, shader_reason, tuple(warnings))
-        )
+        promised = _promised(material, request)
+        if promised is not None:
+            warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
+        reasons_why = (model_reason, shader_reason, tuple(warnings))
+        prepared.append(Prepared(surface, material.name, request, *reasons_why, promised))
     return prepared
+
+
+def _promised(material: Any, request: target.Request | None) -> target.Solution | None:
+    """Match anew what follows its scene: its shader is what the measurement has to find."""
+    if request is None or request.scene is None:
+        return None
+    return target.solve([storage.load(material)], working_space.current())[0]
 
 
 def _settled(material: Any) -> tuple[target.Request, str]:
@@ -331,9 +349,13 @@ def from_json(path: Path) -> Readings:
 def _reading(item: Prepared, measured: Array | None, space: working_space.WorkingSpace) -> Reading:
     request = item.request
     illuminant = "D65" if request is None else request.illuminant
-    seen = None if measured is None else _measured(measured, space, illuminant)
-    difference = None
-    if request is not None and seen is not None:
+    scene = None if request is None else request.scene
+    seen = None if measured is None else _measured(measured, space, illuminant, scene)
+    promised, difference = item.promised, None
+    if promised is not None and scene is not None and seen is not None:
+        lab = scene_match.promised(promised.color, promised.roughness, scene, space)
+        difference = round(float(colorimetry.delta_e(lab, np.array(seen.lab))), 4)
+    elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, target.target_reading(request)
         lab = colorimetry.spectrum_to_lab(wanted, wavelengths, illuminant, observer=2)
         difference = round(float(colorimetry.delta_e(lab, np.array(seen.lab))), 4)
@@ -372,11 +394,25 @@ def _predicted(
     )
 
 
-def _measured(values: Array, space: working_space.WorkingSpace, illuminant: str) -> Measured:
+def _measured(
+    values: Array,
+    space: working_space.WorkingSpace,
+    illuminant: str,
+    scene: SceneView | None = None,
+) -> Measured:
     mean, spread = values
     if not np.isfinite(values).all():
         msg = "Cycles rendered a value that is not a number; check the material's nodes."
         raise OutputError(msg)
+    if scene is not None:
+        light = scene.lights[0]
+        return Measured(
+            rgb=_triple(mean, 6),
+            spread=_triple(spread, 6),
+            illuminant=f"scene: {light.name}",
+            xyz=_triple(100 * scene_match.to_xyz(mean, light, space), 4),
+            lab=_triple(scene_match.to_lab(mean, light, space), 4),
+        )
     return Measured(
         rgb=_triple(mean, 6),
         spread=_triple(spread, 6),

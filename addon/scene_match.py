@@ -115,6 +115,23 @@ def match(
     return matches[0], matches[1], np.average(targets, axis=0, weights=_shares(view))
 
 
+def judge(
+    view: SceneView,
+    shader: tuple[Array, float],
+    albedo: Array,
+    model: str,
+    sigma: float,
+    bands: Array,
+    space: WorkingSpace,
+) -> Array:
+    """ΔE00 of a given color and roughness in each of the view's geometries; see `match`."""
+    places = _Places.of(view, space)
+    wanted = places.under_lights(_reflected(albedo, model, sigma, places), bands)
+    seen = places.perceive(np.append(shader[0], shader[1]))
+    apart = colorimetry.delta_e(seen, colorimetry.xyz_to_lab(wanted, places.whites))
+    return np.asarray(apart[: len(view.geometries)])
+
+
 def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
     """Mean ΔE00 of the directions of each light, with the light's name."""
     return tuple(
@@ -171,8 +188,12 @@ def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpac
 
 def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     """L*a*b* of a surface's scene-linear reflectance (..., 3), rendered under a light."""
-    xyz = (rgb * light_rgb(light, space)) @ np.linalg.inv(space.from_xyz).T
-    return colorimetry.xyz_to_lab(xyz, light.white)
+    return colorimetry.xyz_to_lab(to_xyz(rgb, light, space), light.white)
+
+
+def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
+    """XYZ (Y = 1 for white) of a surface's reflectance (..., 3), rendered under a light."""
+    return np.asarray((rgb * light_rgb(light, space)) @ np.linalg.inv(space.from_xyz).T)
 
 
 def light_rgb(light: SceneLight, space: WorkingSpace) -> Array:

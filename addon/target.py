@@ -254,6 +254,16 @@ def _solve(
     ]
 
 
+def differences(
+    request: Request, view: SceneView, color: Array, roughness: float, space: WorkingSpace
+) -> Array:
+    """ΔE00 of a shader's color and roughness in each of a scene's directions."""
+    [(settled, _)] = settle([replace(request, scene=view)])
+    [albedo] = _albedos([settled], settled.model)
+    bands, shader = settled.sample.wavelengths, (color, roughness)
+    return scene_match.judge(view, shader, albedo, settled.model, settled.sigma, bands, space)
+
+
 def _solve_in_scene(
     request: Request, reason: str, view: SceneView, space: WorkingSpace
 ) -> Solution:

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Let materials be right in the light and the directions of their scene."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty
+
+from ...core.errors import RoughSpectraError
+from . import common
+
+_SCOPES = (
+    ("VIEW", "All in View", "Every material in view that has a measured spectrum", 0),
+    ("ACTIVE", "Active Material", "Only the active object's active material", 1),
+)
+_EYES = (
+    ("CAMERA", "Camera", "What the scene's camera sees", 0),
+    ("VIEWPORT", "Viewport", "What the 3D viewport shows", 1),
+)
+
+
+class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
+    """Find the lights and directions that meet each material in view, and match it to them"""
+
+    bl_idname = "rough_spectra.analyze_scene"
+    bl_label = "Analyze Scene"
+    bl_options = {"REGISTER", "UNDO"}
+
+    scope: EnumProperty(name="For", description="Materials that follow the scene", items=_SCOPES)
+    through: EnumProperty(name="Through", description="What looks at the scene", items=_EYES)
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Need a scene to look at."""
+        if context.scene.camera is not None or _viewport(context) is not None:
+            return True
+        cls.poll_message_set("Add a camera, or open a 3D viewport")
+        return False
+
+    def execute(self, context: Any) -> set[str]:
+        """Analyze and match, or change nothing."""
+        from .. import scene_analysis, scene_report
+
+        try:
+            materials = None
+            if self.scope == "ACTIVE":
+                materials = common.materials_in_scope(context, "ACTIVE")
+            depsgraph = context.evaluated_depsgraph_get()
+            report = scene_analysis.analyze(depsgraph, context.scene, self._view(context))
+            changes = scene_report.follow(report, materials)
+        except RoughSpectraError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for sentence in (*report.warnings, scene_report.unlit_sentence(report)):
+            if sentence:
+                self.report({"WARNING"}, sentence)
+        common.report_warnings(self, [(c.material, c.solution) for c in changes])
+        after = sum(change.solution.delta_e_mean for change in changes) / len(changes)
+        count = f"{len(changes)} material" + ("s" if len(changes) > 1 else "")
+        self.report(
+            {"INFO"},
+            f"{count} matched to the scene in {report.seconds:.1f} s, mean ΔE00 {after:.2f}",
+        )
+        return {"FINISHED"}
+
+    def _view(self, context: Any) -> Any | None:
+        viewport = _viewport(context)
+        if context.scene.camera is not None and self.through == "CAMERA":
+            return None
+        if viewport is None:
+            msg = "There is no 3D viewport to look through; open one, or choose the camera."
+            raise RoughSpectraError(msg)
+        from ..scene_analysis import View
+
+        return View(viewport.view_matrix.copy(), viewport.window_matrix.copy())
+
+
+def _viewport(context: Any) -> Any | None:
+    """Give the region data of the 3D viewport at hand."""
+    if context.region_data is not None:
+        return context.region_data
+    if context.window is None:
+        return None
+    areas = context.window.screen.areas
+    return next((area.spaces[0].region_3d for area in areas if area.type == "VIEW_3D"), None)
+
+
+classes = (ROUGHSPECTRA_OT_analyze_scene,)
