@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
-from ..core.errors import MaterialError
-from . import nodes, storage, target, working_space
+from ..core.errors import MaterialError, RoughSpectraError
+from . import nodes, stamp, storage, target, working_space
+from .scene_view import SceneView
 from .target import Request, Solution
 
 
@@ -33,7 +35,16 @@ def assign(pairs: Sequence[tuple[Any, Request]], shader: nodes.Shader = "AUTO") 
     DomainError
         If a spectrum or a setting cannot be used; nothing was changed then.
     """
-    return _apply([(nodes.find(material, shader), request, shader) for material, request in pairs])
+    work = [
+        (nodes.find(material, shader), storage.in_scene(material, request))
+        for material, request in pairs
+    ]
+    space, solutions = _solve(work)
+    for (place, request), solution in zip(work, solutions, strict=True):
+        node = _write(place, solution)
+        storage.store(place.material, request, shader)
+        storage.set_stamp(place.material, solution, space, node)
+    return solutions
 
 
 def renew(materials: Iterable[Any]) -> list[Solution]:
@@ -43,25 +54,90 @@ def renew(materials: Iterable[Any]) -> list[Solution]:
     ------
     MaterialError
         If a material stores no spectrum or cannot be written; nothing was changed then.
+    DomainError
+        If a spectrum cannot be used; nothing was changed then.
     """
-    work = []
+    return _renew([(material, material) for material in materials])
+
+
+def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
+    """Match materials with a spectrum to what an analysis of the scene found, all or none.
+
+    Raises
+    ------
+    MaterialError, DomainError
+        As in `renew`; nothing was changed then.
+    """
+    flat = stamp.engine_is_flat()
+    stored = [_stored(material, material) for material in views]
+    requests = [
+        (place, replace(request, scene=view, flat=flat))
+        for (place, request), view in zip(stored, views.values(), strict=True)
+    ]
+    space, solutions = _solve(requests)
+    for (place, request), solution in zip(requests, solutions, strict=True):
+        node = _write(place, solution)
+        storage.store(place.material, request, place.material.rough_spectra.shader)
+        storage.set_stamp(place.material, solution, space, node)
+    return solutions
+
+
+def renewable(materials: Iterable[Any]) -> tuple[list[Any], list[str]]:
+    """Tell the materials that can be renewed from those that can't, and why: a sentence each."""
+    able, sentences = [], []
     for material in materials:
-        shader = material.rough_spectra.shader
-        work.append((nodes.find(material, shader), storage.load(material), shader))
-    return _apply(work)
+        try:
+            _stored(material, material)
+        except MaterialError as error:
+            sentences.append(str(error))
+        else:
+            able.append(material)
+    return able, sentences
 
 
-def _apply(work: list[tuple[nodes.Place, Request, nodes.Shader]]) -> list[Solution]:
-    materials = [place.material for place, _, _ in work]
+def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
+    """Derive color and roughness again, unasked; what goes wrong is kept with the material.
+
+    Parameters
+    ----------
+    pairs
+        Each a material and the one that its settings come from: itself, or, while it is animated,
+        as it was evaluated.
+    """
+    try:
+        _renew(pairs)
+    except RoughSpectraError as error:
+        if len(pairs) == 1:
+            pairs[0][0].rough_spectra.error = str(error)
+            return
+        # One that fails must not hold up the others.
+        for pair in pairs:
+            follow([pair])
+
+
+def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
+    work = [_stored(material, source) for material, source in pairs]
+    space, solutions = _solve(work)
+    for (place, _), solution, (_, source) in zip(work, solutions, pairs, strict=True):
+        storage.set_stamp(place.material, solution, space, _write(place, solution), source)
+    return solutions
+
+
+def _stored(material: Any, source: Any) -> tuple[nodes.Place, Request]:
+    return nodes.find(material, source.rough_spectra.shader), storage.load(source)
+
+
+def _solve(work: Sequence[tuple[nodes.Place, Request]]) -> tuple[str, list[Solution]]:
+    """Match every request; gives the name of the working space too."""
+    materials = [place.material for place, _ in work]
     if len(set(materials)) < len(materials):
         twice = next(m for m in materials if materials.count(m) > 1)
         msg = f"Material {twice.name!r} is named twice; give it one spectrum."
         raise MaterialError(msg)
     space = working_space.current()
-    solutions = target.solve([request for _, request, _ in work], space)
-    for (place, request, shader), solution in zip(work, solutions, strict=True):
-        red, green, blue = solution.color.tolist()
-        node = nodes.write(place, (red, green, blue), solution.roughness)
-        storage.store(place.material, request, shader)
-        storage.set_stamp(place.material, solution, space.name, node)
-    return solutions
+    return space.name, target.solve([request for _, request in work], space)
+
+
+def _write(place: nodes.Place, solution: Solution) -> str:
+    red, green, blue = solution.color.tolist()
+    return nodes.write(place, (red, green, blue), solution.roughness)

@@ -190,11 +190,11 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
 
 def _is_animated(tree: Any, socket: Any) -> bool:
     path = socket.path_from_id("default_value")
-    return any(curve.data_path == path for curve in _curves(tree.animation_data))
+    return any(curve.data_path == path for curve in curves(tree.animation_data))
 
 
-def _curves(data: Any | None) -> list[Any]:
-    """Drivers, and F-curves of the action and of every strip in the NLA."""
+def curves(data: Any | None) -> list[Any]:
+    """Give drivers, and F-curves of the action and of every strip in the NLA."""
     if data is None:
         return []
     from bpy_extras import anim_utils
@@ -203,11 +203,11 @@ def _curves(data: Any | None) -> list[Any]:
     slots += [
         (strip.action, strip.action_slot) for track in data.nla_tracks for strip in track.strips
     ]
-    curves = list(data.drivers)
+    found = list(data.drivers)
     for action, slot in slots:
         bag = None if action is None else anim_utils.action_get_channelbag_for_slot(action, slot)
-        curves += [] if bag is None else list(bag.fcurves)
-    return curves
+        found += [] if bag is None else list(bag.fcurves)
+    return found
 
 
 def _uses_nodes(material: Any) -> bool:

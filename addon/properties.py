@@ -10,8 +10,17 @@ from __future__ import annotations
 
 from math import pi
 
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 from bpy.types import Material, PropertyGroup
+
+from . import live
 
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
@@ -88,9 +97,14 @@ class RoughSpectraMaterial(PropertyGroup):
     schema: IntProperty(name="Schema", description="Version of the stored data", default=0)
     sample_name: StringProperty(name="Sample", description="Name of the measured sample")
     source: StringProperty(name="Source", description="File or citation of the spectrum")
-    kind: EnumProperty(name="Kind", description="What the spectrum is", items=KIND_ITEMS)
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=KIND_ITEMS, update=live.changed
+    )
     instrument: EnumProperty(
-        name="Instrument", description="Geometry of the reading", items=INSTRUMENT_ITEMS
+        name="Instrument",
+        description="Geometry of the reading",
+        items=INSTRUMENT_ITEMS,
+        update=live.changed,
     )
     spectrum: StringProperty(name="Spectrum", description="Wavelengths and values, as JSON")
     details: StringProperty(name="Details", description="What else the file said, as JSON")
@@ -102,12 +116,14 @@ class RoughSpectraMaterial(PropertyGroup):
         step=100,
         min=0.0,
         max=pi / 2,
+        update=live.changed,
     )
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
     illuminant: EnumProperty(
         name="Illuminant",
         description="Light under which the color is right",
         items=ILLUMINANT_ITEMS,
+        update=live.changed,
     )
     observer: EnumProperty(
         name="Observer", description="Observer of the reports", items=OBSERVER_ITEMS
@@ -117,9 +133,21 @@ class RoughSpectraMaterial(PropertyGroup):
         description="How light between facets is counted",
         items=MODEL_ITEMS,
         default="auto",
+        update=live.changed,
     )
-    shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
+    shader: EnumProperty(
+        name="Shader", description="Node that is set", items=SHADER_ITEMS, update=live.changed
+    )
+    use_scene: BoolProperty(
+        name="Light from the Scene",
+        description="Be right under the lights and in the directions that Analyze Scene found, "
+        "instead of under the illuminant",
+        default=False,
+        update=live.changed,
+    )
+    scene_view: StringProperty(name="Scene", description="What the analysis found, as JSON")
     stamp: StringProperty(name="Stamp", description="What was derived and from what, as JSON")
+    error: StringProperty(name="Error", description="Why the color could not be derived")
     measured: StringProperty(name="Measured", description="The last measurement, as JSON")
 
 

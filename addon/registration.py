@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import bpy
 
-from . import command_line, panels, preferences, properties
+from . import command_line, live, panels, preferences, properties
 from .operators import (
+    analyze_scene,
     assign_file,
     assign_preset,
     bake,
+    build_assets,
     find_nearest,
     import_review,
     import_samples,
@@ -21,7 +23,7 @@ from .operators import (
 
 _MODULES = (
     *(properties, preferences, assign_preset, assign_file, renew, bake, measure),
-    *(import_samples, import_review, library, find_nearest, panels),
+    *(import_samples, import_review, library, find_nearest, build_assets, analyze_scene, panels),
 )
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
@@ -32,12 +34,16 @@ def register() -> None:
         bpy.utils.register_class(cls)
     properties.register_pointer()
     import_samples.register_menu()
+    build_assets.register_menu()
+    live.register()
     command_line.register()
 
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
     command_line.unregister()
+    live.unregister()
+    build_assets.unregister_menu()
     import_samples.unregister_menu()
     properties.unregister_pointer()
     for cls in reversed(classes):

@@ -11,14 +11,20 @@ import hashlib
 import json
 import math
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
+from typing import Any, Literal
 
 import bpy
 
 from . import nodes
+from .properties import SCHEMA
 
 DEFAULT_SPACE = "Linear Rec.709"
 """The working space before Blender 5.0, unless a custom OCIO configuration has another."""
+
+DERIVATION = 1
+"""Raise when the same spectrum and settings come to give another color, beyond rounding; materials
+derived before are then stale."""
 
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
@@ -32,6 +38,8 @@ class Stamp:
     ----------
     inputs
         Digest of spectrum and settings.
+    settings
+        The settings by their labels, and a digest of the spectrum; empty in older files.
     working_space
         Name of the working space the color is in.
     node, color, roughness
@@ -44,6 +52,15 @@ class Stamp:
         Predicted ΔE00 at the instrument and over the hemisphere.
     warnings
         Sentences for the user.
+    delta_e_lights
+        Name and predicted mean ΔE00 of each of the scene's lights; empty without a scene.
+    scene_reason
+        What the scene decided, in a sentence; empty without a scene.
+    version, derivation
+        Of the extension that derived it; see `DERIVATION`.
+    kept
+        What the surface showed when the user chose to keep edits by hand, else an empty string.
+        The predictions are then not of what is shown.
     """
 
     inputs: str
@@ -58,6 +75,37 @@ class Stamp:
     delta_e_mean: float
     delta_e_95: float
     warnings: tuple[str, ...]
+    settings: tuple[tuple[str, str], ...] = ()
+    delta_e_lights: tuple[tuple[str, float], ...] = ()
+    scene_reason: str = ""
+    version: str = ""
+    derivation: int = 1
+    kept: str = ""
+
+
+Kind = Literal["none", "fresh", "stale", "kept", "error", "linked"]
+
+
+@dataclass(frozen=True)
+class State:
+    """What the panel says of a material.
+
+    Parameters
+    ----------
+    kind
+        "none": no spectrum. "fresh": what is shown follows from it. "stale": it does not, for
+        `reasons`. "kept": edited by hand, and the user chose to keep that. "error": it could not be
+        derived, or was stored by a newer version. "linked": it belongs to another file; the first
+        reason says what to do, the others why it would be stale.
+    reasons
+        Sentences without their first capital and their full stop, most important first.
+    stamp
+        What was derived, if anything was.
+    """
+
+    kind: Kind
+    reasons: tuple[str, ...] = ()
+    stamp: Stamp | None = None
 
 
 def has_spectrum(material: Any) -> bool:
@@ -86,49 +134,107 @@ def working_space_name() -> str:
 
 
 def get_stamp(material: Any) -> Stamp | None:
-    """Give the stamp, or None where nothing was derived yet or it is of another version."""
-    try:
-        data = json.loads(material.rough_spectra.stamp)
-        return Stamp(**(data | {key: tuple(data[key]) for key in ("color", "warnings")}))
-    except (ValueError, KeyError, TypeError):
-        return None
+    """Give the stamp, or None where nothing was derived yet or it cannot be read."""
+    return _parsed(material.rough_spectra.stamp)
+
+
+def state(material: Any) -> State:
+    """Tell whether the color still follows from the spectrum, and if not, why."""
+    group = material.rough_spectra
+    if not group.spectrum:
+        return _NONE
+    found = get_stamp(material)
+    reasons = tuple(stale_reasons(material, working_space_name()))
+    place = elsewhere(material)
+    if place:
+        return State("linked", (place, *reasons), found)
+    if group.schema > SCHEMA:
+        newer = "it was stored by a newer Rough Spectra; update the extension to work with it"
+        return State("error", (newer,), found)
+    if group.error:
+        return State("error", (group.error,), found)
+    if reasons:
+        return State("stale", reasons, found)
+    if found is not None and found.kept:
+        return State("kept", ("color or roughness was edited by hand, and is kept",), found)
+    return State("fresh", (), found)
 
 
 def stale_reasons(material: Any, working_space: str) -> list[str]:
     """Say why the color in the shader node no longer follows from the spectrum; empty if it does.
 
-    Only compares what is stored: cheap enough for a panel.
+    Empty, too, where the user chose to keep edits by hand and nothing changed since.
     """
-    group = material.rough_spectra
     stamp = get_stamp(material)
     if stamp is None:
         return ["nothing was derived from the spectrum yet"]
-    reasons = []
-    if stamp.inputs != inputs_digest(group):
-        reasons.append("the spectrum or a setting was changed")
-    if stamp.working_space != working_space:
-        reasons.append(f"the working space changed from {stamp.working_space} to {working_space}")
-    node = nodes.shader_node(material)
-    if node is None or node.name != stamp.node:
-        reasons.append(f"the surface no longer comes from {stamp.node!r}")
-    elif not reasons and _edited(node, stamp):
-        reasons.append("color or roughness was edited by hand")
-    if node is not None:
-        if node.mute:
-            reasons.append(f"{node.name!r} is muted")
-        reasons += [f"{name} is in use" for name in nodes.disturbing_sockets(node)]
-    return reasons
+    return [
+        *_changed_inputs(material.rough_spectra, stamp),
+        *_changed_surface(material, stamp, working_space),
+    ]
 
 
-def _edited(node: Any, stamp: Stamp) -> bool:
-    written = (*stamp.color, stamp.roughness)
-    found = (
-        *nodes.color_socket(node).default_value[:3],
-        nodes.roughness_socket(node).default_value,
+def follows(material: Any) -> bool:
+    """Whether the surface shows what was derived, so that it may be derived again unasked.
+
+    Settings may have changed; edits by hand, kept or not, must not be overwritten.
+    """
+    stamp = get_stamp(material)
+    return (
+        stamp is not None
+        and not stamp.kept
+        and material.rough_spectra.schema <= SCHEMA
+        and not elsewhere(material)
+        and not _changed_surface(material, stamp, working_space_name())
     )
-    linked = nodes.color_socket(node).is_linked or nodes.roughness_socket(node).is_linked
-    apart = max(abs(a - b) for a, b in zip(written, found, strict=True))
-    return bool(linked or apart > _SOCKET_TOLERANCE)
+
+
+def edited_by_hand(material: Any) -> bool:
+    """Whether renewing would overwrite what the user set in the shader node, kept or not."""
+    stamp = get_stamp(material)
+    if stamp is None or stamp.working_space != working_space_name():
+        # The change of the working space converted the sockets: what they held is not known.
+        return stamp is not None and bool(stamp.kept)
+    node = nodes.shader_node(material)
+    return bool(stamp.kept) or (
+        node is not None and node.name == stamp.node and _edited(node, stamp)
+    )
+
+
+def shown(material: Any) -> str:
+    """Give all that a surface shows, as far as Rough Spectra sets it, in a text to compare."""
+    node = nodes.shader_node(material)
+    if node is None:
+        return "no Diffuse or Principled BSDF"
+    color, roughness = nodes.color_socket(node), nodes.roughness_socket(node)
+    values = (*color.default_value[:3], roughness.default_value)
+    linked = (color.is_linked, roughness.is_linked, node.mute)
+    return repr((node.name, values, linked, nodes.disturbing_sockets(node)))
+
+
+def settings(group: Any) -> dict[str, str]:
+    """Every setting that the color follows from, by its label, and a digest of the spectrum."""
+    return {
+        "spectrum": hashlib.sha256(group.spectrum.encode()).hexdigest()[:16],
+        "kind": group.kind,
+        "instrument": group.instrument,
+        "σ": f"{sigma_degrees(group):.5f}".rstrip("0").rstrip(".") + "°",
+        "illuminant": group.illuminant,
+        "model": group.model,
+        "shader": group.shader,
+        **_scene_settings(group),
+    }
+
+
+def has_scene(group: Any) -> bool:
+    """Whether the color follows from an analysis of the scene."""
+    return bool(group.use_scene and group.scene_view)
+
+
+def engine_is_flat() -> bool:
+    """Whether the scene's render engine ignores diffuse roughness."""
+    scene = bpy.context.scene
+    return scene is not None and scene.render.engine in _FLAT_ENGINES
 
 
 def inputs_digest(group: Any) -> str:
@@ -142,4 +248,95 @@ def inputs_digest(group: Any) -> str:
         group.model,
         group.shader,
     )
+    if has_scene(group):
+        settings += (group.scene_view, _engine())
     return hashlib.sha256("\n".join(settings).encode()).hexdigest()[:16]
+
+
+def elsewhere(material: Any) -> str:
+    """Say where a material that cannot be changed here belongs, and what to do."""
+    if material.library is not None:
+        path = material.library.filepath
+        return f"it is linked from {path!r}; make it local to change it, or change it there"
+    if material.override_library is not None:
+        return "it is a library override, whose nodes Blender resets; make it local to change it"
+    if not material.is_editable:
+        return "it is read-only; make it local to change it"
+    return ""
+
+
+_NONE = State("none")
+_FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
+
+
+def _engine() -> str:
+    return "one without diffuse roughness" if engine_is_flat() else "one with diffuse roughness"
+
+
+def _scene_settings(group: Any) -> dict[str, str]:
+    if not has_scene(group):
+        return {"light": "the illuminant's"}
+    analysis = hashlib.sha256(group.scene_view.encode()).hexdigest()[:6]
+    return {"light": f"the scene's (analysis {analysis})", "render engine": _engine()}
+
+
+@lru_cache(maxsize=2048)
+def _parsed(text: str) -> Stamp | None:
+    """Parse a stamp once: a panel asks for it at every draw."""
+    try:
+        data = json.loads(text)
+        data |= {key: tuple(data[key]) for key in ("color", "warnings")}
+        lights = data.get("delta_e_lights", ())
+        data["delta_e_lights"] = tuple((str(name), float(apart)) for name, apart in lights)
+        data["settings"] = tuple((str(k), str(v)) for k, v in data.get("settings", {}).items())
+        return Stamp(**data)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return None
+
+
+def _changed_inputs(group: Any, stamp: Stamp) -> list[str]:
+    if stamp.inputs == inputs_digest(group):
+        return []
+    before = dict(stamp.settings)
+    now = settings(group)
+    found = [
+        "the spectrum was replaced"
+        if label == "spectrum"
+        else f"{label if label == 'σ' else 'the ' + label} was changed from {value} to {now[label]}"
+        for label, value in before.items()
+        if label in now and now[label] != value
+    ]
+    return found or ["the spectrum or a setting was changed"]
+
+
+def _changed_surface(material: Any, stamp: Stamp, working_space: str) -> list[str]:
+    if stamp.kept and stamp.working_space == working_space:
+        if stamp.kept == shown(material):
+            return []
+        return ["color or roughness was edited by hand after earlier edits were kept"]
+    reasons = []
+    if stamp.working_space != working_space:
+        reasons.append(f"the working space changed from {stamp.working_space} to {working_space}")
+    if stamp.derivation != DERIVATION:
+        when = "a newer" if stamp.derivation > DERIVATION else "an older"
+        reasons.append(f"it was derived by {when} Rough Spectra {stamp.version}".rstrip())
+    node = nodes.shader_node(material)
+    if node is None or node.name != stamp.node:
+        reasons.append(f"the surface no longer comes from {stamp.node!r}")
+    elif stamp.working_space == working_space and _edited(node, stamp):
+        # A change of the working space converts sockets: whether they were edited can't be told.
+        reasons.append("color or roughness was edited by hand")
+    if node is not None:
+        if node.mute:
+            reasons.append(f"{node.name!r} is muted")
+        reasons += [f"{name} is in use" for name in nodes.disturbing_sockets(node)]
+    return reasons
+
+
+def _edited(node: Any, stamp: Stamp) -> bool:
+    color, roughness = nodes.color_socket(node), nodes.roughness_socket(node)
+    if color.is_linked or roughness.is_linked:
+        return True
+    written = (*stamp.color, stamp.roughness)
+    found = (*color.default_value[:3], roughness.default_value)
+    return max(abs(a - b) for a, b in zip(written, found, strict=True)) > _SOCKET_TOLERANCE

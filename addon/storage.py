@@ -9,13 +9,27 @@ says from what; `stamp` tells whether that still holds.
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 from ..core.errors import InputError, MaterialError
+from . import live, scene_view
 from .properties import SCHEMA
 from .sample import Sample
-from .stamp import inputs_digest, sigma
+from .stamp import (
+    DERIVATION,
+    elsewhere,
+    engine_is_flat,
+    get_stamp,
+    has_scene,
+    inputs_digest,
+    settings,
+    shown,
+    sigma,
+    working_space_name,
+)
 from .target import Request, Solution
+from .version import version
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
@@ -27,25 +41,28 @@ _SENTENCES = ("notes", "altered")
 def store(material: Any, request: Request, shader: str) -> None:
     """Write the spectrum and all settings of a request into the material."""
     sample, group = request.sample, material.rough_spectra
-    group.schema = SCHEMA
-    group.sample_name = sample.name
-    group.source = sample.source
-    group.kind = sample.kind
-    group.instrument = sample.instrument
-    # repr of a float keeps every bit of it.
-    group.spectrum = json.dumps(
-        {"wavelengths": sample.wavelengths.tolist(), "values": sample.values.tolist()}
-    )
-    group.details = json.dumps(
-        {key: getattr(sample, key) for key in _DETAILS}
-        | {key: list(getattr(sample, key)) for key in _SENTENCES}
-    )
-    group.sigma = request.sigma
-    group.sigma_source = sample.sigma_source
-    group.illuminant = request.illuminant
-    group.observer = str(request.observer)
-    group.model = request.model
-    group.shader = shader
+    with live.paused():
+        group.schema = SCHEMA
+        group.sample_name = sample.name
+        group.source = sample.source
+        group.kind = sample.kind
+        group.instrument = sample.instrument
+        # repr of a float keeps every bit of it.
+        group.spectrum = json.dumps(
+            {"wavelengths": sample.wavelengths.tolist(), "values": sample.values.tolist()}
+        )
+        group.details = json.dumps(
+            {key: getattr(sample, key) for key in _DETAILS}
+            | {key: list(getattr(sample, key)) for key in _SENTENCES}
+        )
+        group.sigma = request.sigma
+        group.sigma_source = sample.sigma_source
+        group.illuminant = request.illuminant
+        group.observer = str(request.observer)
+        group.model = request.model
+        group.shader = shader
+        if request.scene is not None:
+            group.use_scene, group.scene_view = True, request.scene.to_json()
 
 
 def load(material: Any) -> Request:
@@ -60,12 +77,7 @@ def load(material: Any) -> Request:
     if not group.spectrum:
         msg = f"Material {material.name!r} has no measured spectrum; assign one first."
         raise MaterialError(msg)
-    if group.schema > SCHEMA:
-        msg = (
-            f"Material {material.name!r} was stored by a newer Rough Spectra (schema "
-            f"{group.schema}); update the extension to work with it."
-        )
-        raise MaterialError(msg)
+    _refuse_newer(material)
     try:
         spectrum, details = json.loads(group.spectrum), json.loads(group.details or "{}")
         lists = ("lab", "xyz", *_SENTENCES)
@@ -87,20 +99,53 @@ def load(material: Any) -> Request:
             "the sample again."
         )
         raise MaterialError(msg) from error
-    return Request(
+    request = Request(
         sample=sample,
         sigma=sigma(group),
         model=group.model,
         illuminant=group.illuminant,
         observer=int(group.observer),
     )
+    return in_scene(material, request)
 
 
-def set_stamp(material: Any, solution: Solution, working_space: str, node: str) -> None:
-    """Note what was derived and from what."""
+def in_scene(material: Any, request: Request) -> Request:
+    """Let a request follow the analysis of the scene that the material stores, if it is to.
+
+    Raises
+    ------
+    MaterialError
+        If what is stored cannot be read.
+    """
     group = material.rough_spectra
+    if request.scene is not None or not has_scene(group):
+        return request
+    try:
+        view = scene_view.from_json(group.scene_view)
+    except InputError as error:
+        msg = f"Material {material.name!r}: {error}"
+        raise MaterialError(msg) from error
+    return replace(request, scene=view, flat=engine_is_flat())
+
+
+def _refuse_newer(material: Any) -> None:
+    schema = material.rough_spectra.schema
+    if schema > SCHEMA:
+        msg = (
+            f"Material {material.name!r} was stored by a newer Rough Spectra (schema {schema}); "
+            "update the extension to work with it."
+        )
+        raise MaterialError(msg)
+
+
+def set_stamp(
+    material: Any, solution: Solution, working_space: str, node: str, source: Any | None = None
+) -> None:
+    """Note what was derived and from what; `source` is the evaluated material, if it was that."""
+    group = (source or material).rough_spectra
     stamp = {
         "inputs": inputs_digest(group),
+        "settings": settings(group),
         "working_space": working_space,
         "node": node,
         "color": solution.color.tolist(),
@@ -112,5 +157,38 @@ def set_stamp(material: Any, solution: Solution, working_space: str, node: str) 
         "delta_e_mean": solution.delta_e_mean,
         "delta_e_95": solution.delta_e_95,
         "warnings": list(solution.warnings),
+        "delta_e_lights": solution.delta_e_lights,
+        "scene_reason": solution.scene_reason,
+        "version": version(),
+        "derivation": DERIVATION,
     }
-    group.stamp = json.dumps(stamp)
+    material.rough_spectra.stamp = json.dumps(stamp)
+    material.rough_spectra.error = ""
+
+
+def keep(material: Any) -> None:
+    """Accept what the surface shows as edited by hand; the spectrum stays as it is.
+
+    Raises
+    ------
+    MaterialError
+        If nothing was derived from a spectrum yet, or the material is linked.
+    """
+    if get_stamp(material) is None:
+        msg = f"Material {material.name!r} has nothing derived from a spectrum yet; renew it."
+        raise MaterialError(msg)
+    group, place = material.rough_spectra, elsewhere(material)
+    if place:
+        msg = f"Material {material.name!r}: {place}."
+        raise MaterialError(msg)
+    _refuse_newer(material)
+    group.stamp = json.dumps(
+        json.loads(group.stamp)
+        | {
+            "inputs": inputs_digest(group),
+            "settings": settings(group),
+            "working_space": working_space_name(),
+            "kept": shown(material),
+        }
+    )
+    group.error = ""
