@@ -145,11 +145,10 @@ def _angle_alone(plain: str) -> float | None:
 
 def _two_angles(plain: str) -> tuple[str, str] | None:
     match = _PAIR.search(plain)
-    words = _INCIDENCE.search(plain)
-    if not match and not words:
+    words = match or _INCIDENCE.search(plain)
+    if not words:
         return None
-    first, second = match.group(1, 3) if match else words.group(1, 2)
-    light, view = abs(_value(first)), abs(_value(second))
+    light, view = abs(_value(words[1])), abs(_value(words[3 if match else 2]))
     if max(light, view) >= 90.0:
         return None  # a ratio
     if {light, view} != {0.0, 45.0}:
@@ -169,7 +168,11 @@ def geometry_of_device(model: str) -> str:
 
 
 _DEVICES = (
-    (re.compile(r"\bsp-?6[0-9]\b|\bci[67]\d\d\d?|\bcm-?(?:[235678]\d{2,3}|26|36)"), "d/8"),
+    (
+        # Not all of a maker's: Konica Minolta's CM-2500c is 45/0, its CM-512m3 has many angles.
+        re.compile(r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:26d|36d|[67]00d|2[356]00d|3[67]\d0)"),
+        "d/8",
+    ),
     (
         re.compile(
             r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"

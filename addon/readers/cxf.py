@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..sample import Sample, check_spectrum
-from . import _cxf_parts, _geometry
+from . import _cxf_parts, _cxf_xml, _geometry
 from ._cxf_parts import Specification, Spectrum, Thing
 from ._document import Document, quote
 
@@ -55,12 +55,12 @@ def read(document: Document) -> list[Sample]:
     """
     things: list[Thing] = []
     specifications: dict[str, Specification] = {}
-    pieces = _cxf_parts.parts(document)
+    pieces = _cxf_xml.parts(document)
     root = next(pieces)
-    if _cxf_parts.tag(root) != "CxF" or _OLD.search(str(root.tag)):
+    if _cxf_xml.tag(root) != "CxF" or _OLD.search(str(root.tag)):
         raise document.error("", "this is an older CxF; export it as CxF3, which ISO 17972 fixes")
     for piece in pieces:
-        if _cxf_parts.tag(piece) == "Object":
+        if _cxf_xml.tag(piece) == "Object":
             things.append(_cxf_parts.thing(document, len(things) + 1, piece))
         else:
             name, found = _cxf_parts.specification(document, piece)
@@ -156,7 +156,7 @@ def _wavelengths(
         )
     key = (start, step, spectrum.values.size)
     if key not in grids:
-        grids[key] = start + step * np.arange(spectrum.values.size)
+        grids[key] = start + step * np.arange(spectrum.values.size, dtype=np.float64)
         grids[key].flags.writeable = False
     return grids[key]
 

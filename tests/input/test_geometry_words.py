@@ -5,7 +5,7 @@
 import time
 
 import pytest
-from rough_spectra.addon.readers._geometry import instrument_of, specular_of
+from rough_spectra.addon.readers._geometry import geometry_of_device, instrument_of, specular_of
 from rough_spectra.core.instruments import REGISTRY
 
 
@@ -72,3 +72,25 @@ def test_others_get_the_nearest_and_a_sentence(text, name, part):
 def test_what_the_file_says_elsewhere_of_specular_light_counts():
     assert instrument_of("d/8", "SCE") == ("de:8", "")
     assert instrument_of("d/8", "SCI") == ("di:8", "")
+
+
+@pytest.mark.parametrize(
+    ("model", "geometry"),
+    [
+        ("GretagMacbeth i1 Pro", "45/0"),
+        ("i1Pro 2 ; Serial number 1001785", "45/0"),
+        ("Spectrolino", "45/0"),
+        ("Spectro LFP qb", "45/0"),
+        ("X-Rite Ci64", "d/8"),
+        ("Ci7800", "d/8"),
+        ("CM-700d", "d/8"),
+        ("CM-26dG", "d/8"),
+        ("X-Rite SP62", "d/8"),
+        ("CM-512m3A", ""),
+        ("CM-2500c", ""),
+        ("HP DesignJet Z9 embedded spectro", ""),
+        ("", ""),
+    ],
+)
+def test_devices_whose_geometry_is_known(model, geometry):
+    assert geometry_of_device(model) == geometry
