@@ -19,6 +19,7 @@ from .. import light_spectrum, working_space
 from ..scene_view import SceneView, make_light
 from . import camera, sampling, sources, surfaces
 from .camera import View
+from .lamps import Dome
 from .sampling import Samples
 from .sources import Lamp
 from .surfaces import Hits
@@ -118,9 +119,9 @@ def _look(
             parts.append(
                 _one_look(found, lamps, luminance, linked, start, normals, facing, view, random)
             )
-    empty = np.zeros(0)
     if not parts:
-        return Samples(empty, empty, empty, empty.astype(int), empty.astype(int), empty), places
+        none, no_index = np.zeros(0), np.zeros(0, int)
+        return Samples(none, none, none, no_index, no_index, none, np.zeros((0, 3))), places
     joined = [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
     return Samples(*joined), places
 
@@ -153,7 +154,7 @@ def _one_look(
     hidden = found.blocked(start[tried], toward[tried], distance[tried] * (1 - 1e-3))
     free = tried[~hidden]
     angles = sampling.angles(normals[free], view[free], toward[free])
-    return (*angles, free, lamp[free], total[free] / _LOOKS)
+    return (*angles, free, lamp[free], total[free] / _LOOKS, toward[free])
 
 
 def _some_of_each(materials: Array, random: np.random.Generator) -> Array:
@@ -190,7 +191,7 @@ def _views(
     power = np.bincount(samples.lamp, weights, minlength=len(lamps))
     if not power.sum() > 0:
         return {}
-    xyz = np.array([np.linalg.solve(space.from_xyz, lamp.rgb) for lamp in lamps])
+    xyz = np.array([_arriving(i, lamp, samples, weights, space) for i, lamp in enumerate(lamps)])
     groups = sampling.group_colors(xyz, power)
     colors = [_color(groups == light, xyz, power, lamps) for light in range(groups.max() + 1)]
     views = {}
@@ -203,6 +204,17 @@ def _views(
         chosen, weight = sampling.reduce(own, weights[mine], groups[own.lamp])
         views[materials[index]] = _view(scene, own[chosen], weight, groups, colors)
     return views
+
+
+def _arriving(
+    index: int, lamp: Lamp, samples: Samples, weights: Array, space: working_space.WorkingSpace
+) -> Array:
+    """XYZ of a lamp; of a picture around the scene, the mean of what arrives from it."""
+    mine = samples.lamp == index
+    if not isinstance(lamp.source, Dome) or lamp.source.xyz is None or not weights[mine].any():
+        return np.linalg.solve(space.from_xyz, lamp.rgb)
+    colors = lamp.source.xyz[lamp.source.pixel(samples.toward[mine])]
+    return np.average(colors / colors[:, 1:2].clip(1e-30), axis=0, weights=weights[mine])
 
 
 def _view(

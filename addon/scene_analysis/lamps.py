@@ -125,11 +125,13 @@ class Dome:
 
     `radiance` is an equirectangular picture, shape (rows, columns), from the zenith down, whose
     middle column lies towards +X and whose right half towards -Y, as Cycles looks it up; one
-    pixel for an even world. `turn` is the angle about Z by which it is turned.
+    pixel for an even world. `turn` is the angle about Z by which it is turned. `xyz` is the
+    picture's color, shape (rows, columns, 3), or None where all of it is of one color.
     """
 
     radiance: Array
     turn: float = 0.0
+    xyz: Array | None = None
 
     def sample(self, points: Array, normals: Array, random: np.random.Generator) -> Sampled:
         """Choose half of the directions by the surface's cosine, half by the world's light."""
@@ -151,21 +153,21 @@ class Dome:
         sin = np.sqrt(np.maximum(1 - cos**2, 0))
         bright = np.stack((sin * np.cos(azimuth), sin * np.sin(azimuth), cos), axis=-1)
         toward = np.where(by_light[:, np.newaxis], bright, toward)
-        radiance = self.seen(toward)
+        radiance = self.radiance[self.pixel(toward)]
         cosine = _cosine(toward, normals)
         density = 0.5 * cosine / np.pi + 0.5 * radiance / power[-1]
         irradiance = np.where(cosine > 0, radiance * cosine / np.maximum(density, 1e-30), 0)
         return Sampled(toward, np.full(count, FAR), irradiance)
 
-    def seen(self, toward: Array) -> Array:
-        """Radiance from directions, shape (points,)."""
+    def pixel(self, toward: Array) -> tuple[Array, Array]:
+        """Row and column that directions of shape (points, 3) look at."""
         rows, columns = self.radiance.shape
         polar = np.arccos(np.clip(toward[:, 2], -1, 1))
         turned = np.arctan2(toward[:, 1], toward[:, 0]) - self.turn
         across = (0.5 - turned / (2 * np.pi)) % 1.0
         row = np.minimum((polar / np.pi * rows).astype(int), rows - 1)
         column = np.minimum((across * columns).astype(int), columns - 1)
-        return np.asarray(self.radiance[row, column])
+        return row, column
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,8 @@ class Samples:
         Index of the lamp.
     light
         Luminance that arrives.
+    toward
+        Where it comes from, unit vectors of shape (ways, 3).
     """
 
     theta_i: Array
@@ -47,6 +49,7 @@ class Samples:
     hit: Array
     lamp: Array
     light: Array
+    toward: Array
 
     def __getitem__(self, kept: Array) -> Samples:
         """Give some of the ways."""

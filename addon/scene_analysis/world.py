@@ -68,14 +68,11 @@ def _picture(
         sentence = f"World {world.name!r}: the picture {name!r} cannot be read; it counts as white."
         return [Part(world.name, _even(), strength)], [sentence]
     small = _reduce(pixels)
-    luminance_of = np.linalg.inv(space.from_xyz)[1]
-    luminance = np.maximum(small @ luminance_of, 0)
-    solid = np.sin((np.arange(len(small)) + 0.5) * np.pi / len(small))[:, np.newaxis, np.newaxis]
-    mean = (small * solid).sum(axis=(0, 1)) / (solid.sum() * small.shape[1])
-    level = float(mean @ luminance_of)
-    if not level > 0:
+    xyz = np.maximum(small * strength, 0) @ np.linalg.inv(space.from_xyz).T
+    if not xyz[..., 1].max() > 0:
         return [], []
-    return [Part(name, Dome(luminance / level, _turn(node)), mean * strength)], []
+    # Its luminance is in the picture; white has one of 1.
+    return [Part(name, Dome(xyz[..., 1], _turn(node), xyz), np.ones(3))], []
 
 
 def _pixels(image: Any) -> Array | None:
@@ -105,7 +102,8 @@ def _reduce(pixels: Array) -> Array:
 
 def _turn(node: Any) -> float:
     """Angle about Z by which a Mapping node turns the world."""
-    links = node.inputs["Vector"].links
+    vector = node.inputs.get("Vector")
+    links = vector.links if vector is not None else ()
     mapping = links[0].from_node if links else None
     if mapping is None or mapping.bl_idname != "ShaderNodeMapping":
         return 0.0
