@@ -44,7 +44,9 @@ def sniff(document: Document) -> bool:
         return False
     if _COUNT.fullmatch(top[0]):
         return bool(_NUMBERS.fullmatch(top[1]))
-    return bool(_TITLE.search(top[0])) and _labels.is_wavelength(top[1])
+    # A title that is commented out is none: `_table.rows` would not show it.
+    titled = bool(_TITLE.search(top[0])) and not top[0].lstrip().startswith("#")
+    return titled and _labels.is_wavelength(top[1])
 
 
 def read(document: Document) -> list[Sample]:

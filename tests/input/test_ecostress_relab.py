@@ -127,3 +127,8 @@ def test_each_fault_of_a_relab_file_is_named(tmp_path, text, old, new, parts):
     sentence = refusal(write(tmp_path, text.replace(old, new, 1)))
     for part in parts:
         assert part in sentence
+
+
+def test_a_commented_title_is_none():
+    """Found by fuzzing: the title was seen, and then skipped as a comment."""
+    refusal(FIXTURES / "relab" / "commented-title.txt")
