@@ -16,13 +16,14 @@ from .operators import (
     find_nearest,
     import_review,
     import_samples,
+    keep,
     library,
     measure,
     renew,
 )
 
 _MODULES = (
-    *(properties, preferences, assign_preset, assign_file, renew, bake, measure),
+    *(properties, preferences, assign_preset, assign_file, renew, keep, bake, measure),
     *(import_samples, import_review, library, find_nearest, build_assets, analyze_scene, panels),
 )
 classes = tuple(cls for module in _MODULES for cls in module.classes)
