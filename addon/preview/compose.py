@@ -18,6 +18,8 @@ _STRIP = 28.0
 """Height of the range of σ in a sheet, at scale 1."""
 _GAP = 7.0
 """Between the figures of a sheet, at scale 1."""
+_LOWEST = 70.0
+"""Height of a plot, at scale 1, below which its curves cannot be told apart."""
 
 
 def picture(figure: str, found: Data, side: int, look: Look) -> Array:
@@ -46,17 +48,17 @@ def picture(figure: str, found: Data, side: int, look: Look) -> Array:
 
 def _sheet(found: Data, side: int, look: Look) -> Array:
     strip, gap = round(_STRIP * look.scale), round(_GAP * look.scale)
-    rest = side - strip - 2 * gap
-    if rest < 2 * strip:
-        # No room for everything: the plot that says most.
-        return _angles(found, (side, side), look)
-    upper = (side, rest // 2)
+    plots = [_spectrum, _angles]
+    high = (side - strip - 2 * gap) // 2
+    if high < _LOWEST * look.scale:
+        # No room for both: the one that changes with σ.
+        plots, high = [_angles], side - strip - gap
     canvas = raster.blank(side, side)
     canvas[:strip] = figures.sigma_range(found.sigma, found.sigma_max, (side, strip), look)
     row = strip + gap
-    canvas[row : row + upper[1]] = _spectrum(found, upper, look)
-    row += upper[1] + gap
-    canvas[row:] = _angles(found, (side, side - row), look)
+    for plot in plots:
+        canvas[row : row + high] = plot(found, (side, high), look)
+        row += high + gap
     return canvas
 
 

@@ -255,8 +255,9 @@ def _angles_ground(axes: Axes, size: Size, look: Look, engine: str) -> Array:
     row = axes.bottom + 4 * look.scale + text.height(look.font)
     plot.name_below(canvas, axes, [(t, f"{plot.label(t)}°") for t in _ANGLE_TICKS], row, look)
     plot.draw_legend(canvas, _angle_keys(look, engine), axes.left, look)
-    [[x, _]] = axes.place([-LIGHT_ANGLE], [0])
-    _sun(canvas, float(x), axes.bottom - 8 * look.scale, look)
+    if axes.bottom - axes.top >= 36 * look.scale:
+        [[x, _]] = axes.place([-LIGHT_ANGLE], [0])
+        _sun(canvas, float(x), axes.bottom - 8 * look.scale, look)
     return canvas
 
 
