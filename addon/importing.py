@@ -21,7 +21,17 @@ class Found:
 
     path: Path
     sample: Sample
-    sentences: tuple[str, ...]
+    judged: tuple[str, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is not as it should be, or not as in the file."""
+        return (*self.sample.altered, *self.judged)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Warnings, and what else the reader has to tell."""
+        return (*self.sample.notes, *self.warnings)
 
 
 @dataclass(frozen=True)
@@ -51,7 +61,7 @@ def read(paths: Iterable[str | os.PathLike[str]]) -> Batch:
             refused.append(str(error))
             continue
         for sample, judged in zip(samples, judgement.judge(samples), strict=True):
-            found.append(Found(path, sample, (*sample.notes, *sample.altered, *judged)))
+            found.append(Found(path, sample, judged))
     return Batch(tuple(found), tuple(refused))
 
 

@@ -56,7 +56,7 @@ class ROUGHSPECTRA_UL_matches(bpy.types.UIList):
         swatch.ui_units_x = 1.6
         swatch.prop(item, "swatch", text="")
         split = row.split(factor=0.75)
-        split.label(text=f"{item.name}  ({item.sample})", translate=False)
+        split.label(text=f"{item.name}  ({item.sample.partition('/')[0]})", translate=False)
         split.label(text=f"ΔE00 {item.difference:.1f}", translate=False)
 
 
@@ -119,7 +119,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
         """Show the matches while a color is picked."""
         with waiting(context):
             _find(self)
-        return context.window_manager.invoke_props_dialog(self, width=400, confirm_text="Assign")
+        return context.window_manager.invoke_props_dialog(self, width=480, confirm_text="Assign")
 
     def draw(self, _context: Any) -> None:
         """Draw color, matches and how to assign."""

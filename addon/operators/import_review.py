@@ -43,7 +43,14 @@ class RoughSpectraImportItem(bpy.types.PropertyGroup):
     )
     has_color: BoolProperty(name="Has Color", description="Whether its bands make a color")
     about: StringProperty(name="About", description="What the file says of the measurement")
-    sentences: StringProperty(name="Sentences", description="What to know of it, one a line")
+    warnings: StringProperty(name="Warnings", description="What to watch for, one a line")
+    notes: StringProperty(name="Notes", description="What else to know of it, one a line")
+
+
+def _icon_of(item: Any) -> str:
+    if item.warnings:
+        return "ERROR"
+    return "INFO" if item.notes else "BLANK1"
 
 
 class ROUGHSPECTRA_UL_import(bpy.types.UIList):
@@ -72,7 +79,7 @@ class ROUGHSPECTRA_UL_import(bpy.types.UIList):
         split.label(text=item.name, translate=False)
         detail = split.row()
         detail.label(text=item.about, translate=False)
-        detail.label(text="", icon="ERROR" if item.sentences else "BLANK1")
+        detail.label(text="", icon=_icon_of(item))
 
 
 def _choose_all(operator: Any, _context: Any) -> None:
@@ -122,8 +129,10 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         row.label(text=f"{len(self.items)} samples")
         if 0 <= self.index < len(self.items):
             column = layout.column(align=True)
-            for sentence in filter(None, self.items[self.index].sentences.split("\n")):
-                _draw_sentence(column, sentence, "ERROR")
+            item = self.items[self.index]
+            for sentences, icon in ((item.warnings, "ERROR"), (item.notes, "INFO")):
+                for sentence in filter(None, sentences.split("\n")):
+                    _draw_sentence(column, sentence, icon)
         _draw_refused(layout, _batch[0].refused if _batch else ())
         layout.separator(type="LINE")
         layout.use_property_split = True
@@ -171,8 +180,10 @@ def _fill(items: Any, found: tuple[Found, ...]) -> None:
         item.has_color = color[0] == color[0]  # NaN where the bands make none
         if item.has_color:
             item.swatch = color
-        if each.sentences:
-            item.sentences = "\n".join(each.sentences)
+        if each.warnings:
+            item.warnings = "\n".join(each.warnings)
+        if each.sample.notes:
+            item.notes = "\n".join(each.sample.notes)
 
 
 def _about(each: Found) -> str:

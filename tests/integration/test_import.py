@@ -98,7 +98,7 @@ def test_a_spectrum_without_a_color_makes_no_material_and_leaves_none(folder, tm
 def review(batch, chosen, **options):
     """Press OK in the dialog, with the samples checked that `chosen` says."""
     import_review._batch[:] = [batch]
-    empty = {"swatch": (0, 0, 0), "has_color": False, "about": "", "sentences": ""}
+    empty = {"swatch": (0, 0, 0), "has_color": False, "about": "", "warnings": "", "notes": ""}
     items = [{"name": "", "chosen": is_chosen, **empty} for is_chosen in chosen]
     return OPS.import_review("EXEC_DEFAULT", items=items, **options)
 
