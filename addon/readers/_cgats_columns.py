@@ -161,7 +161,7 @@ def _stated_wavelengths(table: Table, named: NDArray[np.float64]) -> NDArray[np.
         number(table.last(key))
         for key in ("SPECTRAL_BANDS", "SPECTRAL_START_NM", "SPECTRAL_END_NM")
     )
-    if math.isnan(start) or math.isnan(end):
+    if not (math.isfinite(start) and math.isfinite(end)):
         return named
     if count == named.size or math.isnan(count):
         exact = np.linspace(start, end, named.size)
