@@ -44,6 +44,10 @@ def changed(group: Any, _context: Any) -> None:
 
         with paused():
             assign.follow([(material, material)])
+        if not bpy.app.background:
+            from .preview import icons
+
+            icons.refresh(material)
 
 
 def animated(depsgraph: Any) -> list[tuple[Any, Any]]:

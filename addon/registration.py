@@ -13,6 +13,7 @@ from .operators import (
     assign_preset,
     bake,
     build_assets,
+    choose_sample,
     find_nearest,
     import_review,
     import_samples,
@@ -23,7 +24,17 @@ from .operators import (
 )
 
 _MODULES = (
-    *(properties, preferences, assign_preset, assign_file, renew, keep, bake, measure),
+    *(
+        properties,
+        preferences,
+        choose_sample,
+        assign_preset,
+        assign_file,
+        renew,
+        keep,
+        bake,
+        measure,
+    ),
     *(import_samples, import_review, library, find_nearest, build_assets, analyze_scene, panels),
 )
 classes = tuple(cls for module in _MODULES for cls in module.classes)
@@ -36,6 +47,7 @@ def register() -> None:
     properties.register_pointer()
     import_samples.register_menu()
     build_assets.register_menu()
+    panels.register_menus()
     live.register()
     command_line.register()
 
@@ -44,6 +56,7 @@ def unregister() -> None:
     """Undo `register`, in reverse."""
     command_line.unregister()
     live.unregister()
+    panels.unregister_menus()
     build_assets.unregister_menu()
     import_samples.unregister_menu()
     properties.unregister_pointer()

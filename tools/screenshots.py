@@ -31,6 +31,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "images" / "window")
     parser.add_argument("--scale", type=float, default=1.0, help="UI scale")
     parser.add_argument("--theme", choices=("dark", "light"), default="dark")
+    parser.add_argument("--size", default="1600x1900", help="of the window, in pixels")
     parser.add_argument(
         "--grab",
         default="",
@@ -43,7 +44,7 @@ def main(arguments: Sequence[str]) -> int:
     with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
         command = [
             *(options.blender, "--gpu-backend", "opengl"),
-            *("--window-geometry", "0", "0", "1600", "1000"),
+            *("--window-geometry", "0", "0", *options.size.split("x")),
             *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
             *(str(options.zip.resolve()), str(options.output.resolve())),
             *(str(options.scale), options.theme, options.grab, *options.names),

@@ -100,7 +100,8 @@ def _cut(path: str, area: Any, height: int) -> None:
     pixels = whole.get_pixels(OpenImageIO.UINT8)[
         top : top + area.height, area.x : area.x + area.width
     ]
-    busy = np.flatnonzero(np.ptp(pixels[:, 8:-40], axis=1).max(axis=-1) > CONTRAST)
+    inner = pixels[:-8, 48:-48]
+    busy = np.flatnonzero(np.ptp(inner, axis=1).max(axis=-1) > CONTRAST)
     pixels = np.ascontiguousarray(pixels[: min(len(pixels), int(busy.max()) + 12), :, :3])
     cut = OpenImageIO.ImageBuf(
         OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], 3, OpenImageIO.UINT8)
@@ -130,6 +131,11 @@ def _material_tab() -> None:
     window = bpy.context.window_manager.windows[0]
     panel = max(window.screen.areas, key=lambda area: area.x)
     panel.type = "PROPERTIES"
+    # A script cannot fold panels, so the others of the tab are hidden.
+    for cls in bpy.types.Panel.__subclasses__():
+        in_tab = getattr(cls, "bl_context", "") == "material" and getattr(cls, "bl_label", "")
+        if in_tab and cls.is_registered and "rough_spectra" not in cls.__module__:
+            cls.poll = classmethod(lambda _cls, _context: False)
     with bpy.context.temp_override(window=window, area=panel):
         panel.spaces.active.context = "MATERIAL"
 

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
+from math import radians
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -90,6 +92,32 @@ def new_request(sample: Sample, sigma: float) -> Request:
 
     chosen = preferences.defaults()
     return Request(sample, sigma, illuminant=chosen.illuminant, observer=chosen.observer)
+
+
+def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Shader]:
+    """Give the request of a material with another sample, and its shader; the settings stay.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`, or None where it has yet to be made.
+    """
+    from .. import stamp, storage
+
+    if material is None or not stamp.has_spectrum(material):
+        return new_request(sample, radians(sample.sigma_degrees or 0.0)), "AUTO"
+    return replace(storage.load(material), sample=sample), material.rough_spectra.shader
+
+
+def is_material_tree(context: Any) -> bool:
+    """Whether the node editor shows the nodes of a material."""
+    space = context.space_data
+    tree = getattr(space, "edit_tree", None)
+    return (
+        tree is not None
+        and tree.bl_idname == "ShaderNodeTree"
+        and isinstance(getattr(space, "id", None), bpy.types.Material)
+    )
 
 
 def assign_in_scope(

@@ -1,0 +1,200 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..operators import common
+from . import material, menus, scene, source
+
+_ENGINES = {"CYCLES", "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
+
+
+class _Tab:
+    """Place of a panel in the Material tab of the Properties editor."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+    COMPAT_ENGINES = _ENGINES
+
+    @classmethod
+    def is_here(cls, context: Any) -> bool:
+        """Show wherever a material can be."""
+        thing = common.active_object(context)
+        return common.active_material(context) is not None or hasattr(
+            getattr(thing, "data", None), "materials"
+        )
+
+
+class _Sidebar:
+    """Place of a panel in the sidebar of the shader editor."""
+
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Rough Spectra"
+
+    @classmethod
+    def is_here(cls, context: Any) -> bool:
+        """Show where the nodes are those of a material."""
+        return common.is_material_tree(context)
+
+
+class _Main:
+    """Measured spectrum of the material"""
+
+    bl_label = "Rough Spectra"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show wherever a material can be."""
+        return bool(cls.is_here(context))  # type: ignore[attr-defined]
+
+    def draw(self, context: Any) -> None:
+        """Draw the sample and the settings."""
+        material.draw_sample(_prepared(self), context)
+
+
+class _Part:
+    """A part that needs a material with a spectrum."""
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show where the material stores a spectrum."""
+        here = cls.is_here(context)  # type: ignore[attr-defined]
+        return here and material.stored_material(context) is not None
+
+
+class _Difference(_Part):
+    """Target and Blender side by side, and what the difference means"""
+
+    bl_label = "Difference"
+
+    def draw(self, context: Any) -> None:
+        """Draw swatches, numbers and words."""
+        layout = _prepared(self)
+        material.draw_difference(layout, context, material.stored_material(context))
+
+
+class _Plots(_Part):
+    """Range of σ, spectrum, and reflectance over the view angle"""
+
+    bl_label = "Plots"
+
+    def draw(self, context: Any) -> None:
+        """Draw the plots."""
+        material.draw_plots(self.layout, context, material.stored_material(context))  # type: ignore[attr-defined]
+
+
+class _Measurement:
+    """Measure the material with a virtual spectrophotometer"""
+
+    bl_label = "Measurement"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show where there is a material."""
+        here = cls.is_here(context)  # type: ignore[attr-defined]
+        return here and common.active_material(context) is not None
+
+    def draw(self, context: Any) -> None:
+        """Draw the buttons and the last measurement."""
+        material.draw_measurement(_prepared(self), context)
+
+
+class _Scene(_Part):
+    """What the scene shows of the material"""
+
+    bl_label = "Scene"
+
+    def draw(self, context: Any) -> None:
+        """Draw the lights found."""
+        scene.draw_scene(_prepared(self), context, material.stored_material(context))
+
+
+class _Source(_Part):
+    """Where the spectrum comes from"""
+
+    bl_label = "Source"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Draw file, instrument and notes."""
+        source.draw_source(_prepared(self), context, material.stored_material(context))
+
+
+def _prepared(panel: Any) -> Any:
+    layout = panel.layout
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
+
+
+class ROUGHSPECTRA_PT_material(_Main, _Tab, bpy.types.Panel):
+    """Measured spectrum of the material"""
+
+
+class ROUGHSPECTRA_PT_difference(_Difference, _Tab, bpy.types.Panel):
+    """Target and Blender side by side, and what the difference means"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_plots(_Plots, _Tab, bpy.types.Panel):
+    """Range of σ, spectrum, and reflectance over the view angle"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_measurement(_Measurement, _Tab, bpy.types.Panel):
+    """Measure the material with a virtual spectrophotometer"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_scene(_Scene, _Tab, bpy.types.Panel):
+    """What the scene shows of the material"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_source(_Source, _Tab, bpy.types.Panel):
+    """Where the spectrum comes from"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_nodes(_Main, _Sidebar, bpy.types.Panel):
+    """Measured spectrum of the material"""
+
+
+class ROUGHSPECTRA_PT_nodes_difference(_Difference, _Sidebar, bpy.types.Panel):
+    """Target and Blender side by side, and what the difference means"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
+
+
+class ROUGHSPECTRA_PT_nodes_plots(_Plots, _Sidebar, bpy.types.Panel):
+    """Range of σ, spectrum, and reflectance over the view angle"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
+
+
+class ROUGHSPECTRA_PT_nodes_measurement(_Measurement, _Sidebar, bpy.types.Panel):
+    """Measure the material with a virtual spectrophotometer"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
+
+
+classes = (
+    *(ROUGHSPECTRA_PT_material, ROUGHSPECTRA_PT_difference, ROUGHSPECTRA_PT_plots),
+    *(ROUGHSPECTRA_PT_measurement, ROUGHSPECTRA_PT_scene, ROUGHSPECTRA_PT_source),
+    *(ROUGHSPECTRA_PT_nodes, ROUGHSPECTRA_PT_nodes_difference, ROUGHSPECTRA_PT_nodes_plots),
+    ROUGHSPECTRA_PT_nodes_measurement,
+)
+register_menus = menus.register
+unregister_menus = menus.unregister

@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the scene shows of a material: its lights, and how right it is under each."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bpy.app.translations import pgettext_iface as iface_
+
+from .. import stamp
+from ..preview import words
+from .text import sentence
+
+
+def draw_scene(layout: Any, context: Any, material: Any) -> None:
+    """Draw the button, the choice, and the lights that were found."""
+    group = material.rough_spectra
+    row = layout.row(align=True)
+    row.operator("rough_spectra.analyze_scene", icon="LIGHT").scope = "VIEW"
+    if not group.scene_view:
+        text = iface_("Finds the lights and directions that meet the materials in view")
+        sentence(layout, context, text, "INFO")
+        return
+    found = stamp.get_stamp(material)
+    if not group.use_scene or found is None:
+        return
+    column = layout.column(align=True)
+    for name, delta_e in found.delta_e_lights:
+        text = f"{name}: ΔE00 {delta_e:.2f}, {iface_(words.words(delta_e))}"
+        sentence(column, context, text, "LIGHT")
+    if found.scene_reason:
+        sentence(layout, context, found.scene_reason, "INFO")
