@@ -75,7 +75,7 @@ class Ordinates:
             It does not begin with X, holds something else than the forms above, or contradicts the
             last ordinate of the line before.
         """
-        if not self._ends_in_difference and self._plain(line, text):
+        if not text.strip() or (not self._ends_in_difference and self._plain(line, text)):
             return
         tokens = _TOKEN.finditer(text)
         first = next(tokens, None)
