@@ -7,11 +7,14 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import BoolProperty, EnumProperty
 
 from ...core.errors import RoughSpectraError
 from .. import stamp
 from . import common
+
+_NAMED = 3
+"""Materials named in a report; of more only the number is told."""
 
 
 class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
@@ -21,34 +24,75 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
     bl_label = "Renew"
     bl_options = {"REGISTER", "UNDO"}
 
-    scope: EnumProperty(name="For", description="Materials to renew", items=common.SCOPE_ITEMS)
+    scope: EnumProperty(
+        name="For",
+        description="Materials to renew",
+        items=(
+            *common.SCOPE_ITEMS,
+            ("ALL_STALE", "All Not Up to Date", "Every material of the file that needs it"),
+        ),
+    )
+    overwrite_edits: BoolProperty(
+        name="Overwrite Edits by Hand",
+        description="Renew materials, too, whose color or roughness was edited by hand; the active "
+        "material alone always is",
+        default=False,
+    )
 
     @classmethod
-    def poll(cls, context: Any) -> bool:
+    def poll(cls, _context: Any) -> bool:
         """Need a material with a spectrum."""
-        material = common.active_material(context)
-        if material is not None and stamp.has_spectrum(material):
+        if any(stamp.has_spectrum(material) for material in bpy.data.materials):
             return True
-        cls.poll_message_set("The material has no measured spectrum; assign one first")
+        cls.poll_message_set("No material has a measured spectrum; assign one first")
         return False
 
     def execute(self, context: Any) -> set[str]:
-        """Renew all materials in scope that store a spectrum, or none."""
+        """Renew the active material, or all in scope that can be."""
         from .. import assign
 
         try:
-            found = common.materials_in_scope(context, self.scope)
-            materials = [material for material in found if stamp.has_spectrum(material)]
-            if not materials:
-                msg = "No material in scope has a measured spectrum; assign one first."
-                raise RoughSpectraError(msg)
+            materials = self._materials(context)
+            left: list[str] = []
+            if self.scope != "ACTIVE":
+                materials, left = self._without_edited(materials)
+                materials, refused = assign.renewable(materials)
+                left += refused
             solutions = assign.renew(materials)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        for sentence in left:
+            self.report({"WARNING"}, sentence)
         common.report_warnings(self, zip(materials, solutions, strict=True))
-        self.report({"INFO"}, f"{len(materials)} materials renewed")
-        return {"FINISHED"}
+        self.report({"INFO"}, f"{_names(materials)} renewed")
+        return {"FINISHED"} if materials else {"CANCELLED"}
+
+    def _materials(self, context: Any) -> list[Any]:
+        if self.scope == "ALL_STALE":
+            states = ((m, stamp.state(m)) for m in bpy.data.materials)
+            found = [m for m, state in states if state.kind in {"stale", "error"}]
+            return sorted(found, key=lambda m: m.name)
+        found = common.materials_in_scope(context, self.scope)
+        materials = [material for material in found if stamp.has_spectrum(material)]
+        if not materials:
+            msg = "No material in scope has a measured spectrum; assign one first."
+            raise RoughSpectraError(msg)
+        return materials
+
+    def _without_edited(self, materials: list[Any]) -> tuple[list[Any], list[str]]:
+        """Leave out what was edited by hand, and say so."""
+        edited = [] if self.overwrite_edits else [m for m in materials if stamp.edited_by_hand(m)]
+        if not edited:
+            return materials, []
+        sentence = f"{_names(edited)} left as edited by hand; overwrite edits to renew them too"
+        return [m for m in materials if m not in edited], [sentence]
+
+
+def _names(materials: list[Any]) -> str:
+    if 0 < len(materials) <= _NAMED:
+        return ", ".join(material.name for material in materials)
+    return f"{len(materials)} materials"
 
 
 classes = (ROUGHSPECTRA_OT_renew,)

@@ -117,7 +117,7 @@ def test_without_an_object_poll_says_what_to_select():
 
 
 def test_polls_of_renew_and_bake_say_what_is_missing():
-    with pytest.raises(RuntimeError, match="no measured spectrum; assign one first"):
+    with pytest.raises(RuntimeError, match="No material has a measured spectrum; assign one first"):
         OPS.renew("EXEC_DEFAULT")
     with pytest.raises(RuntimeError, match="There is no material to measure"):
         OPS.bake("EXEC_DEFAULT")

@@ -1,0 +1,276 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Color and roughness follow the settings: at once, over undo, and through an animation."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from rough_spectra.addon import assign, live, nodes, stamp, storage, target, working_space
+from rough_spectra.addon.openimageio import openimageio
+from rough_spectra.core import cycles
+
+
+def sockets(material):
+    node = nodes.shader_node(material)
+    return (
+        *nodes.color_socket(node).default_value[:3],
+        nodes.roughness_socket(node).default_value,
+    )
+
+
+def derived(request):
+    """What the request gives when it is assigned."""
+    [solution] = target.solve([request], working_space.current())
+    return (*solution.color, solution.roughness)
+
+
+@pytest.fixture
+def material(make_material, colorchecker, request_for):
+    found = make_material("Wall", node="ShaderNodeBsdfPrincipled")
+    assign.assign([(found, request_for(colorchecker[6], 20))])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("setting", "value"),
+    [
+        ("sigma", math.radians(40)),
+        ("kind", "reading"),
+        ("illuminant", "A"),
+        ("model", "auto"),
+    ],
+)
+def test_a_setting_is_followed_at_once(material, setting, value):
+    before = sockets(material)
+    setattr(material.rough_spectra, setting, value)
+    assert sockets(material) != before
+    assert sockets(material) == pytest.approx(derived(storage.load(material)), abs=1e-6)
+    assert stamp.state(material).kind == "fresh"
+
+
+def test_instrument_is_followed(make_material, nix, request_for):
+    material = make_material()
+    assign.assign([(material, request_for(next(iter(nix.values()))))])
+    before = sockets(material)
+    material.rough_spectra.instrument = "di:8"
+    assert sockets(material) == pytest.approx(derived(storage.load(material)), abs=1e-6)
+    assert sockets(material) != before
+
+
+def test_another_shader_is_made_at_once(material):
+    material.rough_spectra.shader = "DIFFUSE"
+    assert nodes.shader_node(material).bl_idname == "ShaderNodeBsdfDiffuse"
+    assert stamp.state(material).kind == "fresh"
+
+
+def test_what_does_not_change_the_color_writes_nothing(material):
+    before = material.rough_spectra.stamp
+    material.rough_spectra.observer = "10"
+    assert material.rough_spectra.stamp == before
+
+
+def edit_color(material):
+    nodes.color_socket(nodes.shader_node(material)).default_value[0] = 0.9
+
+
+def edit_roughness(material):
+    nodes.roughness_socket(nodes.shader_node(material)).default_value = 0.9
+
+
+def mute(material):
+    nodes.shader_node(material).mute = True
+
+
+def link_texture(material):
+    tree = material.node_tree
+    texture = tree.nodes.new("ShaderNodeTexNoise")
+    tree.links.new(texture.outputs["Color"], nodes.color_socket(nodes.shader_node(material)))
+
+
+def keep_edit(material):
+    edit_color(material)
+    storage.keep(material)
+
+
+def newer(material):
+    material.rough_spectra.schema = 99
+
+
+@pytest.mark.parametrize("edit", [edit_color, edit_roughness, mute, link_texture, keep_edit, newer])
+def test_what_was_edited_by_hand_is_not_overwritten_unasked(material, edit):
+    edit(material)
+    before, written = sockets(material), material.rough_spectra.stamp
+    material.rough_spectra.sigma = math.radians(45)
+    assert sockets(material) == before
+    assert material.rough_spectra.stamp == written
+    assert stamp.state(material).kind in {"stale", "error"}
+
+
+def test_a_material_without_spectrum_is_left_alone(make_material):
+    material = make_material()
+    before = sockets(material)
+    material.rough_spectra.sigma = 0.5
+    assert sockets(material) == before
+
+
+def test_storing_writes_the_sockets_once(material, colorchecker, request_for, monkeypatch):
+    count = []
+    write = nodes.write
+    monkeypatch.setattr(nodes, "write", lambda *args: count.append(1) or write(*args))
+    assign.assign([(material, request_for(colorchecker[3], 45, illuminant="A", model="closure"))])
+    assert len(count) == 1
+
+
+def test_what_cannot_be_derived_is_told_and_mended(material, capfd):
+    nodes.shader_node(material).inputs["Metallic"].default_value = 0.0
+    before = sockets(material)
+    material.node_tree.nodes.active = nodes.shader_node(material)
+    nodes.shader_node(material).inputs["Base Color"].keyframe_insert("default_value")
+    material.rough_spectra.sigma = math.radians(45)
+    state = stamp.state(material)
+    assert state.kind == "error"
+    assert "animated" in state.reasons[0]
+    assert sockets(material) == before
+    material.node_tree.animation_data_clear()
+    material.rough_spectra.sigma = math.radians(46)
+    assert stamp.state(material).kind == "fresh"
+    assert capfd.readouterr().err == ""
+
+
+def test_dragging_and_undo_go_together(material):
+    window = bpy.data.window_managers[0].windows[0]
+    with bpy.context.temp_override(window=window, screen=window.screen):
+        bpy.ops.ed.undo_push(message="assigned")
+        before = sockets(material)
+        for degrees in (25, 30, 35):
+            bpy.data.materials["Wall"].rough_spectra.sigma = math.radians(degrees)
+        bpy.ops.ed.undo_push(message="dragged")
+        after = sockets(bpy.data.materials["Wall"])
+        bpy.ops.ed.undo()
+        found = bpy.data.materials["Wall"]
+        assert sockets(found) == before
+        assert stamp.sigma_degrees(found.rough_spectra) == 20
+        assert stamp.state(found).kind == "fresh"
+        bpy.ops.ed.redo()
+        found = bpy.data.materials["Wall"]
+        assert sockets(found) == after
+        assert stamp.sigma_degrees(found.rough_spectra) == 35
+        assert stamp.state(found).kind == "fresh"
+
+
+def test_loading_a_file_derives_nothing(material, tmp_path):
+    with live.paused():
+        material.rough_spectra.sigma = 0.9
+    material.use_fake_user = True
+    before, written = sockets(material), material.rough_spectra.stamp
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    found = bpy.data.materials["Wall"]
+    assert (sockets(found), found.rough_spectra.stamp) == (before, written)
+    assert stamp.state(found).kind == "stale"
+
+
+@pytest.fixture
+def wall(material):
+    """A wall seen and lit along its normal by a sun that makes radiance the reflectance factor."""
+    scene = bpy.context.scene
+    bpy.ops.mesh.primitive_plane_add(size=4)
+    bpy.context.object.data.materials.append(material)
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type, camera.location = "ORTHO", (0, 0, 3)
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    sun.data.energy, sun.data.angle = math.pi, 0
+    for thing in (camera, sun):
+        scene.collection.objects.link(thing)
+    scene.camera, scene.render.engine = camera, "CYCLES"
+    scene.cycles.samples, scene.cycles.max_bounces = 4, 0
+    scene.cycles.use_denoising = False
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    scene.frame_start, scene.frame_end = 1, 3
+    return material
+
+
+def animate(material):
+    for frame, degrees in ((1, 5.0), (3, 45.0)):
+        with live.paused():
+            material.rough_spectra.sigma = math.radians(degrees)
+        assert material.rough_spectra.keyframe_insert("sigma", frame=frame)
+
+
+def test_renders_follow_an_animated_sigma(wall, request_for, colorchecker, tmp_path):
+    animate(wall)
+    render = bpy.context.scene.render
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_depth = "32"
+    render.filepath = str(tmp_path / "frame-")
+    bpy.ops.render.render(animation=True)
+    oiio = openimageio()
+    for frame in (1, 2, 3):
+        pixels = oiio.ImageBuf(str(tmp_path / f"frame-{frame:04d}.exr")).get_pixels()
+        bpy.context.scene.frame_set(frame)
+        sigma = stamp.sigma_degrees(wall.rough_spectra)
+        *color, roughness = derived(request_for(colorchecker[6], sigma))
+        expected = cycles.reflectance(color, roughness, 0.0, 0.0, 0.0)
+        # Four samples in single precision.
+        np.testing.assert_allclose(pixels[2, 2, :3], expected, rtol=1e-4)
+
+
+def test_frames_are_followed_and_in_step(wall):
+    animate(wall)
+    seen = []
+    for frame in (1, 2, 3):
+        bpy.context.scene.frame_set(frame)
+        seen.append(sockets(wall))
+        assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
+        assert stamp.state(wall).kind == "fresh"
+    assert len(set(seen)) == 3
+
+
+def test_a_driven_sigma_is_followed(wall):
+    bpy.context.scene["age"] = 0.1
+    curve = wall.rough_spectra.driver_add("sigma")
+    curve.driver.type = "SUM"
+    variable = curve.driver.variables.new()
+    variable.targets[0].id_type = "SCENE"
+    variable.targets[0].id = bpy.context.scene
+    variable.targets[0].data_path = '["age"]'
+    for age in (0.3, 0.6):
+        bpy.context.scene["age"] = age
+        bpy.context.scene.update_tag()
+        bpy.context.view_layer.update()
+        assert wall.rough_spectra.sigma == pytest.approx(age)
+        assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
+
+
+def test_animation_spares_edits_by_hand_and_others(wall, make_material):
+    other = make_material("Other")
+    animate(wall)
+    edit_color(wall)
+    before = sockets(wall), sockets(other)
+    bpy.context.scene.frame_set(2)
+    assert (sockets(wall), sockets(other)) == before
+    assert stamp.state(wall).kind == "stale"
+
+
+def test_one_that_fails_does_not_hold_up_others(make_material, colorchecker, request_for):
+    good, bad = make_material("good"), make_material("bad")
+    assign.assign([(m, request_for(colorchecker[6])) for m in (good, bad)])
+    with live.paused():
+        bad.rough_spectra.spectrum = "{}"
+        good.rough_spectra.sigma = 0.2
+    assign.follow([(bad, bad), (good, good)])
+    assert stamp.state(good).kind == "fresh"
+    assert "assign the sample again" in stamp.state(bad).reasons[0]
+
+
+def test_nothing_runs_once_unregistered(extension):
+    handlers = bpy.app.handlers
+    ours = [f for f in handlers.frame_change_post if f.__module__ == live.__name__]
+    assert len(ours) == 1
+    live.unregister()
+    try:
+        assert ours[0] not in handlers.frame_change_post[:]
+    finally:
+        live.register()
