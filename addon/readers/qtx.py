@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..sample import Sample
 from . import _series, _table
@@ -76,7 +77,7 @@ def _sample(document: Document, section: _Section, index: int) -> Sample:
     values = _values(document, section)
     low = _number(document, section, "REFLLOW")
     step = _number(document, section, "REFLINTERVAL")
-    nm = low + step * np.arange(values.size)
+    nm = low + step * np.arange(values.size, dtype=np.float64)
     line = section.lines[f"{section.prefix}R"]
     found = _series.bands(
         nm,
@@ -121,7 +122,7 @@ def _number(document: Document, section: _Section, key: str) -> float:
     return _series.number(document, place, _text(section, key))
 
 
-def _values(document: Document, section: _Section) -> np.ndarray:
+def _values(document: Document, section: _Section) -> NDArray[np.float64]:
     """Return the percent of a section, shape (bands,)."""
     name = f"{section.prefix}R"
     if name not in section.texts:
