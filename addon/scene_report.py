@@ -54,7 +54,7 @@ def candidates(report: SceneReport, materials: Sequence[Any] | None = None) -> l
     if not found:
         names = ", ".join(material.name for material in measured[:5])
         if any(material in report.unlit for material in measured):
-            msg = f"No light reaches {names}; add a light, or let it shine into the picture."
+            msg = f"No light reaches {names}; add a light, or turn one on."
         else:
             msg = f"{names}: not in the picture; turn the camera to it."
         raise InputError(msg)
@@ -111,8 +111,11 @@ def _mean_now(report: SceneReport, material: Any) -> float | None:
 
 
 def unlit_sentence(report: SceneReport) -> str:
-    """Say which materials with a spectrum are seen but get no light; empty if none."""
+    """Say which materials with a spectrum no lamp reaches directly; empty if none."""
     names = [material.name for material in report.unlit if stamp.has_spectrum(material)]
     if not names:
         return ""
-    return f"No light reaches {', '.join(sorted(names))}: left as they were."
+    return (
+        f"No lamp reaches {', '.join(sorted(names))} but by way of other surfaces: matched to all "
+        "lights of the picture, from all around."
+    )

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays import Array
+from ...core.geometry import hemisphere
 from .. import light_spectrum, working_space
 from ..scene_view import SceneView, make_light
 from . import camera, sampling, sources, surfaces
@@ -24,12 +25,14 @@ from .sampling import Samples
 from .sources import Lamp
 from .surfaces import Hits
 
-__all__ = ["SceneReport", "View", "analyze"]
+__all__ = ["SceneReport", "View", "analyze", "look"]
 
 _HITS_A_MATERIAL = 96
 """Places of a material from which lamps are looked for; more do not change the matching."""
 _LOOKS = 4
 """Lamps looked for from each place, chosen by what they would shed there."""
+_EVEN = 0.25
+"""Part of the looks that choose among the lamps at even odds."""
 _SEED = 20
 _OFFSET = 1e-5
 """Start of a shadow ray above the surface, in diagonals of the scene."""
@@ -42,9 +45,10 @@ class SceneReport:
     Parameters
     ----------
     views
-        Material and its view, for each that the camera sees and light reaches.
+        Material and its view, for each that the camera sees, unless the scene has no light.
     unlit
-        Materials that are seen, and no lamp reaches.
+        Materials that are seen, but no lamp reaches except by way of other surfaces. Their view
+        has the whole picture's lights, from all around.
     pixels
         Share of the picture that each seen material covers, 0 to 1.
     warnings
@@ -86,19 +90,20 @@ def analyze(depsgraph: Any, scene: Any, view: View | None = None) -> SceneReport
     hits = found.hit(origins, ways)
     counts = np.bincount(hits.materials[hits.materials >= 0], minlength=len(found.materials))
     seen = np.flatnonzero(counts)
-    samples, places = _look(found, hits, ways, lamps, space, random)
-    views = _views(scene.name, samples, hits.materials[places], found.materials, lamps, space)
-    unlit = tuple(found.materials[i] for i in seen if found.materials[i] not in views)
+    samples, places = look(found, hits, ways, lamps, space, random)
+    views, unlit = _views(
+        scene.name, samples, hits.materials[places], found.materials, lamps, space
+    )
     return SceneReport(
         views,
-        unlit,
+        tuple(unlit),
         {found.materials[i]: float(counts[i]) / len(ways) for i in seen},
         tuple(warnings),
         time.perf_counter() - start,
     )
 
 
-def _look(
+def look(
     found: surfaces.Surfaces,
     hits: Hits,
     ways: Array,
@@ -143,18 +148,21 @@ def _one_look(
     above = np.stack([np.einsum("ij,ij->i", part.toward, facing) > 0 for part in sampled])
     would = np.where(above, would, 0)
     total = would.sum(axis=0)
-    passed = np.cumsum(would, axis=0)
-    lamp = (passed < random.uniform(size=count) * total).sum(axis=0)
+    # Mostly by what they would shed; some at even odds, since the brightest may be hidden.
+    able = (would > 0) / np.maximum((would > 0).sum(axis=0), 1)
+    odds = (1 - _EVEN) * would / np.maximum(total, 1e-300) + _EVEN * able
+    lamp = (np.cumsum(odds, axis=0) < random.uniform(size=count)).sum(axis=0)
     lamp = np.minimum(lamp, len(lamps) - 1)
     own = np.arange(count)
+    arrives = would[lamp, own] / np.maximum(odds[lamp, own], 1e-300) / _LOOKS
     toward = np.stack([part.toward for part in sampled])[lamp, own]
     distance = np.stack([part.distance for part in sampled])[lamp, own]
-    tried = np.flatnonzero((total > 0) & ((view * normals).sum(axis=1) > 0))
+    tried = np.flatnonzero((arrives > 0) & ((view * normals).sum(axis=1) > 0))
     # Ends short of the lamp, whose own surface would be in the way.
     hidden = found.blocked(start[tried], toward[tried], distance[tried] * (1 - 1e-3))
     free = tried[~hidden]
     angles = sampling.angles(normals[free], view[free], toward[free])
-    return (*angles, free, lamp[free], total[free] / _LOOKS, toward[free])
+    return (*angles, free, lamp[free], arrives[free], toward[free])
 
 
 def _some_of_each(materials: Array, random: np.random.Generator) -> Array:
@@ -186,24 +194,40 @@ def _views(
     materials: list[Any],
     lamps: list[Lamp],
     space: working_space.WorkingSpace,
-) -> dict[Any, SceneView]:
-    weights = sampling.per_place(samples, len(material_of_place))
+) -> tuple[dict[Any, SceneView], list[Any]]:
+    """Views of the materials that are seen, and those that no lamp reaches."""
+    weights = sampling.per_place(samples, len(material_of_place), material_of_place)
     power = np.bincount(samples.lamp, weights, minlength=len(lamps))
+    seen = np.unique(material_of_place)
     if not power.sum() > 0:
-        return {}
+        return {}, [materials[index] for index in seen]
     xyz = np.array([_arriving(i, lamp, samples, weights, space) for i, lamp in enumerate(lamps)])
     groups = sampling.group_colors(xyz, power)
     colors = [_color(groups == light, xyz, power, lamps) for light in range(groups.max() + 1)]
-    views = {}
+    views, unlit = {}, []
     of_material = material_of_place[samples.hit]
-    for index in np.unique(of_material):
+    for index in seen:
         mine = np.flatnonzero((of_material == index) & (weights > 0))
         if not mine.size:
+            unlit.append(materials[index])
             continue
         own = samples[mine]
         chosen, weight = sampling.reduce(own, weights[mine], groups[own.lamp])
-        views[materials[index]] = _view(scene, own[chosen], weight, groups, colors)
-    return views
+        ways = np.column_stack((own.theta_i, own.theta_r, own.delta_phi))[chosen]
+        views[materials[index]] = _view(scene, ways, groups[own.lamp[chosen]], weight, colors)
+    if unlit:
+        overall = _overall(scene, np.bincount(groups[groups >= 0], power[groups >= 0]), colors)
+        views |= dict.fromkeys(unlit, overall)
+    return views, unlit
+
+
+def _overall(scene: str, power: Array, colors: list[tuple[str, str, Array]]) -> SceneView:
+    """All lights of the picture, from all around: for what only gets light from surfaces."""
+    ways = np.column_stack(hemisphere(sampling.GEOMETRIES // len(colors)))
+    shares = np.where(power >= sampling.LEAST_SHARE * power.sum(), power, 0)
+    kept = np.flatnonzero(shares)
+    weight = np.repeat(shares[kept] / shares.sum() / len(ways), len(ways))
+    return _view(scene, np.tile(ways, (len(kept), 1)), np.repeat(kept, len(ways)), weight, colors)
 
 
 def _arriving(
@@ -218,18 +242,16 @@ def _arriving(
 
 
 def _view(
-    scene: str, ways: Samples, weight: Array, groups: Array, colors: list[tuple[str, str, Array]]
+    scene: str, ways: Array, group: Array, weight: Array, colors: list[tuple[str, str, Array]]
 ) -> SceneView:
-    group = groups[ways.lamp]
     shares = np.bincount(group, weight, minlength=len(colors))
     order = [int(light) for light in np.argsort(-shares, kind="stable") if shares[light] > 0]
     rank = {light: place for place, light in enumerate(order)}
     lights = tuple(make_light(*colors[light], float(shares[light])) for light in order)
-    rows = zip(ways.theta_i, ways.theta_r, ways.delta_phi, group, weight, strict=True)
-    geometries = tuple(
-        (*(round(float(a), 4) for a in (i, r, phi)), rank[int(light)], round(float(w), 6))
-        for i, r, phi, light, w in rows
-    )
+    geometries = []
+    for (theta_i, theta_r, phi), light, part in zip(ways.tolist(), group, weight, strict=True):
+        angles = round(theta_i, 4), round(theta_r, 4), round(phi, 4)
+        geometries.append((*angles, rank[int(light)], round(float(part), 6)))
     return SceneView(scene, lights, tuple(sorted(geometries, key=lambda row: row[3:])))
 
 

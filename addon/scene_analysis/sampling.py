@@ -70,15 +70,28 @@ def angles(normals: Array, view: Array, toward: Array) -> tuple[Array, Array, Ar
     return np.minimum(theta_i, STEEPEST), np.minimum(theta_r, STEEPEST), phi
 
 
-def per_place(samples: Samples, hits: int) -> Array:
-    """Give each way its part in the light at its place; places in the dark have none."""
+def per_place(samples: Samples, hits: int, materials: Array) -> Array:
+    """Give each way its part in the light at its place.
+
+    Places in the dark have none, unless all of their material lie in the dark.
+
+    Parameters
+    ----------
+    samples
+        Ways of light.
+    hits
+        How many places there are.
+    materials
+        Index of the material of each, shape (hits,).
+    """
     total = np.bincount(samples.hit, samples.light, minlength=hits)
     lit = total[total > 0]
     if not lit.size:
         return np.zeros(samples.light.size)
     bright = total > _DARK * np.median(lit)
+    counted = bright | ~np.isin(materials, materials[bright])
     return np.asarray(
-        np.where(bright[samples.hit], samples.light / np.maximum(total[samples.hit], 1e-300), 0)
+        np.where(counted[samples.hit], samples.light / np.maximum(total[samples.hit], 1e-300), 0)
     )
 
 
