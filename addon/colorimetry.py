@@ -75,7 +75,7 @@ def weights(wavelengths: npt.ArrayLike, illuminant: str = "D65", observer: int =
 @lru_cache(maxsize=256)
 def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int) -> Array:
     measured = grid.check_wavelengths(bands)
-    matrix = _weights(bands, illuminant, observer)
+    # Before the weights: colour-science fails on the few bands of such grids.
     held = held_share(measured, illuminant, observer)
     if held > _LARGEST_HELD_SHARE:
         msg = (
@@ -83,7 +83,7 @@ def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int
             "unmeasured; a color needs about 400 to 700 nm."
         )
         raise DomainError(msg)
-    return matrix
+    return _weights(bands, illuminant, observer)
 
 
 @lru_cache(maxsize=32)
@@ -249,12 +249,6 @@ def _e308(wavelengths: Array, illuminant: str, observer: int) -> Array:
     science = colour()
     matrix = np.zeros((wavelengths.size, 3))
     visible = (wavelengths >= _VISIBLE[0]) & (wavelengths <= _VISIBLE[1])
-    if visible.sum() < 2:
-        msg = (
-            f"The bands from {wavelengths[0]:g} to {wavelengths[-1]:g} nm have no color; "
-            "a color needs about 400 to 700 nm."
-        )
-        raise DomainError(msg)
     seen = wavelengths[visible]
     units = science.MultiSpectralDistributions(np.eye(seen.size), seen)
     xyz = science.msds_to_XYZ(

@@ -248,19 +248,23 @@ def _range(nm: Array) -> Iterator[str]:
 def _ultraviolet_effect(samples: Sequence[Sample]) -> _Found:
     """Compare samples of one name that were measured with and without ultraviolet light."""
     measured = [i for i, sample in enumerate(samples) if sample.condition in ("M0", "M1", "M2")]
-    for members in _groups(measured, lambda i: samples[i].name):
+    for members in _groups(measured, lambda i: _plain_name(samples[i])):
         of_condition = {samples[i].condition: i for i in reversed(members)}
         for one, two in combinations(sorted(of_condition), 2):
             pair = of_condition[one], of_condition[two]
             nm, difference = _largest_difference(samples[pair[0]], samples[pair[1]])
             if difference > UV_EFFECT:
-                for i in pair:
-                    yield (
-                        i,
-                        f"{samples[i].name!r} differs by {difference:.3f} at {nm:g} nm between "
-                        f"{one} and {two}, so it is fluorescent; each reading is kept, and holds "
-                        "only under its own condition.",
-                    )
+                sentence = (
+                    f"{_plain_name(samples[pair[0]])!r} differs by {difference:.3f} at {nm:g} nm "
+                    f"between {one} and {two}, so it is fluorescent; each reading is kept, and "
+                    "holds only under its own condition."
+                )
+                yield from ((i, sentence) for i in pair)
+
+
+def _plain_name(sample: Sample) -> str:
+    """Return the name without the condition that readers add to tell two of them apart."""
+    return sample.name.removesuffix(f"({sample.condition})").rstrip()
 
 
 def _largest_difference(one: Sample, two: Sample) -> tuple[float, float]:

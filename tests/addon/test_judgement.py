@@ -161,6 +161,16 @@ def test_steps_that_are_too_coarse(step, count):
     assert all("follows from interpolation" in sentence for sentence in found)
 
 
+@pytest.mark.parametrize("step", [1, 2, 5, 10, 20, 40])
+@pytest.mark.parametrize("bands", [2, 3, 4, 5, 6, 7])
+def test_few_bands_on_any_grid_are_a_sentence_and_no_failure(step, bands):
+    for start in (340, 380, 500, 700, 770):
+        nm = start + step * np.arange(float(bands))
+        light = {"lab": (50.0, 0.0, 0.0), "illuminant": "D50", "observer": 2}
+        found = sentences(np.full(bands, 0.3), nm, **light)
+        assert any("no material can be made" in sentence for sentence in found)
+
+
 def test_a_range_that_is_too_short():
     inner = slice(1, -1)
     (sentence,) = sentences(SMOOTH[inner], NM[inner])
@@ -196,6 +206,8 @@ def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
     if named:
         assert found[0] == found[2]
         assert "'paper' differs by 0.012 at 440 nm between M0 and M1" in found[0][0]
+    told_apart = [sample("paper (M0)", "M0", SMOOTH), sample("paper (M1)", "M1", brighter)]
+    assert [bool(each) for each in judgement.judge(told_apart)] == [named, named]
     finer = np.arange(380.0, 731.0, 5.0)
     either = sample("paper", "M1", np.interp(finer, NM, brighter), finer)
     assert bool(judgement.judge([sample("paper", "M2", SMOOTH), either])[0]) is named
