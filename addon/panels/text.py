@@ -8,6 +8,8 @@ import textwrap
 from functools import lru_cache
 from typing import Any
 
+from ..preview import theme
+
 _PIXELS_A_CHARACTER = 5.7  # at UI scale 1, of the mean of Blender's interface font
 _MARGINS = 70.0  # icon, box and panel, pixels at UI scale 1
 _FEWEST = 16
@@ -27,7 +29,7 @@ def sentence(layout: Any, context: Any, text: str, icon: str = "BLANK1") -> None
     icon
         Before the first line.
     """
-    scale = context.preferences.system.ui_scale
+    scale = theme.scale(context.preferences)
     width = int((context.region.width / scale - _MARGINS) / _PIXELS_A_CHARACTER)
     column = layout.column(align=True)
     for number, line in enumerate(_lines(text, max(width, _FEWEST))):

@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panels draw in every state of a material.
+
+A background Blender has no layouts, so the panels draw onto one that writes down what it is told
+and holds every property, operator and icon name against Blender's own. The real window is looked
+at by `dev.py screenshots`.
+"""
+
+import sys
+import types
+
+import bpy
+import pytest
+from rough_spectra.addon import measured, panels, storage
+from rough_spectra.addon.preview import icons
+
+from tests.integration.support import rgb_material
+from tests.integration.test_operators import mesh_object
+
+OPS = bpy.ops.rough_spectra
+ICONS = set(bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items.keys())
+GREEN = "colorchecker/14-green"
+
+
+class Layout:
+    """Writes down what is drawn; a part of a layout writes onto the same page."""
+
+    def __init__(self, page=None):
+        object.__setattr__(self, "page", [] if page is None else page)
+
+    def row(self, **_options):
+        return Layout(self.page)
+
+    column = box = split = row
+
+    def label(self, *, text="", icon="NONE", translate=True):
+        assert icon in ICONS
+        self.page.append(text)
+
+    def prop(self, data, name, *, text=None, slider=False, expand=False):
+        assert name in data.bl_rna.properties
+        assert data.bl_rna.properties[name].description
+        self.page.append(name)
+
+    def operator(self, name, *, text=None, icon="NONE", translate=True):
+        assert icon in ICONS
+        module, _, function = name.partition(".")
+        kind = getattr(getattr(bpy.ops, module), function).get_rna_type()
+        self.page.append(name if text is None else f"{name}: {text}")
+        return types.SimpleNamespace(**dict.fromkeys(kind.properties.keys()))
+
+    def template_icon(self, icon_value, scale=1.0):
+        assert scale >= 1
+        self.page.append(f"picture {icon_value > 0}")
+
+    def separator(self):
+        pass
+
+    def __setattr__(self, name, _value):
+        assert name in bpy.types.UILayout.bl_rna.properties
+
+
+def context(space="PROPERTIES", **more):
+    """The context of this Blender, as in an editor of the given kind."""
+    region = types.SimpleNamespace(width=420)
+    area = types.SimpleNamespace(type=space)
+    real = {name: getattr(bpy.context, name) for name in ("scene", "view_layer", "preferences")}
+    real["selected_objects"] = bpy.context.selected_objects
+    real["space_data"] = None
+    return types.SimpleNamespace(**{**real, "region": region, "area": area, **more})
+
+
+def drawn(where=None):
+    """All that the panels of the Material tab draw now, in order."""
+    where = where or context()
+    page = []
+    for cls in panels.classes:
+        if cls.bl_space_type == where.area.type and cls.poll(where):
+            page.append(f"[{cls.bl_label}]")
+            cls.draw(types.SimpleNamespace(layout=Layout(page)), where)
+    return page
+
+
+@pytest.fixture
+def green():
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=0.5)
+    yield material
+    icons.clear()
+
+
+def test_without_an_object_there_is_no_panel():
+    assert drawn() == []
+
+
+def test_without_a_spectrum_the_panel_says_how_to_begin():
+    mesh_object("Wall")
+    page = drawn()
+    assert page[:2] == ["[Rough Spectra]", "rough_spectra.choose_sample"]
+    assert any("Choose a sample" in line for line in page)
+    assert "[Difference]" not in page
+    assert "[Measurement]" not in page
+
+
+def test_a_fresh_material_shows_everything(green):
+    page = drawn()
+    for wanted in ("[Difference]", "[Plots]", "[Measurement]", "[Scene]", "[Source]", "sigma"):
+        assert wanted in page
+    assert "rough_spectra.choose_sample: ColorChecker 14 Green" in page
+    assert "45°/0°: ΔE00 0.00, not visible" in page
+    assert any(line.startswith("Limited by") for line in page)
+    assert not any("rough_spectra.renew" in line for line in page)
+    assert any("BSD-3-Clause" in line for line in page)
+
+
+def test_pictures_are_made_after_drawing_and_not_while(green):
+    drawn()
+    assert not icons._pictures  # without a window Blender gives no icon numbers to look at
+    icons._work()
+    assert {wish.figure for wish in icons._pictures} == {"swatches", "sheet"}
+
+
+def test_drawing_computes_nothing(green):
+    drawn()
+    icons._work()
+    called = set()
+
+    def note(frame, event, _argument):
+        if event == "call":
+            called.add(frame.f_code.co_filename)
+
+    sys.setprofile(note)
+    try:
+        drawn()
+    finally:
+        sys.setprofile(None)
+    ours = {name.partition("rough_spectra")[2] or name for name in called}
+    for busy in ("/core/", "target.py", "colorimetry.py", "storage.py", "/colour/", "/numpy/"):
+        assert not [name for name in ours if busy in name]
+
+
+def test_an_edit_by_hand_is_offered_to_be_renewed_or_kept(green):
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    node.inputs["Color"].default_value = (0.5, 0.1, 0.1, 1)
+    page = drawn()
+    assert any("edited by hand" in line for line in page)
+    assert "rough_spectra.renew" in page
+    assert "rough_spectra.keep" in page
+    storage.keep(green)
+    page = drawn()
+    assert any("kept" in line for line in page)
+    assert "rough_spectra.keep" not in page
+
+
+def test_another_engine_is_named_as_what_limits(green):
+    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    assert any("only Cycles shows the roughness" in line for line in drawn())
+
+
+def test_a_measurement_stands_beside_the_prediction(green):
+    rgb = (0.1, 0.2, 0.1)
+    measured.note(green, measured.fingerprint(green), rgb, 0.004)
+    page = drawn()
+    at = page.index("Predicted: ΔE00 0.00, not visible")
+    assert page[at + 1] == "Measured: ΔE00 0.00, not visible"
+    assert not any("before the last change" in line for line in page)
+    green.rough_spectra.sigma = 0.3
+    assert any("before the last change" in line for line in drawn())
+
+
+def test_a_linked_material_is_not_to_be_changed_here(scene_file):
+    with bpy.data.libraries.load(str(scene_file), link=True) as (_, wanted):
+        wanted.materials = ["Alpha"]
+    (linked,) = wanted.materials
+    mesh_object("Wall", linked)
+    page = drawn()
+    assert any("linked" in line for line in page)
+    assert "rough_spectra.renew" not in page
+
+
+def test_the_sidebar_of_the_shader_editor_shows_the_same(green):
+    space = types.SimpleNamespace(edit_tree=green.node_tree, id=green)
+    page = drawn(context("NODE_EDITOR", space_data=space))
+    assert page[0] == "[Rough Spectra]"
+    assert "[Difference]" in page
+    other = types.SimpleNamespace(edit_tree=None, id=None)
+    assert drawn(context("NODE_EDITOR", space_data=other)) == []
+
+
+def test_right_click_menus_offer_to_measure_what_was_clicked(green):
+    for space in ("VIEW_3D", "PROPERTIES", "OUTLINER"):
+        menu = types.SimpleNamespace(layout=Layout())
+        panels.menus.draw_measure(menu, context(space))
+        assert menu.layout.page == ["rough_spectra.measure"]
+    for name in panels.menus._MENUS:
+        assert panels.menus.draw_measure in getattr(bpy.types, name)._dyn_ui_initialize()
