@@ -43,9 +43,10 @@ def start() -> None:
         filepath=ZIP, repo="user_default", enable_on_install=True, overwrite=True
     )
     if THEME == "light":
-        root = Path(bpy.utils.resource_path("LOCAL")) / "scripts/presets/interface_theme"
+        folders = bpy.utils.preset_paths("interface_theme")
+        [path] = [path for root in folders for path in Path(root).glob("Blender_Light.xml")]
         bpy.ops.script.execute_preset(
-            filepath=str(root / "Blender_Light.xml"),
+            filepath=str(path),
             menu_idname="USERPREF_MT_interface_theme_presets",
         )
     _layout()
