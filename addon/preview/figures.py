@@ -141,7 +141,7 @@ def spectrum(
 def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     return (
         Key("Reading", look.target, 1.6),
-        Key("Albedo", look.albedo, 1.4, (4.5, 2.5)),
+        Key("Albedo", look.text, 1.3, (4.5, 2.5)),
         Key("Blender RGB", look.blender, 3.2, short="RGB"),
     )
 
@@ -334,11 +334,13 @@ def sigma_range(sigma: float, sigma_max: float | None, size: Size, look: Look) -
     canvas = raster.blank(height, width)
     inset = round(4 * look.scale)
     left, right = inset, width - inset
-    named = height >= 2.6 * look.font
+    limit = LARGEST_SIGMA if sigma_max is None else min(max(sigma_max, 0.0), LARGEST_SIGMA)
+    said = f"fits up to {limit:.1f}°" if limit < LARGEST_SIGMA else "every σ fits"
+    half = text.width(said, look.font) / 2
+    named = height >= 2.6 * look.font and 2 * half + 4 <= width
     room = plot.legend_height(look) if named else 0
     top = (height - room) * 0.5
     box = (left, round(top), right, height - room - 1)
-    limit = LARGEST_SIGMA if sigma_max is None else min(max(sigma_max, 0.0), LARGEST_SIGMA)
 
     def at(degrees: float) -> float:
         return left + (right - left) * min(max(degrees, 0.0), LARGEST_SIGMA) / LARGEST_SIGMA
@@ -353,9 +355,7 @@ def sigma_range(sigma: float, sigma_max: float | None, size: Size, look: Look) -
     raster.polygon(canvas, [[(x - reach, 0), (x + reach, 0), (x, box[1] - 1)]], ink)
     raster.rectangle(canvas, (x - look.scale / 2, box[1] - 1, x + look.scale / 2, box[3]), ink)
     if named:
-        said = f"fits up to {limit:.1f}°" if limit < LARGEST_SIGMA else "every σ fits"
-        half = text.width(said, look.font) / 2
-        middle = min(max(at(limit), half + 1), width - half - 2)
+        middle = min(max(at(limit), half + 2), width - half - 2)
         base = height - 0.3 * look.font
         text.draw(canvas, said, middle, base, look.font, look.faint, align=0.5)
     return canvas

@@ -22,7 +22,7 @@ SMALL = 150.0
 
 _KEY = 16.0
 """Length of the sample of a line in a legend, at scale 1."""
-_SMALL_KEY = 10.0
+_SMALL_KEY = 14.0
 """The same in a narrow picture."""
 
 
@@ -111,15 +111,21 @@ def draw_grid(
 def name_below(
     canvas: Array, axes: Axes, ticks: Sequence[tuple[float, str]], row: float, look: Look
 ) -> None:
-    """Write numbers below a plot, kept inside the picture."""
-    end = -np.inf
-    for value, name in ticks:
-        [[x, _]] = axes.place([value], [axes.y[0]])
-        half = text.width(name, look.font) / 2
-        x = min(max(float(x), half + 1), canvas.shape[1] - half - 2)
-        if x - half > end:
-            text.draw(canvas, name, x, row, look.font, look.faint, align=0.5)
-            end = x + half + 3 * look.scale
+    """Write numbers below a plot, kept inside the picture; every other one where room is short."""
+    for step in range(1, len(ticks) + 1):
+        kept = ticks[::-1][::step][::-1]
+        halves = [text.width(name, look.font) / 2 for _, name in kept]
+        places = axes.place([value for value, _ in kept], [axes.y[0]] * len(kept))[:, 0].tolist()
+        middles = [
+            min(max(x, half + 1), canvas.shape[1] - half - 2)
+            for x, half in zip(places, halves, strict=True)
+        ]
+        ends = [x + half + 3 * look.scale for x, half in zip(middles, halves, strict=True)]
+        starts = [x - half for x, half in zip(middles, halves, strict=True)]
+        if all(start >= end for start, end in zip(starts[1:], ends[:-1], strict=True)):
+            break
+    for x, (_, name) in zip(middles, kept, strict=True):
+        text.draw(canvas, name, x, row, look.font, look.faint, align=0.5)
 
 
 def legend_height(look: Look) -> int:

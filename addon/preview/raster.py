@@ -5,7 +5,8 @@
 A canvas is a float32 array (height, width, 4) of display-encoded red, green and blue times alpha,
 and alpha, its first row on top. That is what Blender blends pictures with. Coordinates are in
 pixels, x to the right and y down; pixel i covers i to i + 1. A pixel's share of a shape is an area:
-exact for rectangles and polygons, for lines within a few percent of a pixel.
+exact for rectangles and polygons. That of a line comes from its distance and sums up to its area
+within 4 %, for lines of one pixel within 13 %, on exact diagonals.
 """
 
 from __future__ import annotations
@@ -123,7 +124,8 @@ def area(start: Array, end: Array, shape: tuple[int, int]) -> Array:
         + np.bincount(at + 1, down * inside, size + 1)[:size]
     )
     filled = np.abs(np.cumsum(sums.reshape(rows, columns + 1), axis=1)[:, :columns])
-    return np.asarray(np.minimum(filled, 1), np.float32)
+    # Sums that cancel leave 1e-16, which is nothing.
+    return np.asarray(np.where(filled < 1e-9, 0, np.minimum(filled, 1)), np.float32)
 
 
 def _cut(start: Array, end: Array, axis: int) -> tuple[Array, Array]:
@@ -173,6 +175,8 @@ def polyline(
         start = end = line
     else:
         start, end = line[:-1], line[1:]
+    if not len(start):
+        return
     start, end = _short(start, end)
     height, across = canvas.shape[:2]
     box = within or (0, 0, across, height)

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 # Okabe and Ito, "Color Universal Design" (2008): told apart by color-blind readers too.
 _BLUE = (0.0, 114 / 255, 178 / 255)
 _VERMILION = (213 / 255, 94 / 255, 0.0)
-_GREEN = (0.0, 158 / 255, 115 / 255)
 
 _LETTERS = 4.5
 """Contrast that WCAG 2.1 asks of text (success criterion 1.4.3)."""
@@ -37,8 +36,9 @@ class Look:
         Of letters that step back.
     grid
         Of lines that step back further.
-    target, blender, albedo
-        Of what was measured, of what Blender shows, and of the albedo; letters may have them.
+    target, blender
+        Of what was measured, and of what Blender shows; letters may have them. The text's color is
+        the third that everybody tells from both, in a light and in a dark theme.
     scale
         Pixels of the screen for one of the interface at scale 1.
     """
@@ -49,7 +49,6 @@ class Look:
     grid: Color
     target: Color
     blender: Color
-    albedo: Color
     scale: float
 
     @property
@@ -61,9 +60,7 @@ class Look:
 @lru_cache(maxsize=8)
 def look(background: Color, text: Color, scale: float = 1.0) -> Look:
     """Choose colors that are readable on a background, both display-encoded."""
-    target, blender, albedo = (
-        readable(color, background, _LETTERS) for color in (_BLUE, _VERMILION, _GREEN)
-    )
+    target, blender = (readable(color, background, _LETTERS) for color in (_BLUE, _VERMILION))
     return Look(
         background=background,
         text=readable(text, background, _LETTERS),
@@ -71,7 +68,6 @@ def look(background: Color, text: Color, scale: float = 1.0) -> Look:
         grid=_mix(background, text, 0.18),
         target=target,
         blender=blender,
-        albedo=albedo,
         scale=scale,
     )
 

@@ -1,0 +1,308 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures show what they are given, where it belongs, in colors that everybody can tell apart."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rough_spectra.addon import assign, colorimetry, target, working_space
+from rough_spectra.addon.preview import compose, data, figures, plot, text, theme, words
+from rough_spectra.core import reading
+
+DARK = theme.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
+LIGHT = theme.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
+LOOKS = pytest.mark.parametrize("look", [DARK, LIGHT], ids=["dark", "light"])
+SIZE = (280, 130)
+
+
+@pytest.fixture(scope="session")
+def green(colorchecker):
+    return next(sample for sample in colorchecker if sample.name == "green")
+
+
+def scaled(look, scale):
+    return replace(look, scale=float(scale))
+
+
+def row_of(canvas, color, column, within):
+    """Middle of what is drawn in a color in one column, pixels; NaN where nothing is."""
+    seen = canvas[within[1] : within[3], column]
+    own = seen[:, :3] / np.maximum(seen[:, 3:], 1e-6)
+    share = np.where(np.abs(own - color).max(axis=1) < 0.02, seen[:, 3], 0)
+    rows = np.arange(within[1], within[3]) + 0.5
+    return (rows * share).sum() / share.sum() if share.sum() > 0.5 else np.nan
+
+
+@LOOKS
+@pytest.mark.parametrize("scale", [1, 2])
+def test_the_reading_runs_through_its_values(look, scale):
+    look, size = scaled(look, scale), (SIZE[0] * scale, SIZE[1] * scale)
+    nm = np.arange(380.0, 731, 10)
+    curve = 0.3 + 0.25 * np.sin(nm / 60)
+    canvas = figures.spectrum(nm, np.full(nm.size, 0.05), curve, [], size, look)
+    axes = figures.spectrum_axes(size, look, curve.max())
+    columns = np.arange(axes.left + 3, axes.right - 3)
+    wanted = axes.place(
+        np.interp(columns + 0.5, (axes.left, axes.right), axes.x),
+        np.interp(
+            np.interp(columns + 0.5, (axes.left, axes.right), axes.x),
+            nm,
+            curve,
+        ),
+    )[:, 1]
+    found = [row_of(canvas, look.target, column, axes.box) for column in columns]
+    # Where a grid line or the albedo shines through the color is mixed, and the column is left out.
+    seen = np.isfinite(found)
+    assert seen.mean() > 0.8
+    assert np.nanmax(np.abs(found - wanted)) < 1
+
+
+@LOOKS
+def test_both_curves_over_angle_run_through_their_values(look):
+    wanted = 0.5 + 0.3 * np.cos(np.radians(data.VIEW_ANGLES))
+    blender = 0.25 + 0.1 * np.cos(np.radians(data.VIEW_ANGLES + 20))
+    canvas = figures.angles(data.VIEW_ANGLES, wanted, blender, 0.1, SIZE, look)
+    axes = figures.angles_axes(SIZE, look, wanted.max())
+    columns = np.arange(axes.left + 3, axes.right - 3)
+    degrees = np.interp(columns + 0.5, (axes.left, axes.right), axes.x)
+    for values, color, share in ((wanted, look.target, 0.8), (blender, look.blender, 0.3)):
+        rows = axes.place(degrees, np.interp(degrees, data.VIEW_ANGLES, values))[:, 1]
+        found = [row_of(canvas, color, column, axes.box) for column in columns]
+        assert np.isfinite(found).mean() > share
+        assert np.nanmax(np.abs(found - rows)) < 1
+
+
+def test_the_polar_plot_has_its_curve_at_the_right_distance():
+    level = np.full(data.VIEW_ANGLES.size, 0.5)
+    canvas = figures.angles_polar(data.VIEW_ANGLES, level, level * 0, (200, 120), DARK)
+    for degrees in (-60, 0, 45):
+        [[x, y]] = figures.polar_place((200, 120), DARK, [degrees], [0.5 / plot.ceiling(0.5)])
+        pixel = canvas[int(y), int(x)]
+        assert pixel[3] > 0.8
+        np.testing.assert_allclose(pixel[:3] / pixel[3], DARK.target, atol=0.1)
+
+
+@LOOKS
+def test_bars_stand_at_their_values(look):
+    bars = [(400.0, 490.0, 0.2), (490.0, 570.0, 0.5), (570.0, 690.0, 0.35)]
+    nothing = np.zeros(36)
+    canvas = figures.spectrum(np.linspace(380, 730, 36), nothing, nothing, bars, SIZE, look)
+    axes = figures.spectrum_axes(SIZE, look, 0.5)
+    for start, end, value in bars:
+        [[x, y]] = axes.place([(start + end) / 2], [value])
+        assert row_of(canvas, look.blender, int(x), axes.box) == pytest.approx(y, abs=0.5)
+        [[left, _]] = axes.place([start], [value])
+        assert canvas[int(y), int(left) + 2, 3] > 0.9
+
+
+def test_swatches_have_exactly_their_colors():
+    one, other = (0.25, 0.5, 0.75), (0.24, 0.5, 0.75)
+    canvas = figures.swatch_pair(one, other, (80, 80), DARK)
+    middle = canvas[20]
+    np.testing.assert_array_equal(middle[:40], np.float32([(*one, 1)] * 40))
+    np.testing.assert_array_equal(middle[40:], np.float32([(*other, 1)] * 40))
+    marked = figures.swatch_pair(one, other, (80, 80), DARK, (False, True))
+    changed = np.nonzero((marked != canvas).any(axis=-1))
+    assert changed[0].max() < 10
+    assert changed[1].min() > 69
+
+
+def test_many_swatches_are_as_one():
+    colors = [(0.1, 0.2, 0.3), (0.9, 0.5, 0.0)]
+    many = figures.swatches(colors, 16, LIGHT)
+    for color, icon in zip(colors, many, strict=True):
+        np.testing.assert_array_equal(icon, figures.swatch(color, 16, LIGHT))
+        np.testing.assert_allclose(icon[8, 8], (*color, 1), atol=1e-6)
+
+
+@LOOKS
+def test_the_range_of_sigma_ends_where_it_should(look):
+    canvas = figures.sigma_range(10, 30.0, (380, 30), look)
+    row = canvas[11]
+    is_bar = np.abs(row[:, :3] - look.target).max(axis=1) < 0.02
+    left, right = 4, 376
+    assert np.nonzero(is_bar)[0].max() == pytest.approx(left + (right - left) / 3, abs=1.5)
+    mark = left + (right - left) * 10 / 90
+    top = canvas[0, :, 3]
+    assert (np.arange(380) + 0.5) @ top / top.sum() == pytest.approx(mark, abs=0.5)
+    everywhere = figures.sigma_range(10, None, (380, 30), look)[11]
+    assert (everywhere[left:right, 3] == 1).all()
+
+
+@LOOKS
+@pytest.mark.parametrize("sigma", [0, 31, 90])
+@pytest.mark.parametrize("width", [60, 120, 280])
+def test_letters_stay_inside_the_picture(look, sigma, width):
+    """No ink on the outermost columns next to text: nothing is cut."""
+    canvas = figures.sigma_range(sigma, 88.0, (width, 30), look)
+    assert not canvas[19:, 0, 3].any()
+    assert not canvas[19:, -1, 3].any()
+    nm = np.linspace(380, 730, 36)
+    spectrum = figures.spectrum(nm, nm / 1000, nm / 1200, [], (width, 90), look)
+    legend = spectrum[: plot.legend_height(look)]
+    assert not legend[:, -1, 3].any()
+
+
+@LOOKS
+def test_letters_are_readable(look):
+    """WCAG 2.1 asks for a contrast of 4.5 for text."""
+    for color in (look.text, look.faint, look.target, look.blender):
+        assert theme.contrast(color, look.background) >= 4.5
+    assert theme.contrast((0, 0, 0), (1, 1, 1)) == pytest.approx(21)
+    assert theme.contrast((119 / 255,) * 3, (1, 1, 1)) == pytest.approx(4.48, abs=0.01)
+
+
+# Machado, Oliveira and Fernandes (2009), table 1, severity 1.0, for linear RGB.
+DEFICIENCIES = {
+    "protanopia": (
+        (0.152286, 1.052583, -0.204868),
+        (0.114503, 0.786281, 0.099216),
+        (-0.003882, -0.048116, 1.051998),
+    ),
+    "deuteranopia": (
+        (0.367322, 0.860646, -0.227968),
+        (0.280085, 0.672501, 0.047413),
+        (-0.011820, 0.042940, 0.968881),
+    ),
+    "tritanopia": (
+        (1.255528, -0.076749, -0.178779),
+        (-0.078411, 0.930809, 0.147602),
+        (0.004733, 0.691367, 0.303900),
+    ),
+}
+
+
+@LOOKS
+@pytest.mark.parametrize("deficiency", [None, *DEFICIENCIES])
+def test_color_blind_readers_tell_the_curves_apart(look, deficiency):
+    matrix = np.eye(3) if deficiency is None else np.array(DEFICIENCIES[deficiency])
+    encoded = np.array((look.target, look.blender, look.text, look.faint))
+    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    seen = np.clip(linear @ matrix.T, 0, 1)
+    from_rgb = np.array(
+        ((0.4124, 0.3576, 0.1805), (0.2126, 0.7152, 0.0722), (0.0193, 0.1192, 0.9505))
+    )
+    lab = colorimetry.xyz_to_lab(seen @ from_rgb.T, from_rgb.sum(axis=1))
+    apart = colorimetry.delta_e(lab[:, np.newaxis], lab)
+    # Differences that are seen at a glance; and the curves differ in dash and thickness, too.
+    assert apart[0, 1] > 25
+    assert min(apart[0, 2], apart[1, 2]) > 15
+    assert min(apart[0, 3], apart[1, 3]) > 10
+
+
+def test_data_of_a_material_is_what_the_solver_matched(make_material, green):
+    sample = replace(green, kind="reading")
+    material = make_material()
+    request = target.Request(sample, np.radians(28))
+    [solution] = assign.assign([(material, request)])
+    space = working_space.current()
+    found = data.collect(material, space)
+    settled = replace(request, model=solution.model)
+    np.testing.assert_allclose(found.reading, target.target_reading(settled))
+    np.testing.assert_allclose(
+        reading.from_albedo(found.albedo, np.radians(28), solution.model), found.reading, rtol=1e-6
+    )
+    np.testing.assert_allclose(found.target.color, found.blender.color, atol=1e-4)
+    assert [bar[2] for bar in found.bars] == pytest.approx(solution.target[::-1], abs=1e-5)
+    middle = data.VIEW_ANGLES == 0
+    # Light from 45°, view along the normal: the instrument's own geometry.
+    # The closure for any direction and the one for the instrument are two fits.
+    assert found.target_curve[middle] == pytest.approx(found.lambert, rel=2e-3)
+    assert found.blender_curve[middle] == pytest.approx(found.lambert, rel=1e-4)
+    assert found.sigma == pytest.approx(28, abs=1e-4)
+
+
+def test_a_hand_edited_node_shows_as_it_is(make_material, green):
+    material = make_material()
+    assign.assign([(material, target.Request(green, 0.4))])
+    node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
+    node.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
+    node.inputs["Roughness"].default_value = 0
+    found = data.collect(material, working_space.current())
+    # Half of the light of a linear space, encoded by sRGB's curve.
+    np.testing.assert_allclose(found.blender.color, 1.055 * 0.5 ** (1 / 2.4) - 0.055, atol=1e-4)
+    assert found.target.color != found.blender.color
+
+
+@pytest.mark.parametrize("model", ["lambert", "first-order", "two-bounce", "closure", "reference"])
+@pytest.mark.parametrize("kind", ["reading", "albedo"])
+def test_every_model_gives_curves(green, model, kind):
+    request = target.Request(replace(green, kind=kind), 0.5, model=model)
+    color = np.array((0.2, 0.4, 0.2))
+    found = data.of_request(request, color, 0.3, working_space.current())
+    assert np.isfinite(found.target_curve).all()
+    assert found.target_curve.min() >= 0
+    assert (found.albedo >= found.reading - 1e-9).all()
+
+
+def test_sigma_max_is_the_published_bound(green):
+    """The positive root of the quadratic in the physics page, for the two-bounce model."""
+    for peak, degrees in ((0.8, 48.9), (0.9, 28.0), (0.95, 19.5)):
+        bright = replace(
+            green, kind="reading", values=np.full(green.wavelengths.size, peak), instrument="45a:0"
+        )
+        request = target.Request(bright, 0.1, model="two-bounce")
+        assert data.sigma_max(request) == pytest.approx(degrees, abs=0.06)
+    assert data.sigma_max(target.Request(replace(green, kind="albedo"), 0.1)) is None
+
+
+def test_bars_cover_the_visible_range_in_order(green):
+    for illuminant in ("D65", "A"):
+        bars = data.rgb_bars(np.array((0.1, 0.2, 0.3)), working_space.current(), illuminant)
+        (b0, b1, b), (g0, g1, g), (r0, r1, r) = bars
+        assert b0 < b1 < g0 < g1 < r0 < r1
+        assert (b, g, r) == (0.3, 0.2, 0.1)
+
+
+def test_a_color_beyond_the_screen_is_marked():
+    space = working_space.current()
+    assert not data.patch(np.array((1.0, 1.0, 1.0)), space).outside
+    np.testing.assert_allclose(data.patch(np.ones(3), space).color, 1, atol=1e-3)
+    assert data.patch(np.array((-0.05, 0.5, 0.2)), space).outside
+    assert data.patch(np.array((0.5, 1.2, 0.2)), space).outside
+
+
+@LOOKS
+@pytest.mark.parametrize("side", [40, 140, 200, 420])
+def test_every_figure_is_drawn_at_every_size(look, side, green):
+    found = data.of_request(
+        target.Request(green, 0.5, model="closure"),
+        np.array((0.1, 0.3, 0.1)),
+        0.3,
+        working_space.current(),
+    )
+    for figure in ("swatches", "sheet", "spectrum", "angles", "polar"):
+        canvas = compose.picture(figure, found, side, look)
+        assert canvas.shape == (side, side, 4)
+        assert np.isfinite(canvas).all()
+        assert canvas.min() >= 0
+        # Premultiplied: no color is brighter than its alpha.
+        assert (canvas[..., :3] <= canvas[..., 3:] + 1e-5).all()
+        assert canvas[..., 3].max() > 0.9
+
+
+def test_words_follow_the_thresholds():
+    assert [words.words(x) for x in (0, 0.79, 0.8, 1.9, 2.0, 30, float("nan"))] == [
+        "not visible",
+        "not visible",
+        "visible side by side",
+        "visible side by side",
+        "visible",
+        "visible",
+        "unknown",
+    ]
+
+
+def test_ticks_that_would_touch_are_thinned_evenly():
+    canvas = np.zeros((20, 90, 4), np.float32)
+    axes = plot.Axes(0, 0, 89, 5, (-80, 80), (0, 1))
+    ticks = [(t, f"{t}°") for t in (-60, -30, 0, 30, 60)]
+    plot.name_below(canvas, axes, ticks, 16, DARK)
+    inked = canvas[..., 3].max(axis=0) > 0.1
+    assert inked[:30].any()
+    assert inked[60:].any()
+    for value in (-30, 30):
+        [[x, _]] = axes.place([value], [0])
+        width = text.width("30°", DARK.font) / 4
+        assert not inked[int(x - width) + 2 : int(x)].all()

@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures are made outside of drawing, renewed when something changed, and bounded in number."""
+
+import bpy
+import numpy as np
+import pytest
+from rough_spectra.addon import assign, target
+from rough_spectra.addon.preview import icons, theme
+
+
+@pytest.fixture(autouse=True)
+def _no_pictures():
+    icons.clear()
+    yield
+    icons.clear()
+
+
+@pytest.fixture
+def material(make_material, colorchecker):
+    material = make_material()
+    assign.assign([(material, target.Request(colorchecker[13], 0.4))])
+    return material
+
+
+def ask(material, figure="sheet", units=10.0):
+    icons.icon_id(material, figure, units, bpy.context)
+
+
+def pixels(figure="sheet"):
+    """What was given to Blender, first row on top."""
+    [picture] = [p for w, p in icons._pictures.items() if w.figure == figure]
+    preview = icons._previews()[picture.name]
+    width, height = preview.image_size
+    return np.array(preview.image_pixels_float[:]).reshape(height, width, 4)[::-1]
+
+
+def test_drawing_makes_nothing_and_the_timer_makes_it(material):
+    ask(material)
+    assert not icons._pictures
+    assert bpy.app.timers.is_registered(icons._work)
+    icons._work()
+    side = icons.side(10, bpy.context.preferences)
+    assert pixels().shape == (side, side, 4)
+    assert pixels()[..., 3].max() == 1
+
+
+def test_nothing_is_made_twice_until_something_changes(material):
+    for figure in ("sheet", "swatches"):
+        ask(material, figure)
+    icons._work()
+    ask(material)
+    assert not icons._pending
+    before = pixels("swatches")
+    node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
+    node.inputs["Color"].default_value = (0.9, 0.1, 0.1, 1)
+    ask(material, "swatches")
+    assert icons._pending
+    icons._work()
+    after = pixels("swatches")
+    half = after.shape[1] // 2
+    assert (after[5, 15 : half - 15] == before[5, 15 : half - 15]).all()
+    assert (after[5, half + 15 : -15] != before[5, half + 15 : -15]).any()
+
+
+def test_refresh_makes_visible_pictures_at_once(material):
+    ask(material, "swatches")
+    icons._work()
+    before = pixels("swatches")
+    node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
+    node.inputs["Color"].default_value = (0.9, 0.1, 0.1, 1)
+    icons.refresh(material)
+    assert (pixels("swatches") != before).any()
+    ask(material, "swatches")
+    assert not icons._pending
+
+
+def test_a_picture_has_the_colors_of_its_figure(material):
+    """Bytes are what the canvas rounds to, alpha and order of rows included."""
+    from rough_spectra.addon import working_space
+    from rough_spectra.addon.preview import compose, data
+
+    ask(material)
+    icons._work()
+    look = theme.current(bpy.context.preferences)
+    found = data.collect(material, working_space.current(), bpy.context.scene.render.engine)
+    side = icons.side(10, bpy.context.preferences)
+    canvas = compose.picture("sheet", found, side, look)
+    assert np.abs(pixels() - canvas).max() < 0.51 / 255
+
+
+def test_a_material_without_spectrum_is_tried_once(make_material):
+    material = make_material()
+    ask(material)
+    icons._work()
+    ask(material)
+    assert not icons._pending
+    assert icons.icon_id(material, "sheet", 10.0, bpy.context) == 0
+
+
+def test_pictures_of_removed_materials_are_not_made(material):
+    ask(material)
+    bpy.data.materials.remove(material)
+    icons._work()
+    assert not icons._pictures
+
+
+def test_old_pictures_go(material, monkeypatch):
+    monkeypatch.setattr(icons, "_BOUND", 3)
+    for units in (3.0, 4.0, 5.0, 6.0, 7.0):
+        ask(material, "swatches", units)
+        icons._work()
+    assert len(icons._pictures) == 3
+    assert len(icons._previews()) == 3
+
+
+def test_equal_swatches_share_an_icon(monkeypatch):
+    found = icons.swatch_icons([(1, 0, 0), (0, 1, 0), (1, 0, 0)])
+    assert len(found) == 3
+    assert len(icons._previews()) == 2
+    monkeypatch.setattr(icons, "_SWATCH_BOUND", 2)
+    icons.swatch_icons([(0, 0, 1)])
+    assert len(icons._previews()) == 2
+
+
+def test_both_themes_are_readable():
+    """Blender's own light and dark theme, as they are shipped with this version."""
+    from pathlib import Path
+
+    before = theme.current(bpy.context.preferences).background
+    [light] = [
+        path
+        for folder in bpy.utils.preset_paths("interface_theme")
+        for path in Path(folder).glob("*ight.xml")
+    ]
+    bpy.ops.script.execute_preset(
+        filepath=str(light), menu_idname="USERPREF_MT_interface_theme_presets"
+    )
+    look = theme.current(bpy.context.preferences)
+    assert max(look.background) > 0.7 > 0.3 > max(before)
+    for color in (look.text, look.faint, look.target, look.blender):
+        assert theme.contrast(color, look.background) >= 4.5
+    bpy.ops.preferences.reset_default_theme()
+    assert theme.current(bpy.context.preferences).background == before
+
+
+@pytest.mark.parametrize(
+    ("scale", "pixel", "units", "drawn"),
+    # Measured on the screen of Blender 5.2.
+    [
+        (1.0416666, 1, 6, 119),
+        (1.0416666, 1, 12.5, 255),
+        (2.0833332, 2, 7.5, 302),
+        (2.0833332, 2, 6, 239),
+        (2.0833332, 2, 5.5, 218),
+        (2.0833332, 2, 5, 197),
+    ],
+)
+def test_pictures_have_the_size_that_blender_draws(scale, pixel, units, drawn):
+    class System:
+        ui_scale, pixel_size = scale, float(pixel)
+
+    class Preferences:
+        system = System
+
+    assert icons.side(units, Preferences) == drawn

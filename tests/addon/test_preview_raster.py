@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines, areas and letters cover the pixels that geometry says they cover."""
+
+import numpy as np
+import pytest
+from rough_spectra.addon.preview import glyphs, raster, text
+
+RED = (1.0, 0.0, 0.0)
+
+
+def alpha(draw, height=40, width=60):
+    canvas = raster.blank(height, width)
+    draw(canvas)
+    return canvas[..., 3]
+
+
+def test_a_rectangle_covers_its_area_and_nothing_beside_it():
+    box = (3.25, 4.5, 20.75, 9.125)
+    covered = alpha(lambda c: raster.rectangle(c, box, RED))
+    assert covered.sum() == pytest.approx((20.75 - 3.25) * (9.125 - 4.5), rel=1e-6)
+    assert covered[4, 3] == pytest.approx(0.5 * 0.75)
+    assert covered[5:9, 4:20].min() == 1
+    outside = covered.copy()
+    outside[4:10, 3:21] = 0
+    assert not outside.any()
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(3.3, 2.1), (30.7, 5.9), (12.2, 33.4)],
+        [(3.3, 2.1), (12.2, 33.4), (30.7, 5.9)],
+        [(5, 5), (45.5, 5), (45.5, 20.25), (5, 20.25)],
+        [(10, 3), (10, 30), (30, 30)],
+    ],
+)
+def test_a_polygon_covers_its_area(corners):
+    x, y = np.array(corners).T
+    shoelace = abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2
+    assert alpha(lambda c: raster.polygon(c, [corners], RED)).sum() == pytest.approx(
+        shoelace, rel=1e-6
+    )
+
+
+def test_pixels_of_a_polygon_agree_with_counting_points():
+    corners = np.array([(3.3, 2.1), (30.7, 5.9), (12.2, 33.4)])
+    covered = alpha(lambda c: raster.polygon(c, [corners], RED))
+    fine = 16
+    at = (np.arange(40 * fine) + 0.5) / fine
+    x, y = np.meshgrid(at[: 40 * fine], at[: 40 * fine])
+    sides = []
+    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        sides.append((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0)
+    inside = np.all(sides, axis=0)
+    counted = inside.reshape(40, fine, 40, fine).mean(axis=(1, 3))
+    # Points on a grid of 16 x 16 miss an edge by at most two rows of them.
+    assert np.abs(covered[:, :40] - counted).max() < 2 / fine
+
+
+def test_a_polygon_has_holes():
+    outer = [(5, 5), (35, 5), (35, 35), (5, 35)]
+    inner = [(10, 10), (10, 30), (30, 30), (30, 10)]
+    covered = alpha(lambda c: raster.polygon(c, [outer, inner], RED))
+    assert covered.sum() == pytest.approx(30 * 30 - 20 * 20)
+    assert covered[20, 20] == 0
+
+
+@pytest.mark.parametrize("width", [1.0, 1.6, 3.0])
+@pytest.mark.parametrize("end", [(50.0, 10.5), (50.0, 30.2), (10.5, 35.0), (33.0, 33.0)])
+def test_a_line_covers_its_length_times_width(width, end):
+    start = (10.5, 10.5)
+    covered = alpha(lambda c: raster.polyline(c, [start, end], RED, width))
+    expected = np.hypot(*np.subtract(end, start)) * width + np.pi * width**2 / 4
+    # As `raster` says; the thinnest lines are off the most on diagonals.
+    assert covered.sum() == pytest.approx(expected, rel=0.04 if width > 1 else 0.13)
+    rows, columns = np.nonzero(covered)
+    reach = width / 2 + 1
+    assert columns.min() >= 10.5 - reach - 1
+    assert columns.max() <= end[0] + reach
+    assert rows.max() <= end[1] + reach
+
+
+def test_a_line_is_centered_on_its_points_and_has_soft_edges():
+    covered = alpha(lambda c: raster.polyline(c, [(5, 12.3), (55, 20.3)], RED, 1.6))
+    columns = np.arange(10, 50)
+    rows = (covered[:, columns] * (np.arange(40)[:, np.newaxis] + 0.5)).sum(axis=0)
+    middle = rows / covered[:, columns].sum(axis=0)
+    assert np.abs(middle - (12.3 + (columns + 0.5 - 5) * 8 / 50)).max() < 0.1
+    between = (covered > 0.05) & (covered < 0.95)
+    assert between[:, columns].any(axis=0).all()
+
+
+def test_dashes_cover_their_share_and_leave_gaps():
+    line = np.stack((np.linspace(5.0, 245.0, 41), np.full(41, 12.0)), axis=1)
+    covered = alpha(lambda c: raster.polyline(c, line, RED, 2, dash=(6, 4)), 24, 250)
+    # Round ends take π/4 of the square at either end of a stroke.
+    stroke = (6 - 2) * 2 + np.pi
+    assert covered.sum() == pytest.approx(24 * stroke, rel=0.02)
+    assert (covered.max(axis=0)[5:245] == 0).sum() >= 24 * 3
+
+
+def test_nothing_is_drawn_outside_the_canvas_or_the_box():
+    canvas = raster.blank(20, 30)
+    raster.polyline(canvas, [(-50, -20), (80, 40)], RED, 3)
+    raster.rectangle(canvas, (-5, 15, 200, 400), RED)
+    raster.polygon(canvas, [[(-10, -10), (12, -10), (-10, 12)]], RED)
+    assert np.isfinite(canvas).all()
+    boxed = alpha(lambda c: raster.polyline(c, [(0, 0), (60, 40)], RED, 3, within=(20, 10, 40, 30)))
+    assert boxed[10:30, 20:40].any()
+    boxed[10:30, 20:40] = 0
+    assert not boxed.any()
+
+
+def test_colors_are_laid_over_each_other_as_premultiplied():
+    canvas = raster.blank(4, 4)
+    raster.rectangle(canvas, (0, 0, 4, 4), (1, 0, 0), 0.5)
+    np.testing.assert_allclose(canvas[0, 0], (0.5, 0, 0, 0.5))
+    raster.rectangle(canvas, (0, 0, 4, 4), (0, 1, 0), 0.5)
+    np.testing.assert_allclose(canvas[0, 0], (0.25, 0.5, 0, 0.75))
+
+
+@pytest.mark.parametrize("size", [9.0, 10.4, 21.0, 40.0])
+def test_every_letter_is_drawn_inside_its_place(size):
+    for character in glyphs.CHARACTERS:
+        if character == " ":
+            continue
+        canvas = raster.blank(90, 90)
+        text.draw(canvas, character, 20, 50, size, RED)
+        rows, columns = np.nonzero(canvas[..., 3] > 0.02)
+        assert rows.size, character
+        assert columns.min() >= 20 - 0.15 * size - 1, character
+        assert columns.max() <= 20 + text.width(character, size) + 0.15 * size + 1, character
+        assert rows.min() >= 50 - 1.05 * size, character
+        assert rows.max() <= 50 + 0.3 * size + 1, character
+
+
+def test_letters_have_their_proportions():
+    """Known of the font: capitals are 0.727 em high, digits equally wide, I is a bar."""
+    canvas = raster.blank(200, 400)
+    text.draw(canvas, "H", 50, 150, 100, RED)
+    rows, _ = np.nonzero(canvas[..., 3] > 0.5)
+    assert rows.max() - rows.min() + 1 == pytest.approx(72.7, abs=1)
+    assert len({text.width(digit, 10) for digit in "0123456789−"}) == 1
+    o = raster.blank(200, 400)
+    text.draw(o, "O", 50, 150, 100, RED)
+    assert o[114, 50 + round(text.width("O", 100) / 2), 3] == 0
+
+
+def test_text_is_aligned_and_unknown_letters_show():
+    spans = []
+    for align in (0, 0.5, 1):
+        canvas = raster.blank(30, 200)
+        text.draw(canvas, "400 nm", 100, 20, 12, RED, align)
+        columns = np.nonzero(canvas[..., 3].max(axis=0) > 0.1)[0]
+        spans.append((columns.min() + columns.max() + 1) / 2 - 100)
+    half = text.width("400 nm", 12) / 2
+    np.testing.assert_allclose(spans, (half, 0, -half), atol=1.5)
+    assert text.width("\u4e00", 12) == text.width("?", 12)
