@@ -20,8 +20,8 @@ import numpy.typing as npt
 
 from ..spectrophotometer.worker import read_exr
 
-PIXELS = 192
-"""Width of a preview: twice what the Asset Browser shows unless told otherwise."""
+PIXELS = 128
+"""Width of a preview; the Asset Browser shows 96 unless told otherwise."""
 SAMPLES = 8
 """Rays a pixel: the sun is sharp and the sky even, so only the rim has noise."""
 AT_ONCE = 12
