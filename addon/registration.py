@@ -22,6 +22,7 @@ from .operators import (
     measure,
     renew,
 )
+from .preview import icons
 
 _MODULES = (
     *(
@@ -54,6 +55,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
+    icons.clear()
     command_line.unregister()
     live.unregister()
     panels.unregister_menus()
