@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import bpy
 import numpy as np
 
 from ...core.arrays import Array
@@ -54,6 +55,16 @@ def blackbody(temperature: float, space: WorkingSpace) -> Array:
     spd = light_spectrum.planck(float(np.clip(temperature, *_BLACKBODY_RANGE)))
     xyz = light_spectrum.to_xyz(spd)
     return np.maximum(space.from_xyz @ (xyz / xyz[1]), 0)
+
+
+def tree(data: Any) -> Any | None:
+    """Give the node tree that a light, world or material shines by, or None.
+
+    Up to Blender 4.5 each of them may do without nodes; later the property only warns.
+    """
+    if bpy.app.version < (5, 0, 0) and not data.use_nodes:
+        return None
+    return data.node_tree
 
 
 def of_tree(tree: Any, kind: str, space: WorkingSpace) -> Emission | None:

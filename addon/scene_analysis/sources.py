@@ -80,8 +80,9 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
     if light.use_temperature:
         rgb = rgb * emission.blackbody(light.temperature, space)
         temperature = light.temperature if neutral else None
-    if light.use_nodes and light.node_tree is not None:
-        shining = emission.of_tree(light.node_tree, "ShaderNodeOutputLight", space)
+    tree = emission.tree(light)
+    if tree is not None:
+        shining = emission.of_tree(tree, "ShaderNodeOutputLight", space)
         if shining is None:
             return None
         rgb = rgb * shining.rgb
@@ -143,9 +144,10 @@ def _linking(thing: Any) -> tuple[frozenset[str] | None, frozenset[str]]:
 
 def _glowing(surfaces: Surfaces, space: WorkingSpace, warnings: list[str]) -> Iterator[Lamp]:
     for index, material in enumerate(surfaces.materials):
-        if material.node_tree is None:
+        tree = emission.tree(material)
+        if tree is None:
             continue
-        shining = emission.of_tree(material.node_tree, "ShaderNodeOutputMaterial", space)
+        shining = emission.of_tree(tree, "ShaderNodeOutputMaterial", space)
         if shining is None:
             continue
         if shining.unread or shining.source is not None:

@@ -33,10 +33,11 @@ class Part:
 
 def read(world: Any, space: WorkingSpace) -> tuple[list[Part], list[str]]:
     """Read what a `bpy.types.World` sheds, and sentences about what could not be read."""
-    if world.node_tree is None or not world.use_nodes:
+    tree = emission.tree(world)
+    if tree is None:
         rgb = np.array(world.color[:])
         return ([Part(world.name, _even(), rgb)] if rgb.max() > 0 else []), []
-    shining = emission.of_tree(world.node_tree, "ShaderNodeOutputWorld", space)
+    shining = emission.of_tree(tree, "ShaderNodeOutputWorld", space)
     if shining is None:
         return [], []
     node = shining.source
