@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From spectra to colors, on colour-science: XYZ, Lab, ΔE00.
+"""From spectra to colors: XYZ, Lab, ΔE00. The tables are colour-science's.
 
 XYZ is linear in reflectance, so observer, illuminant and the ASTM E308 rules shrink to one matrix
 a wavelength grid; it is made once and a spectrum then costs one small matrix product.
@@ -18,20 +18,14 @@ import numpy.typing as npt
 from ..core import grid
 from ..core.arrays import Array
 from ..core.errors import DomainError
-from .science import colour
+from . import e308
 
-ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3")
-OBSERVERS = (2, 10)
-"""CIE 1931 (2°) and CIE 1964 (10°)."""
+ILLUMINANTS = e308.ILLUMINANTS
+OBSERVERS = e308.OBSERVERS
 
-_OBSERVER_NAMES = {
-    2: "CIE 1931 2 Degree Standard Observer",
-    10: "CIE 1964 10 Degree Standard Observer",
-}
+_VISIBLE = e308.VISIBLE_NM
 _E308_STEPS = (5, 10, 20)
 """Intervals in nanometers for which ASTM E308 gives weights; at 1 nm it is the plain sum."""
-_VISIBLE = (360.0, 780.0)
-"""ASTM E308's range, nanometers."""
 _DARK = (6 / 29) ** 3
 """Below this share of the white, CIE Lab goes on as a straight line."""
 _TURN = 2 * np.pi
@@ -219,43 +213,12 @@ def _weights_of_grid(measured: Array, illuminant: str, observer: int) -> Array:
     nominal = np.round(measured)
     close = np.allclose(measured, nominal, rtol=0, atol=1e-3)
     if step is not None and close and _is_e308_step(step) and nominal[0] % round(step) == 0:
-        return _e308(nominal, illuminant, observer)
+        return e308.weights(nominal, illuminant, observer)
     fine = np.arange(_VISIBLE[0], _VISIBLE[1] + 1)
     units = np.eye(measured.size)
     to_fine = grid.resample(units, measured, fine, method="cubic", ends="hold")
-    return np.asarray(to_fine @ _integration(fine, illuminant, observer))
+    return np.asarray(to_fine @ e308.integration(fine, illuminant, observer))
 
 
 def _is_e308_step(step: float) -> bool:
     return any(abs(step - known) < 1e-4 * known for known in _E308_STEPS)
-
-
-def _integration(wavelengths: Array, illuminant: str, observer: int) -> Array:
-    """Weights of the plain sum over a 1 nm grid, with which ASTM E308 begins."""
-    science = colour()
-    shape = science.SpectralShape(wavelengths[0], wavelengths[-1], 1)
-    matching = science.MSDS_CMFS[_OBSERVER_NAMES[observer]].copy().align(shape).values
-    light = science.SDS_ILLUMINANTS[_science_name(illuminant)].copy().align(shape).values
-    matrix = np.asarray(matching * light[:, np.newaxis])
-    return matrix / matrix[:, 1].sum()
-
-
-def _science_name(illuminant: str) -> str:
-    return illuminant.replace("F", "FL", 1) if illuminant[0] == "F" else illuminant
-
-
-def _e308(wavelengths: Array, illuminant: str, observer: int) -> Array:
-    """ASTM E308 of every unit spectrum: one row of weights a band."""
-    science = colour()
-    matrix = np.zeros((wavelengths.size, 3))
-    visible = (wavelengths >= _VISIBLE[0]) & (wavelengths <= _VISIBLE[1])
-    seen = wavelengths[visible]
-    units = science.MultiSpectralDistributions(np.eye(seen.size), seen)
-    xyz = science.msds_to_XYZ(
-        units,
-        cmfs=science.MSDS_CMFS[_OBSERVER_NAMES[observer]],
-        illuminant=science.SDS_ILLUMINANTS[_science_name(illuminant)],
-        method="ASTM E308",
-    )
-    matrix[visible] = np.asarray(xyz) / 100
-    return matrix

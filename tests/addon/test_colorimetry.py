@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from rough_spectra.addon import colorimetry
+from rough_spectra.addon import colorimetry, e308
 from rough_spectra.addon.science import colour
 from rough_spectra.core import reading
 from rough_spectra.core.errors import DomainError
@@ -100,6 +100,15 @@ def test_weights_are_e308_where_ends_are_missing(step, first, last):
         peer_xyz(values, wavelengths, "D65", 2),
         rtol=1e-13,
     )
+
+
+@pytest.mark.parametrize("step", [5, 10])
+def test_usual_grids_need_no_import_of_colour_science(monkeypatch, step):
+    """It takes half a second, in which a panel would stand still at its first use."""
+    colorimetry._weights.cache_clear()
+    monkeypatch.setattr(e308, "colour", None)
+    wavelengths = np.arange(400.0, 701.0, step)
+    assert colorimetry.weights(wavelengths, "F11", 10).shape == (wavelengths.size, 3)
 
 
 def test_white_points_are_the_published_ones():

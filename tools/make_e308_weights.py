@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write addon/e308_weights.npy: ASTM E308's weights of the usual grids, by colour-science.
+
+    .venv/bpy-5.2/bin/python tools/make_e308_weights.py
+
+The same library gives the same bytes but for the last digit; the tests compare with it.
+"""
+
+import importlib
+import warnings
+
+import numpy as np
+from run_command_line import load_extension
+
+
+def main() -> None:
+    """Compute and write the weights."""
+    load_extension()
+    e308 = importlib.import_module("rough_spectra.addon.e308")
+    # colour-science tells on the console of every table that it aligns.
+    warnings.simplefilter("ignore")
+    rows = [
+        [
+            np.concatenate(
+                [e308.by_science(e308.whole(step), light, observer) for step in e308.TABLED_STEPS]
+            )
+            for light in e308.ILLUMINANTS
+        ]
+        for observer in e308.OBSERVERS
+    ]
+    np.save(e308.FILE, np.array(rows), allow_pickle=False)
+    print(f"{e308.FILE}: {e308.FILE.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()
