@@ -41,7 +41,7 @@ class Defaults:
 
 
 class RoughSpectraPreferences(bpy.types.AddonPreferences):
-    """What new materials begin with, and where the library is"""
+    """What new materials begin with, and where the library is."""
 
     bl_idname = PACKAGE
 
@@ -90,7 +90,7 @@ def defaults() -> Defaults:
         return Defaults()
     chosen = addon.preferences
     folder = bpy.path.abspath(chosen.library_folder) if chosen.library_folder else ""
-    return Defaults(chosen.illuminant, int(chosen.observer), chosen.tolerance, folder)
+    return Defaults(chosen.illuminant, int(chosen.observer), round(chosen.tolerance, 5), folder)
 
 
 classes = (RoughSpectraPreferences,)

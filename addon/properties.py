@@ -138,6 +138,16 @@ class RoughSpectraMaterial(PropertyGroup):
     shader: EnumProperty(
         name="Shader", description="Node that is set", items=SHADER_ITEMS, update=live.changed
     )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Largest color difference, ΔE00, that Auto accepts for a simpler model",
+        default=1.0,
+        min=0.05,
+        soft_max=5.0,
+        max=20.0,
+        precision=2,
+        update=live.changed,
+    )
     use_scene: BoolProperty(
         name="Light from the Scene",
         description="Be right under the lights and in the directions that Analyze Scene found, "

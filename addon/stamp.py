@@ -26,6 +26,9 @@ DERIVATION = 1
 """Raise when the same spectrum and settings come to give another color, beyond rounding; materials
 derived before are then stale."""
 
+_USUAL_TOLERANCE = 1.0
+"""ΔE00; that of all materials before it could be set."""
+
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
 
@@ -127,6 +130,11 @@ def sigma_degrees(group: Any) -> float:
     return round(math.degrees(group.sigma), 5)
 
 
+def tolerance(group: Any) -> float:
+    """ΔE00 as the user entered it: the property is single precision, as that of `sigma`."""
+    return round(group.tolerance, 5)
+
+
 def working_space_name() -> str:
     """Name of the open file's working space."""
     data = getattr(bpy.data, "colorspace", None)
@@ -222,6 +230,7 @@ def settings(group: Any) -> dict[str, str]:
         "illuminant": group.illuminant,
         "model": group.model,
         "shader": group.shader,
+        "tolerance": f"{tolerance(group):g}",
         **_scene_settings(group),
     }
 
@@ -250,6 +259,8 @@ def inputs_digest(group: Any) -> str:
     )
     if has_scene(group):
         settings += (group.scene_view, _engine())
+    if tolerance(group) != _USUAL_TOLERANCE:
+        settings += (f"{tolerance(group)}",)  # so that older stamps stay valid
     return hashlib.sha256("\n".join(settings).encode()).hexdigest()[:16]
 
 

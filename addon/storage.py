@@ -26,6 +26,7 @@ from .stamp import (
     settings,
     shown,
     sigma,
+    tolerance,
     working_space_name,
 )
 from .target import Request, Solution
@@ -60,6 +61,7 @@ def store(material: Any, request: Request, shader: str) -> None:
         group.illuminant = request.illuminant
         group.observer = str(request.observer)
         group.model = request.model
+        group.tolerance = request.tolerance
         group.shader = shader
         if request.scene is not None:
             group.use_scene, group.scene_view = True, request.scene.to_json()
@@ -105,6 +107,7 @@ def load(material: Any) -> Request:
         model=group.model,
         illuminant=group.illuminant,
         observer=int(group.observer),
+        tolerance=tolerance(group),
     )
     return in_scene(material, request)
 

@@ -76,6 +76,8 @@ class Request:
     flat
         Whether the scene is rendered by an engine that ignores roughness. Only a scene has an
         engine: without one, a material is always made for Cycles.
+    tolerance
+        Largest ΔE00 that "auto" accepts for the sake of a simpler model.
     """
 
     sample: Sample
@@ -85,6 +87,7 @@ class Request:
     observer: int = 2
     scene: SceneView | None = None
     flat: bool = False
+    tolerance: float = TOLERANCE
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,11 +142,11 @@ def target_reading(request: Request) -> Array:
     return np.asarray(_spectra([settled])[0][0])
 
 
-def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Choice]:
+def choose(requests: Sequence[Request]) -> list[Choice]:
     """Choose the cheapest model that is good enough, for every request.
 
-    Good enough is a predicted ΔE00 within `tolerance` of the V-cavity reference, under the
-    request's illuminant, at the instrument and in directions all over the hemisphere; with a
+    Good enough is a predicted ΔE00 within the request's tolerance of the V-cavity reference, under
+    its illuminant, at the instrument and in directions all over the hemisphere; with a
     scene, under its lights and in its directions.
 
     Raises
@@ -167,6 +170,7 @@ def choose(requests: Sequence[Request], tolerance: float = TOLERANCE) -> list[Ch
             geometries = _with_instrument(first.scene.angles)
             lights = [light.weights(first.sample.wavelengths) for light in first.scene.lights]
         sigma = np.array([requests[i].sigma for i in members])
+        tolerance = np.array([requests[i].tolerance for i in members])
         # The closure's albedo stands for the true one: it is what the other models approximate.
         rho = _albedos([requests[i] for i in members], "closure")
         choices = ladder.choose_model(
@@ -228,8 +232,10 @@ def _solve(
     apart = colorimetry.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
     shaders = [
-        choose_shader(lambert[i], over_hemisphere[i], TOLERANCE) if reason != ASKED_FOR else None
-        for i, (_, reason) in enumerate(settled)
+        choose_shader(lambert[i], over_hemisphere[i], request.tolerance)
+        if reason != ASKED_FOR
+        else None
+        for i, (request, reason) in enumerate(settled)
     ]
     judged = judgement.judge_each([request.sample for request in requests])
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
@@ -278,7 +284,7 @@ def _solve_in_scene(
     if request.flat:
         taken, shader_reason = lambert, scene_match.FLAT
     elif reason != ASKED_FOR:
-        choice = choose_shader(lambert.over_scene, rough.over_scene, TOLERANCE)
+        choice = choose_shader(lambert.over_scene, rough.over_scene, request.tolerance)
         taken, shader_reason = (lambert if choice.model == "lambert" else rough), choice.reason
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
     missed = scene_match.mean_over_lights(view, taken.instrument)

@@ -56,7 +56,6 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none; ask which sample if there are several."""
         from .. import readers
-        from ..target import Request
 
         try:
             samples = readers.read(bpy.path.abspath(self.filepath))
@@ -65,7 +64,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             sample = _choose(samples, self.sample, self.filepath)
             if self.kind != AS_FILE:
                 sample = replace(sample, kind=self.kind)
-            request = Request(sample, self.sigma)
+            request = common.new_request(sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))

@@ -51,10 +51,9 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none."""
         from .. import presets
-        from ..target import Request
 
         try:
-            request = Request(presets.load(self.preset), self.sigma)
+            request = common.new_request(presets.load(self.preset), self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))

@@ -91,7 +91,13 @@ def new_request(sample: Sample, sigma: float) -> Request:
     from ..target import Request
 
     chosen = preferences.defaults()
-    return Request(sample, sigma, illuminant=chosen.illuminant, observer=chosen.observer)
+    return Request(
+        sample,
+        sigma,
+        illuminant=chosen.illuminant,
+        observer=chosen.observer,
+        tolerance=chosen.tolerance,
+    )
 
 
 def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Shader]:

@@ -58,6 +58,8 @@ def _draw_settings(layout: Any, material: Any) -> None:
         column.prop(group, "illuminant")
     column.prop(group, "shader")
     column.prop(group, "model")
+    if group.model == "auto":
+        column.prop(group, "tolerance")
 
 
 def draw_state(layout: Any, context: Any, material: Any) -> None:

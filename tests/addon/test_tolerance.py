@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tolerance of the automatic choice belongs to the material."""
+
+import numpy as np
+from rough_spectra.addon import assign, stamp, storage, target, working_space
+from rough_spectra.addon.target import Request
+
+SIGMA = np.radians(30.0)
+
+
+def test_each_request_is_chosen_for_by_its_own_tolerance(colorchecker):
+    tolerances = (20.0, 1.0, 0.05)
+    requests = [Request(colorchecker[13], SIGMA, tolerance=value) for value in tolerances]
+    together = target.solve(requests, working_space.current())
+    assert [found.model for found in together] == [
+        choice.model for request in requests for choice in target.choose([request])
+    ]
+    loose, usual, strict = together
+    assert (loose.model, loose.roughness) == ("lambert", 0.0)
+    assert usual.model == "two-bounce"
+    assert strict.model not in ("lambert", "first-order", "two-bounce")
+
+
+def test_it_is_stored_and_counts_as_a_setting(make_material, colorchecker):
+    material = make_material("Wall")
+    assign.assign([(material, Request(colorchecker[13], SIGMA, tolerance=1.2))])
+    group = material.rough_spectra
+    assert storage.load(material).tolerance == 1.2
+    assert stamp.state(material).kind == "fresh"
+    group.tolerance = 20.0
+    assert stamp.get_stamp(material).model == "lambert"
+
+
+def test_materials_of_before_are_still_up_to_date(make_material, colorchecker):
+    """A digest without the tolerance is that of the usual one."""
+    material = make_material("Wall")
+    assign.assign([(material, Request(colorchecker[13], SIGMA))])
+    before = stamp.inputs_digest(material.rough_spectra)
+    assert material.rough_spectra.tolerance == 1.0
+    material.rough_spectra.tolerance = 1.5
+    assert stamp.inputs_digest(material.rough_spectra) != before
