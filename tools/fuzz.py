@@ -1,37 +1,38 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fuzz the readers, guided by coverage: no crash, no hang, no memory beyond a multiple of the file.
+"""Fuzz the readers, guided by coverage, until a promise of docs/safety.md breaks.
 
     python3 dev.py fuzz [--minutes 10] [--jobs 2] [READER ...]
 
-Each reader runs in a process of its own with the test fixtures as seeds. An input that breaks a
-promise is written to build/fuzz/<reader>/; once mended, it belongs into tests/fixtures/fuzz/.
+Each reader runs in a process of its own with the test fixtures as seeds. The smallest input of each
+kind that breaks a promise is written to build/fuzz/<reader>/found/ with the reason beside it, and
+the run goes on; once mended, it belongs into tests/fixtures/fuzz/<reader>/. What reached new code
+is kept for the next run. At the end, each reader's worst time and memory over all of it are told.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import re
 import subprocess
 import sys
 import time
-import tracemalloc
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import promises
 from run_command_line import ROOT, load_extension
 
 FIXTURES = ROOT / "tests" / "fixtures"
 OUT = ROOT / "build" / "fuzz"
 
-SECONDS = 1.0
-"""What 1 MB may take; inputs are smaller, and the machine may be busy with another job."""
-MEMORY = 20
-"""Bytes a byte of the file."""
-MEMORY_AT_REST = 2**20
-"""What imports, tables and messages take, whatever the file."""
 LONGEST = 64 * 1024
 _EACH = 16  # tracemalloc makes reading several times slower, so one input in so many is weighed
+_BESIDE = {"usgs": "usgs/*Wavelengths*"}  # files that a reader looks for in the folder of its own
+_MOST_WORDS = 2000  # of a dictionary
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("readers", nargs="*", metavar="READER", help="modules of addon/readers")
     options = parser.parse_args(arguments)
     readers = _load()
-    names = [module.__name__.rpartition(".")[2] for module in readers.readers()]
+    names = [promises.short(module) for module in readers.readers()]
     wanted = options.readers or names
     unknown = [name for name in wanted if name not in names]
     if unknown:
@@ -68,6 +69,7 @@ def _load() -> Any:
     load_extension()
     from rough_spectra.addon import readers
 
+    readers.readers()  # lists their folder, which no reader may do
     return readers
 
 
@@ -82,7 +84,7 @@ def _seeds(readers: Any) -> dict[str, list[Path]]:
         document = readers.Document(path, data)
         for reader in readers.readers():
             if reader.sniff(document):
-                found.setdefault(reader.__name__.rpartition(".")[2], []).append(path)
+                found.setdefault(promises.short(reader), []).append(path)
                 break
     return found
 
@@ -91,14 +93,19 @@ def _start(name: str, seeds: list[Path], seconds: int) -> subprocess.Popen[bytes
     folder = OUT / name
     corpus = folder / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
+    (folder / "found").mkdir(exist_ok=True)
     for i, seed in enumerate(seeds):
         (corpus / f"seed-{i}-{seed.name}").write_bytes(seed.read_bytes())
+    for beside in FIXTURES.glob(_BESIDE[name]) if name in _BESIDE else ():
+        (folder / beside.name).write_bytes(beside.read_bytes())
+    words = _dictionary([seed.read_bytes() for seed in seeds])
+    (folder / "words").write_text(words, encoding="ascii")
     with (folder / "log").open("wb") as log:
         return subprocess.Popen(
             [
-                *(sys.executable, __file__, "--child", name, str(corpus)),
-                *(f"-max_total_time={seconds}", f"-max_len={LONGEST}", "-timeout=10"),
-                *("-rss_limit_mb=1024", f"-artifact_prefix={folder}/found-"),
+                *(sys.executable, __file__, "--child", name, str(corpus), "-dict=words"),
+                *(f"-max_total_time={seconds}", f"-max_len={LONGEST}", "-timeout=60"),
+                *("-rss_limit_mb=1024", f"-artifact_prefix={folder}/found/"),
             ],
             cwd=folder,
             stdin=subprocess.DEVNULL,
@@ -107,19 +114,30 @@ def _start(name: str, seeds: list[Path], seconds: int) -> subprocess.Popen[bytes
         )
 
 
+def _dictionary(files: list[bytes]) -> str:
+    """Return the words and tags of files, as libFuzzer splices them into others."""
+    words = {word for data in files for word in re.findall(rb"[ -~]{2,}?(?=[\s,;<>\"=:]|$)", data)}
+    kept = sorted((word for word in words if len(word) <= 64), key=lambda word: (len(word), word))
+    lines = ("".join(f"\\x{byte:02x}" for byte in word) for word in kept[:_MOST_WORDS])
+    return "".join(f'"{line}"\n' for line in lines)
+
+
 def _tell(name: str, status: int) -> bool:
     """Print the end of one reader's run; returns whether it broke a promise."""
     folder = OUT / name
     lines = (folder / "log").read_text(encoding="utf-8", errors="replace").splitlines()
     done = [line for line in lines if line.startswith("Done ")]
     inputs = done[-1].split()[1] if done else "?"
-    reached = len(list((folder / "corpus").iterdir()))
-    if status == 0:
-        print(f"{name}: {inputs} inputs, {reached} kept for what they reached", flush=True)
-        return False
-    shown = [line for line in lines if "Error" in line or "ERROR" in line or "Exception" in line]
-    print(f"{name}: broken ({'; '.join(shown[-2:])}); see {folder}", flush=True)
-    return True
+    command = [sys.executable, __file__, "--weigh", name]
+    weighed = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    told = weighed.stdout.strip() or weighed.stderr.strip().splitlines()[-1]
+    print(f"{name}: {inputs} inputs; {told}", flush=True)
+    found = [path for path in sorted((folder / "found").iterdir()) if path.suffix != ".txt"]
+    for path in found:
+        reason = path.with_name(path.name + ".txt")
+        last = reason.read_text("utf-8").splitlines()[-1] if reason.exists() else "see the log"
+        print(f"    {path}: {last}", flush=True)
+    return bool(found) or status != 0 or weighed.returncode != 0
 
 
 def child(name: str, arguments: list[str]) -> None:
@@ -128,42 +146,78 @@ def child(name: str, arguments: list[str]) -> None:
 
     with atheris.instrument_imports(include=["rough_spectra"]):
         readers = _load()
-        modules = {m.__name__.rpartition(".")[2]: m for m in readers.readers()}
-        from rough_spectra.core.errors import InputError
-    reader = modules[name]
+    path = Path.cwd() / "fuzzed"
+    smallest: dict[str, int] = {}
     count = 0
 
     def once(data: bytes) -> None:
         nonlocal count
         count += 1
-        weighed = count % _EACH == 0
-        if weighed:
-            tracemalloc.start()
-        start = time.perf_counter()
-        document = readers.Document(Path("fuzzed"), data)
-        try:
-            # Nobody's sniffer may raise, whatever the file.
-            if [m for m in modules.values() if m.sniff(document) and m is reader]:
-                for sample in reader.read(document):
-                    assert sample.wavelengths.size == sample.values.size
-        except InputError as error:
-            if not str(error).startswith("fuzzed"):
-                raise AssertionError(f"the message names no file: {error}") from error
-        seconds = time.perf_counter() - start
-        if weighed:
-            peak = tracemalloc.get_traced_memory()[1]
-            tracemalloc.stop()
-            allowed = MEMORY * len(data) + MEMORY_AT_REST
-            assert peak <= allowed, f"MemoryError: {peak} bytes for a file of {len(data)}"
-        else:
-            assert seconds < SECONDS, f"TimeoutError: {seconds:.1f} s for {len(data)} bytes"
+        reason = _broken(readers, name, path, data, weigh=count % _EACH == 0)
+        if reason:
+            _keep(smallest, data, reason)
 
     atheris.Setup([sys.argv[0], *arguments], once)
     atheris.Fuzz()
 
 
+def _keep(smallest: dict[str, int], data: bytes, reason: list[str]) -> None:
+    """Write the input if it is the smallest of its kind."""
+    kind = hashlib.sha256(re.sub(r"'.*'|\d+", "", reason[0]).encode()).hexdigest()[:12]
+    if len(data) < smallest.get(kind, LONGEST + 1):
+        smallest[kind] = len(data)
+        Path("found", kind).write_bytes(data)
+        Path("found", f"{kind}.txt").write_text("\n".join(reversed(reason)), "utf-8")
+
+
+def _broken(readers: Any, name: str, path: Path, data: bytes, *, weigh: bool) -> list[str]:
+    """Return what broke a promise and where from, or nothing."""
+    look = promises.weighed if weigh else promises.outcome
+    try:
+        with promises.confined(path.parent):
+            for _ in range(3):  # the first may have imported something, or collected garbage
+                found = look(readers, path, data, name)
+                faults = list(promises.faults(name, path, len(data), found))
+                if not faults:
+                    return []
+    except (Exception, promises.Strayed) as error:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        reason = f"{type(error).__name__} in {frame.filename}, line {frame.lineno}: {error}"
+        return [reason, traceback.format_exc()]
+    return faults
+
+
+def weigh(name: str) -> None:
+    """Print the worst time and memory over all inputs that are kept, without instruments."""
+    readers = _load()
+    path = Path.cwd() / "fuzzed"
+    slowest = heaviest = 0.0
+    smallest: dict[str, int] = {}
+    broken, kept = 0, sorted(Path("corpus").iterdir())
+    for file in kept:
+        data = file.read_bytes()
+        reason = _broken(readers, name, path, data, weigh=False)
+        reason = reason or _broken(readers, name, path, data, weigh=True)
+        if reason:
+            broken += 1
+            _keep(smallest, data, reason)
+            continue
+        fast = min(promises.outcome(readers, path, data, name).seconds for _ in range(2))
+        peak = promises.weighed(readers, path, data, name).peak or 0
+        slowest = max(slowest, fast)
+        heaviest = max(heaviest, peak / promises.memory_allowed(name, len(data)))
+    print(
+        f"{len(kept)} kept for what they reached; of these the slowest takes {1000 * slowest:.1f} "
+        f"ms, the heaviest {100 * heaviest:.0f} % of the memory allowed"
+        + (f", {broken} break a promise" if broken else "")
+    )
+    sys.exit(int(bool(broken)))
+
+
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--child"]:
         child(sys.argv[2], sys.argv[3:])
+    elif sys.argv[1:2] == ["--weigh"]:
+        weigh(sys.argv[2])
     else:
         sys.exit(main(sys.argv[1:]))
