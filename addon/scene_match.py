@@ -132,6 +132,29 @@ def judge(
     return np.asarray(apart[: len(view.geometries)])
 
 
+def choose_shader(
+    view: SceneView, lambert: Match, rough: Match, tolerance: float
+) -> tuple[Match, str]:
+    """Choose the material without roughness where that is good enough, else the closer one.
+
+    Closer on average: where several lights contradict each other, they and not the roughness make
+    up the largest error.
+
+    Returns
+    -------
+    The material, and one sentence for a person.
+    """
+    worst = float(lambert.over_scene.max())
+    if worst <= tolerance:
+        return lambert, f"lambert: at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
+    flat, bent = (np.average(m.over_scene, weights=view.weights) for m in (lambert, rough))
+    if bent <= flat:
+        words = "rough: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
+        return rough, words.format(bent, flat)
+    words = "lambert: ΔE00 {:.2f} off on average in its scene; rough would be off by {:.2f}."
+    return lambert, words.format(flat, bent)
+
+
 def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
     """Mean ΔE00 of the directions of each light, with the light's name."""
     return tuple(

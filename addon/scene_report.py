@@ -88,7 +88,9 @@ def table(report: SceneReport, changes: Sequence[Change]) -> list[str]:
     for change in changes:
         before = "" if change.before is None else f"{change.before:.2f}"
         name = change.material.name
-        lines.append(f"{name:24} {'all':32} {'':>6} {before:>7} {change.solution.delta_e_mean:7.2f}")
+        lines.append(
+            f"{name:24} {'all':32} {'':>6} {before:>7} {change.solution.delta_e_mean:7.2f}"
+        )
         apart = dict(change.solution.delta_e_lights)
         lines += [
             f"{'':24} {light.name + ', ' + light.words:32.32} {light.share:6.0%} {'':>7} "

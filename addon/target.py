@@ -284,8 +284,7 @@ def _solve_in_scene(
     if request.flat:
         taken, shader_reason = lambert, scene_match.FLAT
     elif reason != ASKED_FOR:
-        choice = choose_shader(lambert.over_scene, rough.over_scene, request.tolerance)
-        taken, shader_reason = (lambert if choice.model == "lambert" else rough), choice.reason
+        taken, shader_reason = scene_match.choose_shader(view, lambert, rough, request.tolerance)
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
     missed = scene_match.mean_over_lights(view, taken.instrument)
     [judged] = judgement.judge_each([sample])

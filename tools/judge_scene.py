@@ -42,7 +42,7 @@ def dress(materials: list[Any], illuminant: str = "D65") -> None:
 
 
 def picture(depsgraph: Any, scene: Any) -> dict[Any, tuple[Any, ...]]:
-    """What reaches the hits of each material: angles, hit, light's spectrum and RGB, irradiance."""
+    """Give the ways of light that reach each material's hits, and the spectra of the lamps."""
     from rough_spectra.addon import light_spectrum, scene_analysis, working_space
     from rough_spectra.addon.scene_analysis import camera, sources, surfaces
 

@@ -87,7 +87,7 @@ def _square(name: str, wide: float, tall: float, material: Any) -> Any:
 
 
 def _shapes() -> list[Any]:
-    """A ball, a can and a box, smooth where they are round."""
+    """Make a ball, a can and a box, smooth where they are round."""
     found = []
     for maker, settings in (
         ("uv_sphere", {"segments": 32, "ring_count": 16}),

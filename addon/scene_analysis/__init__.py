@@ -195,7 +195,7 @@ def _views(
     lamps: list[Lamp],
     space: working_space.WorkingSpace,
 ) -> tuple[dict[Any, SceneView], list[Any]]:
-    """Views of the materials that are seen, and those that no lamp reaches."""
+    """Give views of the materials that are seen, and those that no lamp reaches."""
     weights = sampling.per_place(samples, len(material_of_place), material_of_place)
     power = np.bincount(samples.lamp, weights, minlength=len(lamps))
     seen = np.unique(material_of_place)

@@ -89,9 +89,7 @@ def chart_errors(render, materials, truths):
     # The sun's strength is π: a white diffuser would show the light itself, times its cosine.
     xyz = to_xyz(pixels[::-1].reshape(-1, 3)) / math.cos(LIGHT)
     science = colour()
-    white = science.xy_to_XYZ(
-        science.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]["A"]
-    )
+    white = science.xy_to_XYZ(science.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]["A"])
     found = []
     for seen, true in zip(xyz, truths, strict=True):
         labs = [science.XYZ_to_Lab(value, science.XYZ_to_xy(white)) for value in (seen, true)]

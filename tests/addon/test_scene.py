@@ -1,0 +1,375 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Analyze a scene, match materials to it, and tell what was done."""
+
+import math
+import time
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+from rough_spectra.addon import (
+    assign,
+    colorimetry,
+    light_spectrum,
+    presets,
+    readings,
+    scene_analysis,
+    scene_match,
+    scene_report,
+    scene_view,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
+from rough_spectra.core import compromise, cycles, geometry
+from rough_spectra.core.errors import InputError, MaterialError
+
+from tools import judge_scene, make_room
+
+SIGMA = math.radians(30)
+
+
+def analyze(view=None):
+    scene = bpy.context.scene
+    return scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), scene, view)
+
+
+@pytest.fixture
+def plate(make_material):
+    """A lit square under a camera; gives its material, which stores a spectrum."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    material = make_material("Plate")
+    bpy.ops.mesh.primitive_plane_add(size=2)
+    bpy.context.object.data.materials.append(material)
+    lens = bpy.data.cameras.new("View")
+    scene.camera = bpy.data.objects.new("View", lens)
+    scene.camera.location = (0.5, 0, 3)
+    scene.collection.objects.link(scene.camera)
+    assign.assign([(material, target.Request(presets.load("light skin"), SIGMA, "closure"))])
+    return material
+
+
+def add_lamp(name="Bulb", kind="POINT", place=(1, 0, 2), **settings):
+    light = bpy.data.lights.new(name, kind)
+    light.energy = 50
+    for key, value in settings.items():
+        setattr(light, key, value)
+    lamp = bpy.data.objects.new(name, light)
+    lamp.location = place
+    bpy.context.scene.collection.objects.link(lamp)
+    return lamp
+
+
+def light_of(rgb, name="Light", share=1.0):
+    xyz = np.linalg.solve(working_space.current().from_xyz, np.array(rgb, float))
+    spd, words = light_spectrum.like(xyz)
+    return scene_view.make_light(name, words, spd, share)
+
+
+def view_of(*lights):
+    """The lights from eight directions each."""
+    spread = np.column_stack(geometry.hemisphere(8)).tolist()
+    rows = [(*a, i, light.share / 8) for i, light in enumerate(lights) for a in spread]
+    return scene_view.SceneView("Scene", lights, tuple(rows))
+
+
+def test_room_is_analyzed_faster_than_blender_casts_the_rays_and_matched_better():
+    """A smaller room than the tool's; errors are of pixels that the analysis did not look at."""
+    materials = make_room.furnish(objects=70, materials=16)
+    judge_scene.dress(materials)
+    scene, depsgraph = bpy.context.scene, bpy.context.evaluated_depsgraph_get()
+    seen = judge_scene.picture(depsgraph, scene)
+    before = judge_scene.errors(seen)
+    report = analyze()
+    start = time.perf_counter()
+    down = Vector((0, 0.3, -1))
+    for _ in range(2000):
+        scene.ray_cast(depsgraph, (0, 0, 1.5), down)
+    rays = scene_analysis.camera.ROWS * scene_analysis.camera.COLUMNS
+    by_blender = (time.perf_counter() - start) / 2000 * 2 * rays
+    assert analyze().seconds < by_blender
+    scene_report.follow(report)
+    after = judge_scene.errors({m: parts for m, parts in seen.items() if m in report.views})
+    better = [after[material] < before[material] for material in after]
+    assert len(after) >= 12
+    assert np.mean(list(after.values())) < np.mean([before[m] for m in after])
+    assert np.mean(better) >= 0.8
+
+
+def test_every_part_of_an_analysis_adds_up_and_survives_storage():
+    materials = make_room.furnish(objects=30, materials=6)
+    report = analyze()
+    assert set(report.views) <= set(materials)
+    assert sum(report.pixels.values()) <= 1
+    for view in report.views.values():
+        assert view.weights.sum() == pytest.approx(1, abs=1e-4)
+        for index, light in enumerate(view.lights):
+            mine = view.weights[view.light_indices == index].sum()
+            assert mine == pytest.approx(light.share, abs=1e-4)
+            assert light.white[1] == pytest.approx(1, abs=1e-4)
+        assert len(view.geometries) <= 48
+        assert scene_view.from_json(view.to_json()) == view
+    again = analyze()
+    assert again.views == report.views
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": 9}', '{"schema": 1, "lights": []}'])
+def test_damaged_analysis_is_named(text, plate):
+    with pytest.raises(InputError, match="analyze it again"):
+        scene_view.from_json(text)
+    group = plate.rough_spectra
+    group.scene_view = text or "x"
+    group.use_scene = True
+    with pytest.raises(MaterialError, match=r"'Plate'.*analyze it again"):
+        storage.load(plate)
+
+
+@pytest.mark.parametrize(
+    "rgb", [(1, 1, 1), (1, 0.8, 0.6), (1, 0.2, 0.8), (0.1, 0.3, 1), (0.02, 1, 0.03)]
+)
+def test_spectrum_of_a_light_has_its_color_and_is_one_of_light(rgb):
+    light = light_of(rgb)
+    found = working_space.current().from_xyz @ light.white
+    assert found / found.max() == pytest.approx(np.array(rgb) / max(rgb), abs=1e-4)
+    assert min(light.spd) >= 0
+
+
+def test_spectra_of_standard_lights_give_the_colors_of_their_illuminants(colorchecker):
+    bands = colorchecker[0].wavelengths
+    values = np.stack([sample.values for sample in colorchecker])
+    spectra = {"A": light_spectrum.planck(2855.5), "D50": light_spectrum.daylight(5003)}
+    for name, spd in spectra.items():
+        matrix = light_spectrum.weights(tuple(bands.tolist()), tuple(spd.tolist()))
+        own = colorimetry.xyz_to_lab(values @ matrix, matrix.sum(axis=0))
+        assert (
+            colorimetry.delta_e(own, colorimetry.spectrum_to_lab(values, bands, name)).max() < 0.02
+        )
+
+
+def test_compromise_is_the_least_of_a_fine_search():
+    """One gray channel in two lights that want different grays: no better one on a fine grid."""
+    view = view_of(light_of((1, 0.5, 0.2), "Warm", 0.6), light_of((0.4, 0.6, 1), "Cold", 0.4))
+    sample = presets.load("bluish green")
+    space = working_space.current()
+    values = sample.reflectance
+    rough, _, _ = scene_match.match(view, values, values, "lambert", 0.0, sample.wavelengths, space)
+    best = np.average(rough.over_scene, weights=view.weights)
+
+    def cost(color):
+        shader = (np.clip(color, 0, 1), rough.roughness)
+        apart = scene_match.judge(view, shader, values, "lambert", 0.0, sample.wavelengths, space)
+        return np.average(apart, weights=view.weights)
+
+    random = np.random.default_rng(3)
+    steps = random.normal(size=(300, 3)) * np.repeat([0.003, 0.01, 0.05], 100)[:, np.newaxis]
+    assert best <= min(cost(rough.color + step) for step in steps) + 0.01
+
+
+def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
+    warm, cold = light_of((1, 0.6, 0.25), "Warm", 0.5), light_of((0.3, 0.5, 1), "Cold", 0.5)
+    both = view_of(warm, cold)
+    space = working_space.current()
+    for sample in colorchecker[::3]:
+        arguments = (sample.values, sample.values, "closure", SIGMA, sample.wavelengths, space)
+        mixed, _, _ = scene_match.match(both, *arguments)
+        mean = np.average(mixed.over_scene, weights=both.weights)
+        for light in (warm, cold):
+            alone, _, _ = scene_match.match(view_of(light), *arguments)
+            shader = (alone.color, alone.roughness)
+            apart = scene_match.judge(
+                both, shader, sample.values, "closure", SIGMA, sample.wavelengths, space
+            )
+            assert mean <= np.average(apart, weights=both.weights) + 0.02
+
+
+def test_two_lights_are_told_apart_and_explained(plate):
+    add_lamp("Warm", use_temperature=True, temperature=2700)
+    add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
+    [change] = scene_report.follow(analyze())
+    assert {name for name, _ in change.solution.delta_e_lights} == {"Warm", "Blue"}
+    assert change.solution.delta_e_mean < change.before
+    sentence = stamp.get_stamp(plate).scene_reason
+    assert "2 colors of light" in sentence
+    assert "Warm ΔE00" in sentence
+    assert stamp.get_stamp(plate).delta_e_lights == change.solution.delta_e_lights
+
+
+def test_roughness_is_taken_where_it_is_better_on_average(colorchecker):
+    """Lights that contradict each other make up the largest error, with and without roughness."""
+    warm, cold = light_of((1, 0.6, 0.25), "Warm", 0.6), light_of((0.3, 0.5, 1), "Cold", 0.4)
+    sample, space = colorchecker[1], working_space.current()
+    arguments = (sample.values, sample.values, "closure", SIGMA, sample.wavelengths, space)
+    for view in (view_of(warm, cold), view_of(replace(warm, share=1.0))):
+        rough, lambert, _ = scene_match.match(view, *arguments)
+        taken, reason = scene_match.choose_shader(view, lambert, rough, 1.0)
+        assert taken is rough
+        assert "on average in its scene" in reason
+        taken, reason = scene_match.choose_shader(view, lambert, rough, 50.0)
+        assert taken is lambert
+        assert "within 50" in reason
+
+
+def test_lights_of_one_color_count_as_one(plate):
+    for number in range(3):
+        add_lamp(f"Bulb {number}", place=(number - 1, 0, 2), color=(1, 0.7, 0.4))
+    view = analyze().views[plate]
+    assert [light.name.endswith("and 2 more") for light in view.lights] == [True]
+
+
+def test_light_linking_shadows_and_hidden_lights_count(plate):
+    add_lamp(
+        "Linked elsewhere", color=(0, 1, 0)
+    ).light_linking.receiver_collection = bpy.data.collections.new("Others")
+    others = bpy.data.collections["Others"]
+    others.objects.link(bpy.context.scene.camera)
+    add_lamp("Hidden", color=(0, 0, 1)).hide_render = True
+    add_lamp("Below", place=(0, 0, -2), color=(1, 0, 0))
+    add_lamp("Bulb", color=(1, 0.8, 0.6))
+    assert [light.name for light in analyze().views[plate].lights] == ["Bulb"]
+
+
+def test_glass_lets_light_pass(plate, make_material):
+    add_lamp("Bulb")
+    bpy.ops.mesh.primitive_plane_add(size=20, location=(0, 0, 1))
+    bpy.context.object.data.materials.append(make_material("Pane"))
+    assert plate not in analyze().views
+    pane = bpy.context.object.data.materials
+    pane[0] = make_material("Glass", node="ShaderNodeBsdfGlass")
+    assert plate in analyze().views
+
+
+def test_directions_are_those_of_the_scene(plate):
+    bpy.context.scene.camera.data.type = "ORTHO"
+    bpy.context.scene.camera.data.ortho_scale = 0.5
+    lamp = add_lamp("Sun", "SUN", angle=0.0)
+    lamp.rotation_euler = (0, math.radians(40), 0)
+    theta_i, theta_r, _ = analyze().views[plate].angles
+    assert theta_i == pytest.approx(math.radians(40), abs=1e-3)
+    assert theta_r == pytest.approx(0, abs=1e-3)
+
+
+def test_viewport_sees_what_the_camera_sees(plate):
+    add_lamp("Bulb", color=(1, 0.7, 0.5))
+    scene = bpy.context.scene
+    through_camera = analyze()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    render = scene.render
+    lens = scene.camera.calc_matrix_camera(depsgraph, x=render.resolution_x, y=render.resolution_y)
+    eye = scene_analysis.View(scene.camera.matrix_world.inverted(), lens)
+    found = analyze(eye)
+    assert found.pixels[plate] == pytest.approx(through_camera.pixels[plate], abs=0.01)
+    angles = [report.views[plate].angles[1].mean() for report in (found, through_camera)]
+    assert angles[0] == pytest.approx(angles[1], abs=0.02)
+
+
+def test_nothing_to_analyze_is_said(plate, make_material):
+    with pytest.raises(InputError, match=r"No light reaches Plate"):
+        scene_report.follow(analyze())
+    add_lamp("Bulb")
+    with pytest.raises(InputError, match=r"No material chosen has a measured spectrum"):
+        scene_report.follow(analyze(), [make_material("Bare")])
+    bpy.context.scene.camera.rotation_euler = (math.pi, 0, 0)
+    with pytest.raises(InputError, match=r"Plate: not in the picture"):
+        scene_report.follow(analyze(), [plate])
+    bpy.context.scene.camera = None
+    with pytest.raises(InputError, match="no camera"):
+        analyze()
+
+
+def test_engine_without_roughness_gets_the_flat_color_of_the_scene(plate):
+    add_lamp("Bulb", color=(1, 0.7, 0.5))
+    report = analyze()
+    [rough] = scene_report.follow(report)
+    assert rough.solution.roughness > 0.1
+    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    assert "the render engine was changed" in stamp.state(plate).reasons[0]
+    assign.renew([plate])
+    found = stamp.get_stamp(plate)
+    assert found.roughness == 0
+    assert "ignores diffuse roughness" in found.shader_reason
+    assert stamp.state(plate).kind == "fresh"
+    # The flat color is the best of all flat ones nearby, and not simply the rough one's.
+    view, space = report.views[plate], working_space.current()
+    request = storage.load(plate)
+    flat = target.differences(request, view, np.array(found.color), 0.0, space)
+    same = target.differences(request, view, rough.solution.color, 0.0, space)
+    assert np.average(flat, weights=view.weights) < np.average(same, weights=view.weights)
+
+
+def test_following_can_be_switched_off_and_on(plate):
+    before = stamp.get_stamp(plate).color
+    add_lamp("Bulb", color=(1, 0.5, 0.2))
+    [change] = scene_report.follow(analyze())
+    assert stamp.get_stamp(plate).color != before
+    plate.rough_spectra.use_scene = False
+    assign.renew([plate])
+    assert stamp.get_stamp(plate).color == before
+    plate.rough_spectra.use_scene = True
+    assign.renew([plate])
+    assert stamp.get_stamp(plate).color == pytest.approx(change.solution.color.tolist())
+
+
+def test_measurement_finds_what_was_matched_to_the_scene(plate):
+    """The reading is held to the compromise, and the sentence tells how far off the truth it is."""
+    add_lamp("Warm", use_temperature=True, temperature=2700)
+    add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
+    [change] = scene_report.follow(analyze())
+    [reading] = readings.bake([("", plate)]).entries
+    assert reading.delta_e_00 < 0.01
+    assert reading.measured.illuminant == f"scene: {storage.load(plate).scene.lights[0].name}"
+    promised = cycles.reflectance(
+        change.solution.color, change.solution.roughness, math.pi / 4, 0, 0
+    )
+    assert reading.measured.rgb == pytest.approx(promised, abs=1e-5)
+    sentence = next(w for w in reading.warnings if "follows its scene" in w)
+    assert f"{change.solution.delta_e_instrument:.2f}" in sentence
+
+
+def test_operator_matches_and_reports(plate):
+    add_lamp("Bulb", use_temperature=True, temperature=2856)
+    assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
+    assert plate.rough_spectra.use_scene
+    assert stamp.state(plate).kind == "fresh"
+    for light in list(bpy.data.lights):
+        bpy.data.lights.remove(light)
+    with pytest.raises(RuntimeError, match="No light reaches Plate"):
+        bpy.ops.rough_spectra.analyze_scene()
+
+
+def test_verb_prints_lights_and_saves(plate, tmp_path, capsys):
+    from rough_spectra.addon import command_line
+
+    add_lamp("Bulb", use_temperature=True, temperature=2856)
+    path = tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    assert command_line.main(["analyze", "--blend", str(path)]) == 0
+    told = capsys.readouterr().err
+    assert "blackbody of 2856 K" in told
+    assert "matched 1 materials to scene 'Scene'" in told
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    assert bpy.data.materials["Plate"].rough_spectra.use_scene
+    assert command_line.main(["analyze", "--scene", "Nowhere"]) == 2
+    assert "no scene 'Nowhere'" in capsys.readouterr().err
+
+
+def test_search_stays_within_its_bounds():
+    """A target that no parameter reaches ends at the bound nearest to it."""
+
+    def perceive(parameters):
+        return np.repeat(parameters[..., np.newaxis, :1] * 100, 3, axis=-1) * [1, 0, 0]
+
+    found, apart = compromise.fit(
+        perceive,
+        np.array([[120.0, 0, 0]]),
+        np.ones(1),
+        lambda a, b: np.linalg.norm(a - b, axis=-1),
+        np.array([[0.2], [0.9]]),
+        np.ones((2, 1), bool),
+    )
+    assert found == pytest.approx(1.0)
+    assert apart == pytest.approx(20.0, abs=1e-6)
