@@ -18,9 +18,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from make_presets import write_presets
-from run_command_line import load_extension
-
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "presets" / "everyday"
 NIX = ROOT / "tests" / "fixtures" / "nix"
@@ -273,9 +270,10 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("usgs", type=Path, metavar="USGS-FOLDER")
     parser.add_argument("folder", type=Path, nargs="?", default=FOLDER)
     options = parser.parse_args(arguments)
-    load_extension()
+    importlib.import_module("run_command_line").load_extension()
     made = [preset(material, options.usgs) for material in MATERIALS]
-    print(f"{len(write_presets(made, options.folder))} presets in {options.folder}")
+    written = importlib.import_module("make_presets").write_presets(made, options.folder)
+    print(f"{len(written)} presets in {options.folder}")
     return 0
 
 

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from run_command_line import load_extension
 
 ROOT = Path(__file__).resolve().parents[1]
 FILE = ROOT / "docs" / "presets-table.md"
@@ -93,7 +92,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("file", type=Path, nargs="?", default=FILE)
     file = parser.parse_args(arguments).file
-    load_extension()
+    importlib.import_module("run_command_line").load_extension()
     presets = importlib.import_module("rough_spectra.addon.presets")
     names = presets.names_of(COLLECTION)
     samples = presets.load_all(COLLECTION)

@@ -43,7 +43,9 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
     directory: StringProperty(
         name="Folder", description="Folder of the asset library", subtype="DIR_PATH"
     )
-    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+    filter_folder: BoolProperty(
+        name="Folders", description="Show folders", default=True, options={"HIDDEN"}
+    )
     collection: EnumProperty(
         name="Samples", description="Collection that is made", items=collection_items
     )
