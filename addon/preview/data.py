@@ -178,9 +178,8 @@ def rgb_bars(
 ) -> tuple[tuple[float, float, float], ...]:
     """Place the three numbers of a color over wavelength.
 
-    Each stands over the wavelengths that its channel weighs more than the other two: for a
-    reflectance that is even there and nothing elsewhere, it would be that reflectance. No spectrum
-    belongs to three numbers; the bars say what is known of it.
+    Each stands over the wavelengths that its channel weighs more than the other two. No spectrum
+    belongs to three numbers; for a gray one all three have its reflectance.
     """
     spans = _spans(space.from_xyz.astype(np.float64).tobytes(), illuminant)
     return tuple(
