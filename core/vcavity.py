@@ -34,6 +34,8 @@ these numbers, but white facets can: integrated over the view hemisphere they re
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import numpy.typing as npt
 
@@ -70,6 +72,10 @@ BOUNCES = 16
 
 _CHUNK = 2
 """Geometries solved at once: about 20 MB of temporaries."""
+
+_REMEMBERED = 128
+"""Chunks whose answers are kept, a few megabytes: for another σ only the weights of slopes change,
+so that a slider may be dragged."""
 
 
 def bounce_coefficients(
@@ -187,7 +193,7 @@ def series(
     )
     for start in range(0, len(geometries), _CHUNK):
         chunk = geometries[start : start + _CHUNK]
-        rows = response(chunk[:, 0], chunk[:, 1], chunk[:, 2], bounces, resolution)
+        rows = _response(chunk.tobytes(), bounces, resolution)
         for row, member in zip(rows, members[start : start + _CHUNK], strict=True):
             found[member] = weights[roughness.ravel()[member]] @ row
     found[spread[known] == 0] = np.eye(1, width)
@@ -195,3 +201,10 @@ def series(
     out = np.full((spread.size, width), np.nan)
     out[known] = found
     return out.reshape(*angles[0].shape, width)
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _response(chunk: bytes, bounces: int, resolution: Resolution) -> Array:
+    """Give `response` of geometries, float64 of shape (geometries, 3), from their bytes."""
+    geometries = np.frombuffer(chunk).reshape(-1, 3)
+    return response(geometries[:, 0], geometries[:, 1], geometries[:, 2], bounces, resolution)
