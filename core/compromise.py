@@ -117,7 +117,7 @@ def _metric(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
 
 
 def _square(apart: Array, metric: Array) -> Array:
-    return np.maximum(np.einsum("bgi,gij,bgj->bg", apart, metric, apart), 0)
+    return np.asarray(np.maximum(np.einsum("bgi,gij,bgj->bg", apart, metric, apart), 0))
 
 
 def _cost(apart: Array, metric: Array, weights: Array) -> Array:

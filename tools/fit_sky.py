@@ -41,7 +41,7 @@ def main(path: Path) -> None:
     table["turbidities"] = TURBIDITIES
     for kind in ("SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
         node.sky_type = kind
-        rows = {name: [] for name in ("base", *SETTINGS)}
+        rows: dict[str, Any] = {name: [] for name in ("base", *SETTINGS)}
         rows["base"] = series(scene, node, DEFAULTS)
         for name, values in SETTINGS.items():
             for value in values:
