@@ -231,8 +231,11 @@ def angles(
     axes = angles_axes(size, look, max(float(target.max()), float(blender.max()), lambert))
     canvas = _angles_ground(axes, size, look, engine).copy(order="K")
     for_target, for_blender, for_lambert = _angle_keys(look, engine)
-    ends = np.array((-STEEPEST, STEEPEST))
-    plot.draw_curve(canvas, axes, ends, np.full(2, lambert), for_lambert, look)
+    [[_, y]] = axes.place([0], [max(lambert, 0.0)])
+    half = for_lambert.width * look.scale / 2
+    stroke, gap = for_lambert.dash
+    box = (axes.left, float(y) - half, axes.right, float(y) + half)
+    raster.dashes(canvas, box, (stroke * look.scale, gap * look.scale), for_lambert.color)
     plot.draw_curve(canvas, axes, view, target, for_target, look)
     plot.draw_curve(canvas, axes, view, blender, for_blender, look)
     return canvas
@@ -242,7 +245,7 @@ def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
     return (
         Key("Target", look.target, 2.6),
         Key(engine, look.blender, 1.6, (5.5, 3.5)),
-        Key("Lambert", look.faint, 1.0, (1.0, 3.0)),
+        Key("Lambert", look.faint, 1.0, (2.0, 2.0)),
     )
 
 

@@ -70,6 +70,22 @@ def _interval(start: float, stop: float) -> Array:
     return np.asarray(covered, np.float32)
 
 
+def dashes(
+    canvas: Array, box: Box, dash: tuple[float, float], color: Color, alpha: float = 1
+) -> None:
+    """Fill a rectangle in strokes along x, as long as `dash` says, with gaps between them."""
+    left, top, right, bottom = box
+    x0, y0 = int(np.floor(left)), int(np.floor(top))
+    stroke, period = dash[0], sum(dash)
+    at = np.arange(x0, int(np.ceil(right)) + 1) - left
+    # Strokes up to each edge between pixels; the difference is each pixel's share.
+    turns = np.floor(at / period)
+    filled = np.clip(turns * stroke + np.minimum(at - turns * period, stroke), 0, None)
+    inside = np.clip(at, 0, right - left)
+    across = np.asarray(np.diff(filled) * (np.diff(inside) > 0), np.float32)
+    paint(canvas, _interval(top - y0, bottom - y0)[:, np.newaxis] * across, x0, y0, color, alpha)
+
+
 def frame(canvas: Array, box: Box, color: Color, width: float = 1, alpha: float = 1) -> None:
     """Draw a border just inside a rectangle."""
     left, top, right, bottom = box

@@ -157,3 +157,13 @@ def test_text_is_aligned_and_unknown_letters_show():
     half = text.width("400 nm", 12) / 2
     np.testing.assert_allclose(spans, (half, 0, -half), atol=1.5)
     assert text.width("\u4e00", 12) == text.width("?", 12)
+
+
+def test_a_dashed_level_covers_its_strokes():
+    box = (4.0, 10.25, 54.0, 11.75)
+    covered = alpha(lambda c: raster.dashes(c, box, (2.5, 2.5), RED))
+    assert covered.sum() == pytest.approx(10 * 2.5 * 1.5, rel=1e-5)
+    assert covered[11, 4:6].min() == pytest.approx(0.75)
+    assert covered[10, 7:9].max() == 0
+    covered[10:12, 4:54] = 0
+    assert not covered.any()
