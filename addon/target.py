@@ -254,7 +254,11 @@ def _solve(
             delta_e_95=float(high[i]),
             delta_e_lambert=float(lambert[i].mean()),
             shader_reason=_ROUGH if (found := shaders[i]) is None else found.reason,
-            warnings=(*judged[i], *_warnings(request, space, matched[i], float(met[i]))),
+            warnings=(
+                *request.sample.altered,
+                *judged[i],
+                *_warnings(request, space, matched[i], float(met[i])),
+            ),
         )
         for i, (request, reason) in enumerate(settled)
     ]
@@ -300,7 +304,7 @@ def _solve_in_scene(
         delta_e_95=scene_match.percentile(taken.over_scene, view.weights, 0.95),
         delta_e_lambert=float(np.average(lambert.over_scene, weights=view.weights)),
         shader_reason=shader_reason,
-        warnings=(*judged, *(sentence for sentence in found if sentence)),
+        warnings=(*sample.altered, *judged, *(sentence for sentence in found if sentence)),
         delta_e_lights=per_light,
         scene_reason=scene_match.explain(view, per_light),
     )

@@ -48,16 +48,14 @@ FAULTS = {
     "prose": ("These are not the spectra you are looking for.\n", "format"),
     "delimiter that changes": (bands(GOOD).replace("410,", "410;"), "line 3"),
     "bars between columns": (bands(GOOD, delimiter="|"), "file"),
-    "NaN": (bands([*GOOD[:5], "NaN", *GOOD[6:]]), "450"),
     "infinite": (bands([*GOOD[:5], "inf", *GOOD[6:]]), "450"),
-    "negative": (bands([*GOOD[:5], -0.01, *GOOD[6:]]), "450"),
-    "above 1": (bands([*GOOD[:5], 1.01, *GOOD[6:]]), "450"),
-    "decreasing": (bands(GOOD, [700 - 10 * i for i in range(31)]), "690"),
+    "far below 0": (bands([*GOOD[:5], -0.1, *GOOD[6:]]), "450"),
+    "far above 1": (bands([*GOOD[:5], 41.0, *GOOD[6:]]), "450"),
+    "unordered": (bands(GOOD, [400, 420, 410, *range(430, 701, 10)]), "410"),
     "duplicate": (bands(GOOD, [*range(400, 700, 10), 690]), "690"),
     "one band": (bands([0.3]), "one band"),
     "no band": ("wavelength,paper\n", ""),
     "one column": ("wavelength\n400\n410\n", "column"),
-    "hole": (bands([*GOOD[:5], "", *GOOD[6:]]), "line 7"),
     "binary": ("\0\1\2" * 40, "text"),
     "too short for a color": (bands([0.3, 0.3]), "'paper': The bands from 400 to 410 nm"),
 }
@@ -80,6 +78,28 @@ def test_measurement_file_with_a_fault(fault, way, blend, main, tmp_path):
     assert contents(tmp_path) == before
 
 
+ODDITIES = {
+    "NaN": (bands([*GOOD[:5], "NaN", *GOOD[6:]]), "left out", "450"),
+    "hole": (bands([*GOOD[:5], "", *GOOD[6:]]), "left out", "450"),
+    "noise": (bands([*GOOD[:5], -0.01, *GOOD[6:]]), "below 0", "450"),
+    "more than white": (bands([*GOOD[:5], 1.01, *GOOD[6:]]), "1.01", "450"),
+    "falling": (bands(GOOD[::-1], [700 - 10 * i for i in range(31)]),),
+}
+
+
+@pytest.mark.parametrize("oddity", ODDITIES)
+def test_measurement_file_with_an_oddity_is_read_and_told_of(oddity, blend, main, tmp_path):
+    content, *words = ODDITIES[oddity]
+    source = tmp_path / "measured.csv"
+    source.write_text(content, encoding="utf-8")
+    done = main("assign", "--blend", blend, "--by-name", source)
+    assert done.status == 0
+    told = [line for line in done.err.splitlines() if line.startswith("warning: ")]
+    assert len(told) == bool(words)
+    for word in words:
+        assert word in told[0]
+
+
 def test_measurement_file_that_is_missing(blend, main, tmp_path):
     before = blend.read_bytes()
     refused(main("assign", "--blend", blend, "--by-name", tmp_path / "none.csv"), "none.csv")
@@ -93,9 +113,9 @@ def test_measurement_file_that_is_missing(blend, main, tmp_path):
 
 def test_the_fault_of_a_process_is_one_sentence_without_traceback(blend, run, tmp_path):
     source = tmp_path / "measured.csv"
-    source.write_text(FAULTS["NaN"][0], encoding="utf-8")
+    source.write_text(FAULTS["far below 0"][0], encoding="utf-8")
     before = blend.read_bytes()
-    refused(run("assign", "--blend", blend, "--by-name", source), source, "line 7", "NaN")
+    refused(run("assign", "--blend", blend, "--by-name", source), source, "line 7", "below 0")
     assert blend.read_bytes() == before
 
 
