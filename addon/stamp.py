@@ -248,7 +248,7 @@ def engine_is_flat() -> bool:
 
 def inputs_digest(group: Any) -> str:
     """Digest of the spectrum and of every setting that the color follows from."""
-    settings = (
+    told: tuple[str, ...] = (
         group.spectrum,
         group.kind,
         group.instrument,
@@ -258,10 +258,10 @@ def inputs_digest(group: Any) -> str:
         group.shader,
     )
     if has_scene(group):
-        settings += (group.scene_view, _engine())
+        told += (group.scene_view, _engine())
     if tolerance(group) != _USUAL_TOLERANCE:
-        settings += (f"{tolerance(group)}",)  # so that older stamps stay valid
-    return hashlib.sha256("\n".join(settings).encode()).hexdigest()[:16]
+        told += (f"{tolerance(group)}",)  # so that older stamps stay valid
+    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
 
 
 def elsewhere(material: Any) -> str:

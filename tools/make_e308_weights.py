@@ -11,12 +11,11 @@ import importlib
 import warnings
 
 import numpy as np
-from run_command_line import load_extension
 
 
 def main() -> None:
     """Compute and write the weights."""
-    load_extension()
+    importlib.import_module("run_command_line").load_extension()
     e308 = importlib.import_module("rough_spectra.addon.e308")
     # colour-science tells on the console of every table that it aligns.
     warnings.simplefilter("ignore")

@@ -40,7 +40,7 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
         """Note what is shown as kept."""
         from .. import storage
 
-        material = common.active_material(context)
+        material: Any = common.active_material(context)
         try:
             storage.keep(material)
         except RoughSpectraError as error:
