@@ -11,6 +11,8 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...core.arrays import Array
+from . import heavy
+from .heavy import Heavy
 from .lamps import FAR
 
 _OTHER_SURFACES = {"CURVE", "SURFACE", "META", "FONT"}
@@ -91,13 +93,16 @@ class Surfaces:
     _material_of: Array = field(default_factory=lambda: np.zeros(0, int))
     _seen: tuple[Any, Array | None] = (None, None)
     _blocking: tuple[Any, Array | None] = (None, None)
+    _heavy: list[Heavy] = field(default_factory=list)
+    _heavy_slots: list[Array] = field(default_factory=list)
 
     @property
     def scale(self) -> float:
         """Diagonal of all there is."""
-        if not len(self._points):
-            return 1.0
-        return float(np.linalg.norm(np.ptp(self._points, axis=0)))
+        widths = [2 * thing.radius for thing in self._heavy]
+        if len(self._points):
+            widths.append(float(np.linalg.norm(np.ptp(self._points, axis=0))))
+        return max(widths, default=1.0)
 
     def triangles_of(self, index: int) -> list[tuple[int, Array]]:
         """Give the triangles (n, 3, 3) of a material: one array an appearance, and which it is."""
@@ -114,20 +119,45 @@ class Surfaces:
         found = []
         if tree is not None:
             cast = tree.ray_cast
-            for ray, (origin, way) in enumerate(
-                zip(origins.tolist(), directions.tolist(), strict=True)
-            ):
+            rays = zip(origins.tolist(), directions.tolist(), strict=True)
+            for number, (origin, way) in enumerate(rays):
                 point, _, triangle, _ = cast(origin, way)
                 if triangle is not None:
-                    found.append((ray, triangle, *point))
+                    found.append((number, triangle, *point))
         table = np.array(found, np.float64).reshape(-1, 5)
-        ray, triangle = table[:, 0].astype(int), table[:, 1].astype(int)
+        ray, triangles = table[:, 0].astype(int), table[:, 1].astype(int)
         if kept is not None:
-            triangle = kept[triangle]
-        return self._describe(ray, triangle, table[:, 2:], directions[ray])
+            triangles = kept[triangles]
+        parts = [self._describe(ray, triangles, table[:, 2:], directions[ray])]
+        reach = np.full(len(origins), FAR)
+        reach[ray] = np.linalg.norm(table[:, 2:] - origins[ray], axis=1)
+        for number, thing in enumerate(self._heavy):
+            if thing.seen:
+                parts.append(self._hit_heavy(number, origins, directions, reach))
+        return _nearest(parts)
+
+    def _hit_heavy(self, number: int, origins: Array, directions: Array, reach: Array) -> Hits:
+        """Send rays at one heavy object, and shorten the reach of those that hit it."""
+        thing, slots = self._heavy[number], self._heavy_slots[number]
+        ray, distance, points, normals, faces = thing.cast(origins, directions, reach)
+        reach[ray] = distance
+        normals *= -np.sign(np.einsum("ij,ij->i", normals, directions[ray]))[:, np.newaxis]
+        of_face = np.zeros(len(faces), int) if thing.slots is None else thing.slots[faces]
+        materials = slots[np.minimum(of_face, len(slots) - 1)]
+        owners = np.full(len(ray), len(self._shown) + number)
+        return Hits(ray, points, normals, normals, materials, owners)
 
     def blocked(self, origins: Array, toward: Array, distance: Array) -> Array:
         """Tell which of the ways, from points of shape (n, 3), meet something; shape (n,)."""
+        hidden = self._blocked_by_light(origins, toward, distance)
+        for thing in self._heavy:
+            if thing.blocks:
+                open_ = np.flatnonzero(~hidden)
+                met, *_ = thing.cast(origins[open_], toward[open_], distance[open_])
+                hidden[open_[met]] = True
+        return hidden
+
+    def _blocked_by_light(self, origins: Array, toward: Array, distance: Array) -> Array:
         tree, _ = self._blocking
         if tree is None:
             return np.zeros(len(origins), bool)
@@ -163,6 +193,7 @@ def gather(depsgraph: Any) -> Surfaces:
     """
     found = Surfaces()
     meshes: dict[int, _Mesh | None] = {}
+    trees: dict[int, Any] = {}
     for instance in depsgraph.object_instances:
         thing = instance.object
         if thing.type != "MESH" and thing.type not in _OTHER_SURFACES:
@@ -170,6 +201,12 @@ def gather(depsgraph: Any) -> Surfaces:
         if thing.original.hide_render or not instance.show_self:
             continue
         key = thing.data.as_pointer() if thing.type == "MESH" else thing.as_pointer()
+        if heavy.is_heavy(thing) and not any(map(_acts_on_light, _materials(thing))):
+            if key not in trees:
+                trees[key] = heavy.grow(thing, depsgraph)
+            matrix = np.array(instance.matrix_world)
+            found._heavy.append(heavy.read(thing, matrix, _materials(thing), trees[key]))
+            continue
         if key not in meshes:
             meshes[key] = _read(thing)
         mesh = meshes[key]
@@ -243,8 +280,14 @@ def _assemble(found: Surfaces) -> None:
         blocking.append(passing & shown.blocks)
         offset += len(mesh.points)
         start += len(mesh.corners)
+    for thing in found._heavy:
+        numbers = [
+            -1 if material is None else index.setdefault(material, len(index))
+            for material in thing.materials or [None]
+        ]
+        found._heavy_slots.append(np.array(numbers))
     found.materials = list(index)
-    found.objects = [shown.name for shown in found._shown]
+    found.objects = [shown.name for shown in (*found._shown, *found._heavy)]
     if not triangles:
         return
     found._points = np.concatenate(points).astype(np.float64)
@@ -264,6 +307,31 @@ def _tree(points: list[Any], triangles: Array, kept: Array) -> tuple[Any, Array 
     if not len(chosen):
         return None, None
     return BVHTree.FromPolygons(points, chosen.tolist(), all_triangles=True), places
+
+
+def _acts_on_light(material: Any) -> bool:
+    """Whether the material may emit or let light pass, so that its faces have to be known."""
+    if material is None or material.node_tree is None:
+        return False
+    emits = any(
+        node.bl_idname == "ShaderNodeEmission"
+        or (
+            node.bl_idname == "ShaderNodeBsdfPrincipled"
+            and node.inputs["Emission Strength"].default_value > 0
+        )
+        for node in material.node_tree.nodes
+    )
+    return emits or _is_clear(material)
+
+
+def _nearest(parts: list[Hits]) -> Hits:
+    """Keep of each ray its last hit; each part only has hits nearer than those before."""
+    joined = [
+        np.concatenate(arrays) for arrays in zip(*(vars(p).values() for p in parts), strict=True)
+    ]
+    _, last = np.unique(joined[0][::-1], return_index=True)
+    kept = len(joined[0]) - 1 - last
+    return Hits(*(array[kept] for array in joined))
 
 
 def _is_clear(material: Any) -> bool:

@@ -267,6 +267,22 @@ def test_viewport_sees_what_the_camera_sees(plate):
     assert angles[0] == pytest.approx(angles[1], abs=0.02)
 
 
+def test_objects_of_many_faces_are_met_as_others_are(plate, make_material, monkeypatch):
+    """The same room, with every object but the plate's counted as heavy, and with none."""
+    from rough_spectra.addon.scene_analysis import heavy
+
+    materials = make_room.furnish(objects=40, materials=6)
+    light = analyze()
+    monkeypatch.setattr(heavy, "TRIANGLES", 100)
+    found = analyze()
+    assert found.pixels == pytest.approx(light.pixels, abs=2e-3)
+    for material in set(materials) & light.views.keys():
+        mine, other = found.views[material], light.views[material]
+        shares = {lamp.name: lamp.share for lamp in other.lights}
+        for lamp in mine.lights:
+            assert lamp.share == pytest.approx(shares.get(lamp.name, 0), abs=0.1)
+
+
 def test_nothing_to_analyze_is_said(plate, make_material):
     with pytest.raises(InputError, match=r"No light reaches Plate"):
         scene_report.follow(analyze())
