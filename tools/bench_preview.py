@@ -10,15 +10,13 @@ which other programs disturb less. Milliseconds.
 
 from __future__ import annotations
 
+import importlib
 import statistics
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-from run_command_line import load_extension
 
 REPEATS = 100
 PATCH = Path(__file__).resolve().parents[1] / "presets" / "colorchecker" / "14-green.json"
@@ -29,7 +27,8 @@ SWATCHES = 96
 
 def main() -> None:
     """Print a table."""
-    extension = load_extension()
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    extension = importlib.import_module("run_command_line").load_extension()
     extension.register()
     import bpy
     import numpy as np
@@ -47,7 +46,7 @@ def main() -> None:
     for model in ("two-bounce", "reference"):
         request = target.Request(sample, 0.5, model=model)
         color = np.array((0.1, 0.3, 0.1))
-        row(f"… {model}", lambda r=request, c=color: data.of_request(r, c, 0.4, space))
+        row(f"… {model}", partial(data.of_request, request, color, 0.4, space))
     row("asking for an icon", lambda: icons._state(material, bpy.context))
     for scale in (1, 2):
         look = theme.look((0.239,) * 3, (0.902,) * 3, float(scale))
@@ -55,8 +54,8 @@ def main() -> None:
         for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
             size = side * scale
             canvas = compose.picture(figure, found, size, look)
-            row(figure, lambda f=figure, s=size, k=look: compose.picture(f, found, s, k))
-            row("… to Blender", lambda c=canvas: icons._upload(preview, c))
+            row(figure, partial(compose.picture, figure, found, size, look))
+            row("… to Blender", partial(icons._upload, preview, canvas))
 
         def everything(k: theme.Look = look, s: int = scale) -> None:
             numbers = data.collect(material, space)

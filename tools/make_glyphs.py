@@ -37,8 +37,8 @@ HEADER = '''# SPDX-FileCopyrightText: 2016 The Inter Project Authors (https://gi
 # SPDX-License-Identifier: OFL-1.1
 """Outlines of Inter {version}, written by tools/make_glyphs.py; do not edit by hand.
 
-This Font Software is licensed under the SIL Open Font License, Version 1.1, which is available at
-https://openfontlicense.org. `preview.text` reads it.
+This Font Software is licensed under the SIL Open Font License, Version 1.1: see OFL-1.1.txt.
+`preview.text` reads it.
 """
 
 # Units an em; heights above the baseline.

@@ -147,7 +147,7 @@ def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
     """
     from . import figures
 
-    keys = [tuple(round(255 * min(max(c, 0.0), 1.0)) for c in color) for color in colors]
+    keys = [(_byte(red), _byte(green), _byte(blue)) for red, green, blue in colors]
     missing = list(dict.fromkeys(key for key in keys if key not in _swatches))
     if missing:
         look = theme.current(bpy.context.preferences)
@@ -163,6 +163,10 @@ def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
         _, name = _swatches.popitem(last=False)
         del _previews()[name]
     return [_previews()[_swatches[key]].icon_id for key in keys]
+
+
+def _byte(share: float) -> int:
+    return round(255 * min(max(share, 0.0), 1.0))
 
 
 def clear() -> None:
