@@ -205,7 +205,7 @@ def weigh(name: str) -> None:
         fast = min(promises.outcome(readers, path, data, name).seconds for _ in range(2))
         peak = promises.weighed(readers, path, data, name).peak or 0
         slowest = max(slowest, fast)
-        heaviest = max(heaviest, peak / promises.memory_allowed(name, len(data)))
+        heaviest = max(heaviest, peak / promises.memory_allowed(len(data)))
     print(
         f"{len(kept)} kept for what they reached; of these the slowest takes {1000 * slowest:.1f} "
         f"ms, the heaviest {100 * heaviest:.0f} % of the memory allowed"

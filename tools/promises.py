@@ -21,12 +21,12 @@ SECONDS = 1e-6
 """Of the processor, a byte of the file."""
 SECONDS_AT_LEAST = 0.25
 """For the smallest file: imports, and messages."""
+SECONDS_AT_LEAST_OF = {"spectral_exr": 1.0}
+"""One color packs a thousandfold, and up to 48 MB of it are unpacked."""
 MEMORY = 20
 """Bytes, a byte of the file."""
 MEMORY_AT_LEAST = 2**20
 """What imports, tables and messages take, whatever the file."""
-MEMORY_OF = {"spectral_exr": 8 * 2**20}
-"""Beside that: a chunk of an image's lines, unpacked, with what undoes its packing."""
 
 _SENTENCES_OF_FILES = ("preset", "library")
 """Formats in which notes are the user's own text."""
@@ -101,20 +101,20 @@ def faults(name: str, path: Path, size: int, found: Outcome) -> Iterator[str]:
     for sample in found.samples:
         yield from _faults_of_sample(name, sample)
     if found.peak is not None:
-        if found.peak > memory_allowed(name, size):
+        if found.peak > memory_allowed(size):
             yield f"memory: {found.peak} bytes for a file of {size}"
-    elif found.seconds > seconds_allowed(size):
+    elif found.seconds > seconds_allowed(name, size):
         yield f"time: {found.seconds:.2f} s for {size} bytes"
 
 
-def seconds_allowed(size: int) -> float:
+def seconds_allowed(name: str, size: int) -> float:
     """Return how long a file of so many bytes may take."""
-    return max(SECONDS * size, SECONDS_AT_LEAST)
+    return max(SECONDS * size, SECONDS_AT_LEAST_OF.get(name, SECONDS_AT_LEAST))
 
 
-def memory_allowed(name: str, size: int) -> int:
+def memory_allowed(size: int) -> int:
     """Return how many bytes of memory a file of so many bytes may take."""
-    return MEMORY * size + MEMORY_AT_LEAST + MEMORY_OF.get(name, 0)
+    return MEMORY * size + MEMORY_AT_LEAST
 
 
 def _faults_of_message(path: Path, message: str) -> Iterator[str]:

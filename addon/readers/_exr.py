@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pixels of an OpenEXR file, a few lines at a time, without a C++ library.
+"""The header of an OpenEXR file, without a C++ library.
 
 A measurement comes from anywhere, and a broken image must not end Blender: here every length is
 checked before it is used. Read are scanline images of one part, not compressed or with ZIP or ZIPS,
@@ -11,17 +11,14 @@ Source: "OpenEXR File Layout", https://openexr.com/en/latest/OpenEXRFileLayout.h
 
 from __future__ import annotations
 
-import itertools
 import struct
-import zlib
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ._document import Document, quote
+from ._exr_pixels import LINES, runs
 
 MAGIC = b"\x76\x2f\x31\x01"
 
@@ -36,13 +33,10 @@ _PIXEL_TYPES: dict[int, np.dtype[np.generic]] = {
     2: np.dtype("<f4"),
 }
 _COMPRESSIONS = ["none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"]
-_LINES = {"none": 1, "ZIPS": 1, "ZIP": 16}  # in one chunk
 
 _USED = ("channels", "compression", "dataWindow")
 
 _LARGEST_SIDE = 2**16  # pixels
-_LARGEST_CHUNK = 8 * 2**20  # bytes: 16 lines of 4096 pixels with 64 bands of half floats
-_BLOCK = 2**17  # bytes that become floats at a time
 _MOST_RUNS = 64  # changes of the pixels' type from channel to channel; there are one or two
 # An even color packs a hundredfold, noise hardly. Beyond both of these nobody has measured.
 _LARGEST_PACKED = 64  # times the file's size
@@ -69,86 +63,10 @@ class Image:
     compression: str
     chunks: int
 
-    def blocks(self, first: int, count: int) -> Iterator[NDArray[np.float32]]:
-        """Yield the pixels of `count` lines below `first` in blocks (lines, channels, width).
-
-        Raises
-        ------
-        InputError
-            A chunk of lines is missing or broken.
-        """
-        step = _LINES[self.compression]
-        size = self.line_size
-        at_once = max(1, _BLOCK // size)
-        waiting: list[
-            bytes | bytearray
-        ] = []  # a chunk may be a line of one pixel: many go together
-        last = (first + count - 1) // step
-        for chunk in range(first // step, last + 1):
-            begin = chunk * step
-            raw = self._chunk(chunk, begin, min(step, self.height - begin) * size)
-            waiting.append(raw[max(first - begin, 0) * size : (first + count - begin) * size])
-            if chunk < last and len(waiting) * step < at_once:
-                continue
-            lines = np.frombuffer(b"".join(waiting), np.uint8).reshape(-1, size)
-            waiting.clear()
-            for top in range(0, len(lines), at_once):
-                yield self._floats(lines[top : top + at_once])
-
     @property
     def line_size(self) -> int:
         """Bytes of a line."""
         return self.width * sum(channel.form.itemsize for channel in self.channels)
-
-    def _floats(self, lines: NDArray[np.uint8]) -> NDArray[np.float32]:
-        pixels = np.empty((len(lines), len(self.channels), self.width), np.float32)
-        at = index = 0
-        for form, run in _runs(self.channels):
-            size = run * self.width * form.itemsize
-            part = np.ascontiguousarray(lines[:, at : at + size]).view(form)
-            pixels[:, index : index + run] = part.reshape(len(lines), run, self.width)
-            at, index = at + size, index + run
-        return pixels
-
-    def _chunk(self, chunk: int, begin: int, size: int) -> bytes | bytearray:
-        """Return `size` bytes of pixels, unpacked."""
-        data, place = self.document.data, f"line {begin + 1} of the image"
-        (at,) = struct.unpack_from("<Q", data, self.chunks + 8 * chunk)
-        if not self.chunks <= at <= len(data) - 8:
-            raise self.document.error(place, "the line is missing; save the whole image again")
-        y, length = struct.unpack_from("<2i", data, at)
-        packed = data[at + 8 : at + 8 + max(length, 0)]
-        if y != self.top + begin or length != len(packed):
-            raise self.document.error(place, "the line is missing; save the whole image again")
-        if length == size:  # what packing would not make smaller is stored as it is
-            return packed
-        raw = _unpack(packed, size) if self.compression != "none" else b""
-        if len(raw) != size:
-            raise self.document.error(place, "its pixels are broken; save the image again")
-        return raw
-
-
-def _runs(channels: tuple[Channel, ...]) -> list[tuple[np.dtype[np.generic], int]]:
-    """Return types of pixels, and how many channels in a row have each."""
-    grouped = itertools.groupby(channels, key=lambda channel: channel.form)
-    return [(form, len(list(group))) for form, group in grouped]
-
-
-def _unpack(packed: bytes, size: int) -> bytes | bytearray:
-    """Undo ZIP: deflated differences of bytes, all even bytes before all odd ones."""
-    try:
-        raw = zlib.decompressobj().decompress(packed, size + 1)
-    except zlib.error:
-        return b""
-    if len(raw) != size:
-        return b""
-    steps = np.frombuffer(raw, np.uint8) ^ 0x80  # the same as minus 128, modulo 256
-    steps[0] ^= 0x80
-    np.add.accumulate(steps, dtype=np.uint8, out=steps)
-    pixels = bytearray(raw)
-    half = (size + 1) // 2
-    pixels[0::2], pixels[1::2] = steps[:half].data, steps[half:].data
-    return pixels
 
 
 def open_image(document: Document) -> Image:
@@ -169,7 +87,7 @@ def open_image(document: Document) -> Image:
     channels = _channels(document, _attribute(document, attributes, "channels", 1))
     code = _attribute(document, attributes, "compression", 1)[0]
     name = _COMPRESSIONS[code] if code < len(_COMPRESSIONS) else f"number {code}"
-    if name not in _LINES:
+    if name not in LINES:
         raise document.error(
             "attribute 'compression'",
             f"its pixels are packed with {name}; save the image with ZIP, ZIPS or unpacked",
@@ -180,17 +98,13 @@ def open_image(document: Document) -> Image:
         raise document.error("attribute 'dataWindow'", f"it cannot be {width} x {height} pixels")
     most = max(_LARGEST_ALWAYS, _LARGEST_PACKED * len(document.data))
     image = Image(document, width, height, box[1], channels, name, end)
-    if (
-        image.line_size * height > most
-        or image.line_size * _LINES[name] > _LARGEST_CHUNK
-        or len(_runs(channels)) > _MOST_RUNS
-    ):
+    if image.line_size * height > most or len(runs(channels)) > _MOST_RUNS:
         raise document.error(
             "attribute 'dataWindow'",
             f"{width} x {height} pixels of {len(channels)} channels are more than a file of this "
             "size is read for; save a part of the image",
         )
-    if end + 8 * -(-height // _LINES[name]) > len(document.data):
+    if end + 8 * -(-height // LINES[name]) > len(document.data):
         raise document.error("", "the file ends in its table of lines; save the image again")
     return image
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..sample import Sample, check_spectrum
-from . import _bands, _exr, _geometry
+from . import _bands, _exr, _exr_pixels, _geometry
 from ._document import Document, open_document, quote
 from ._exr import Image
 
@@ -175,13 +175,14 @@ def _mean(
     A few lines at a time: unpacked, an image is a hundred times its file.
     """
     x, y, width, height = region
-    total = np.zeros(len(channels))
-    squares = np.zeros(len(channels))
+    total = np.zeros(len(image.channels))
+    squares = np.zeros(len(image.channels))
     with np.errstate(over="ignore", invalid="ignore"):  # not finite: `check_spectrum` names it
-        for block in image.blocks(y, height):
-            pixels = block[:, channels, x : x + width].astype(np.float64)
-            total += pixels.sum(axis=(0, 2))
-            squares += np.square(pixels, out=pixels).sum(axis=(0, 2))
-        mean = total / (width * height)
-        variance = squares / (width * height) - mean * mean
+        for first, block in _exr_pixels.blocks(image, y, height):
+            pixels = block[:, :, x : x + width].astype(np.float64)
+            which = slice(first, first + pixels.shape[1])
+            total[which] += pixels.sum(axis=(0, 2))
+            squares[which] += np.square(pixels, out=pixels).sum(axis=(0, 2))
+        mean = total[channels] / (width * height)
+        variance = squares[channels] / (width * height) - mean * mean
     return mean, float(np.sqrt(max(np.nanmax(variance, initial=0.0), 0.0)))

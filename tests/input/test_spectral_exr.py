@@ -74,6 +74,17 @@ def test_openimageio_sees_the_same_pixels(tmp_path, compression, half):
     np.testing.assert_allclose(found, pixels[11:31, 4:13].mean((0, 1)), rtol=1e-14)
 
 
+@pytest.mark.parametrize("compression", ["none", "zip", "zips"])
+def test_large_chunks_and_long_lines_are_the_same_in_pieces(tmp_path, compression):
+    """A chunk of 16 lines has 1.5 MB here, a line 96 kB; both exceed what is unpacked at a time."""
+    pixels = np.random.default_rng(6).integers(0, 64, (21, 3001, 8)) / 64  # packs to a fifth
+    path = write(tmp_path / "a.exr", pixels, compression=compression, half=False)
+    for x, y, width, height in ((0, 0, 3001, 21), (5, 3, 2000, 1), (0, 14, 3001, 5)):
+        (sample,) = readers.read(path, (x, y, width, height))
+        expected = pixels[y : y + height, x : x + width, 3:].mean((0, 1))
+        np.testing.assert_allclose(sample.values, expected, rtol=1e-14)
+
+
 def test_a_data_window_that_begins_elsewhere_changes_nothing(tmp_path):
     path = write(tmp_path / "a.exr", VALUES, x=-7, y=40)
     assert (
@@ -190,6 +201,38 @@ def test_a_chunk_that_unpacks_to_more_is_refused():
     data = DATA[:start] + struct.pack("<2i", 0, len(packed)) + packed
     with pytest.raises(InputError, match="line 1 of the image: its pixels are broken"):
         image(data)
+
+
+def packed_image(height, size, packed, length=None):
+    """An image 1 pixel wide whose chunks of 16 lines all are `packed`, or claim to be longer."""
+    head = DATA[: DATA.index(b"dataWindow")] + b"dataWindow\0box2i\0" + struct.pack("<i", 16)
+    head += struct.pack("<4i", 0, 0, size - 1, height - 1) + b"\0"
+    chunks = -(-height // 16)
+    at = len(head) + 8 * chunks
+    end = at + chunks * (8 + len(packed))
+    table, body = b"", b""
+    for chunk in range(chunks):
+        claimed = len(packed) if length is None else min(length, end - at - 8)
+        table += struct.pack("<Q", at)
+        body += struct.pack("<2i", 16 * chunk, claimed) + packed
+        at += 8 + len(packed)
+    return head + table + body
+
+
+def test_chunks_that_overlap_are_refused_before_each_unpacks_the_rest_of_the_file():
+    line = zlib.compress(bytes(8 * 2 * 16))
+    (sample,) = image(packed_image(1600, 1, line))
+    assert sample.altered == ("Mean of 1600 pixels.",)
+    with pytest.raises(InputError, match="line 17 of the image: its pixels are broken"):
+        image(packed_image(1600, 1, line, 2**30))
+
+
+@pytest.mark.parametrize("size", [2**19 - 16, 2**19 + 16])
+def test_a_large_chunk_that_unpacks_to_another_size_is_refused(size):
+    right = zlib.compress(bytes([0]) + bytes([0x80]) * (2**19 - 1))
+    assert image(packed_image(16, 2**19 // 16 // 16, right))[0].values.tolist() == [0] * 5
+    with pytest.raises(InputError, match="line 1 of the image: its pixels are broken"):
+        image(packed_image(16, 2**19 // 16 // 16, zlib.compress(bytes(size))))
 
 
 def _first_chunk():
