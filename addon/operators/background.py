@@ -26,6 +26,10 @@ class InBackground:
     _job: Any = None
     _timer: Any = None
 
+    if TYPE_CHECKING:  # of bpy.types.Operator, which every such class is as well
+
+        def report(self, kind: set[str], message: str) -> None: ...  # noqa: D102
+
     def start(self, context: Any) -> Job:
         """Start the job.
 
