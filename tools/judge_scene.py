@@ -12,6 +12,7 @@ The color difference of the two, seen under the light of that place, is a pixel'
 
 from __future__ import annotations
 
+import importlib
 import sys
 import time
 from collections.abc import Mapping
@@ -126,10 +127,8 @@ def _lab(xyz: np.ndarray, white: np.ndarray) -> np.ndarray:
 
 def main() -> None:
     """Print how long the analysis takes and what it gains."""
-    import make_room
-    from run_command_line import load_extension
-
-    extension = load_extension()
+    make_room = importlib.import_module("make_room")
+    extension = importlib.import_module("run_command_line").load_extension()
     extension.register()
     from rough_spectra.addon import assign, scene_analysis, scene_report
 

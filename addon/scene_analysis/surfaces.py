@@ -287,7 +287,7 @@ def _assemble(found: Surfaces) -> None:
         ]
         found._heavy_slots.append(np.array(numbers))
     found.materials = list(index)
-    found.objects = [shown.name for shown in (*found._shown, *found._heavy)]
+    found.objects = [shown.name for shown in found._shown] + [big.name for big in found._heavy]
     if not triangles:
         return
     found._points = np.concatenate(points).astype(np.float64)
