@@ -43,7 +43,7 @@ def main(arguments: Sequence[str]) -> int:
     options.output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
         command = [
-            *(options.blender, "--gpu-backend", "opengl"),
+            *(options.blender, "--gpu-backend", "opengl", "--enable-event-simulate"),
             *("--window-geometry", "0", "0", *options.size.split("x")),
             *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
             *(str(options.zip.resolve()), str(options.output.resolve())),

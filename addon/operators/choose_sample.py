@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import bpy
@@ -32,8 +33,15 @@ def _fill() -> None:
     entries = library.contents(library.user_folder()).entries
     gray = (0.5, 0.5, 0.5)
     swatches = icons.swatch_icons([entry.swatch or gray for entry in entries])
+    count = Counter(entry.name for entry in entries)
     _items[:] = [
-        (entry.id, f"{entry.name}   ({entry.collection})", _about(entry), swatch, number)
+        (
+            entry.id,
+            entry.name if count[entry.name] == 1 else f"{entry.name} ({entry.collection})",
+            _about(entry),
+            swatch,
+            number,
+        )
         for number, (entry, swatch) in enumerate(zip(entries, swatches, strict=True))
     ] or [(_UNKNOWN, "No Samples", "Install the extension again", 0, 0)]
 
@@ -41,7 +49,7 @@ def _fill() -> None:
 def _about(entry: Any) -> str:
     what = "Reading" if entry.kind == "reading" else "Albedo"
     sigma = "" if entry.sigma_degrees is None else f", σ {entry.sigma_degrees:g}°"
-    return f"{what}{sigma}. {entry.source}"
+    return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
 class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):

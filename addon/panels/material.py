@@ -15,6 +15,7 @@ from ..preview import icons, words
 from .text import sentence
 
 _SWATCH_UNITS = 5.0
+_BOX = 24.0
 _GAMUT = 0.05
 """ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
 
@@ -72,7 +73,7 @@ def draw_state(layout: Any, context: Any, material: Any) -> None:
     column.alert = state.kind in ("stale", "error")
     icon = "INFO" if state.kind in ("kept", "linked") else "ERROR"
     for reason in state.reasons:
-        sentence(column, context, reason[:1].upper() + reason[1:], icon)
+        sentence(column, context, reason[:1].upper() + reason[1:], icon, _BOX)
         icon = "BLANK1"
     if state.kind == "linked":
         return
@@ -113,6 +114,8 @@ def _difference(where: str, delta_e: float) -> str:
 def _limit(found: Any, context: Any) -> str:
     if stamp.engine_is_flat():
         return tip_("Limited by the engine: only Cycles shows the roughness")
+    if len(found.delta_e_lights) > 1:
+        return tip_("Limited by the lights: no single color is right under all of them")
     if found.delta_e_instrument > _GAMUT:
         return tip_("Limited by the gamut: {space} cannot hold this color").format(
             space=found.working_space

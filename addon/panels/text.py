@@ -15,7 +15,9 @@ _MARGINS = 70.0  # icon, box and panel, pixels at UI scale 1
 _FEWEST = 16
 
 
-def sentence(layout: Any, context: Any, text: str, icon: str = "BLANK1") -> None:
+def sentence(
+    layout: Any, context: Any, text: str, icon: str = "BLANK1", inset: float = 0.0
+) -> None:
     """Draw a sentence over as many lines as it needs.
 
     Parameters
@@ -28,9 +30,11 @@ def sentence(layout: Any, context: Any, text: str, icon: str = "BLANK1") -> None
         Translated already.
     icon
         Before the first line.
+    inset
+        Pixels at UI scale 1 that a box around the sentence takes.
     """
     scale = theme.scale(context.preferences)
-    width = int((context.region.width / scale - _MARGINS) / _PIXELS_A_CHARACTER)
+    width = int((context.region.width / scale - _MARGINS - inset) / _PIXELS_A_CHARACTER)
     column = layout.column(align=True)
     for number, line in enumerate(_lines(text, max(width, _FEWEST))):
         row = column.row()
