@@ -22,7 +22,6 @@ from .operators import (
     measure,
     renew,
 )
-from .preview import icons
 
 _MODULES = (
     *(
@@ -55,6 +54,9 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
+    # Nothing at register needs it, and importing takes time.
+    from .preview import icons
+
     icons.clear()
     command_line.unregister()
     live.unregister()
