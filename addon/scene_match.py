@@ -235,6 +235,7 @@ class _Places:
     whites: Array
     rgb: Array
     from_xyz: Array
+    to_xyz: Array
 
     @classmethod
     def of(cls, view: SceneView, space: WorkingSpace) -> _Places:
@@ -246,9 +247,8 @@ class _Places:
         whites = np.stack([lamp.white for lamp in view.lights])[index]
         rgb = np.stack([light_rgb(lamp, space) for lamp in view.lights])[index]
         weights = np.append(scene, elsewhere)
-        return cls(
-            (light, view_angle, azimuth), view.lights, index, weights, whites, rgb, space.from_xyz
-        )
+        angles, to_xyz = (light, view_angle, azimuth), np.linalg.inv(space.from_xyz).T
+        return cls(angles, view.lights, index, weights, whites, rgb, space.from_xyz, to_xyz)
 
     def under_lights(self, reflected: Array, bands: Array) -> Array:
         """XYZ of spectra (places, bands), each under the light of its place."""
@@ -265,8 +265,7 @@ class _Places:
         """Lab of Cycles' material with parameters (..., 4), color and roughness, in all places."""
         color, roughness = parameters[..., np.newaxis, :3], parameters[..., np.newaxis, 3]
         seen = cycles.reflectance(color, roughness, *self.angles)
-        xyz = (seen * self.rgb) @ np.linalg.inv(self.from_xyz).T
-        return colorimetry.xyz_to_lab(xyz, self.whites)
+        return colorimetry.xyz_to_lab((seen * self.rgb) @ self.to_xyz, self.whites)
 
 
 def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
