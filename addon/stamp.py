@@ -168,6 +168,13 @@ def state(material: Any) -> State:
     return State("fresh", (), found)
 
 
+def numbers_hold(material: Any) -> bool:
+    """Whether the stamp's ΔE00 are those of what the scene's engine shows of the material now."""
+    if state(material).kind != "fresh":
+        return False
+    return has_scene(material.rough_spectra) or not engine_is_flat()
+
+
 def stale_reasons(material: Any, working_space: str) -> list[str]:
     """Say why the color in the shader node no longer follows from the spectrum; empty if it does.
 

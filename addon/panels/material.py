@@ -11,10 +11,11 @@ from bpy.app.translations import pgettext_tip as tip_
 
 from .. import measured, stamp
 from ..operators import common
-from ..preview import icons, words
+from ..preview import words
 from .text import sentence
 
 _SWATCH_UNITS = 5.0
+_WHERE = ("45°/0°", "All angles", "95 % below")
 _BOX = 24.0
 _GAMUT = 0.05
 """ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
@@ -86,18 +87,21 @@ def draw_state(layout: Any, context: Any, material: Any) -> None:
 
 def draw_difference(layout: Any, context: Any, material: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
+    from ..preview import icons
+
     found = stamp.get_stamp(material)
     row = layout.row()
     picture = icons.icon_id(material, "swatches", _SWATCH_UNITS, context)
     row.template_icon(picture, scale=_SWATCH_UNITS)
     column = row.column(align=True)
-    if found is None:
-        column.label(text="Nothing derived yet")
-        return
     column.label(text="Left the target, right Blender")
-    column.label(text=_difference(iface_("45°/0°"), found.delta_e_instrument), translate=False)
-    column.label(text=_difference(iface_("All angles"), found.delta_e_mean), translate=False)
-    column.label(text=_difference(iface_("95 % below"), found.delta_e_95), translate=False)
+    numbers = icons.differences(material, context)
+    if found is not None and stamp.numbers_hold(material):
+        numbers = (found.delta_e_instrument, found.delta_e_mean, found.delta_e_95)
+    for where, number in zip(_WHERE, numbers or (), strict=bool(numbers)):
+        column.label(text=_difference(iface_(where), number), translate=False)
+    if found is None or stamp.state(material).kind != "fresh":
+        return
     sentence(layout, context, _limit(found, context), "INFO")
     if material.rough_spectra.model == "auto":
         text = iface_("Model {reason}").format(reason=found.model_reason)
@@ -127,6 +131,8 @@ def _limit(found: Any, context: Any) -> str:
 
 def draw_plots(layout: Any, context: Any, material: Any) -> None:
     """Show the range of σ, spectrum and angles."""
+    from ..preview import icons
+
     units = icons.fit(context)
     layout.template_icon(icons.icon_id(material, "sheet", units, context), scale=units)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core import cycles, ladder, reading, yardstick
+from ...core import cycles, reading
 from ...core.arrays import Array
 from ...core.errors import MaterialError
 from .. import colorimetry, nodes, stamp, storage
@@ -18,6 +18,7 @@ from ..target import AUTO, VIRTUAL, Request
 from ..working_space import WorkingSpace
 from .figures import LARGEST_SIGMA, LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
+from .shown import in_directions, under_main_light
 
 VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
 """Degrees in the plane of incidence, negative on the side of the light."""
@@ -101,12 +102,23 @@ def collect(material: Any, space: WorkingSpace, engine: str = "CYCLES") -> Data:
         If the spectrum does not cover the visible range.
     """
     color, roughness = written(material)
-    found = stamp.get_stamp(material)
-    request = storage.load(material)
-    if request.model == AUTO:
-        request = replace(request, model=found.model if found is not None else "closure")
     rough = roughness if engine == "CYCLES" else 0.0
-    return of_request(request, color, rough, space, "Cycles" if engine == "CYCLES" else "Eevee")
+    name = "Cycles" if engine == "CYCLES" else "Eevee"
+    return of_request(settled(material), color, rough, space, name)
+
+
+def settled(material: Any) -> Request:
+    """Give what a material stores, with the model that its stamp says was chosen.
+
+    Raises
+    ------
+    MaterialError
+        If the material has no spectrum that can be read.
+    """
+    request, found = storage.load(material), stamp.get_stamp(material)
+    if request.model != AUTO:
+        return request
+    return replace(request, model=found.model if found is not None else "closure")
 
 
 def written(material: Any) -> tuple[Array, float]:
@@ -134,7 +146,7 @@ def of_request(
     """Compute the same from a request with a settled model, and what is in the shader node."""
     sample, light = request.sample, request.illuminant
     weights = space.rgb_weights(sample.wavelengths, light)
-    seen, rho = _spectra(request)
+    seen, rho = spectra(request)
     # Sockets may hold anything; what the closure does to a color above 1 is not defined.
     color = np.clip(color, 0, 1)
     roughness = min(max(roughness, 0.0), 1.0)
@@ -144,15 +156,18 @@ def of_request(
     azimuth = np.where(VIEW_ANGLES < 0, 0.0, np.pi)
     angles = (np.full(view.shape, np.radians(LIGHT_ANGLE)), view, azimuth)
     shown = cycles.reflectance(color, np.full(view.shape, roughness), *angles)
+    target, blender = seen @ weights, at_instrument
+    if request.scene is not None:
+        target, blender = under_main_light(request.scene, seen, sample.wavelengths, blender, space)
     return Data(
-        target=patch(seen @ weights, space),
-        blender=patch(at_instrument, space),
+        target=patch(target, space),
+        blender=patch(blender, space),
         wavelengths=sample.wavelengths,
         albedo=rho,
         reading=seen,
         bars=rgb_bars(at_instrument, space, light),
         view=VIEW_ANGLES,
-        target_curve=np.maximum(_model(request, rho, angles) @ luminance, 0),
+        target_curve=np.maximum(in_directions(request, rho, angles) @ luminance, 0),
         blender_curve=space.to_xyz(shown, light)[:, 1],
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
@@ -212,7 +227,7 @@ def _white(model: str, instrument: str) -> tuple[Array, Array]:
     return degrees, reading.white_reading(np.radians(degrees), model, instrument)
 
 
-def _spectra(request: Request) -> tuple[Array, Array]:
+def spectra(request: Request) -> tuple[Array, Array]:
     """Give reading at the virtual instrument and albedo, as `target` matches them."""
     sample, sigma, model = request.sample, request.sigma, request.model
     values = sample.reflectance
@@ -228,17 +243,6 @@ def _spectra(request: Request) -> tuple[Array, Array]:
             return values, rho
     seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
     return np.asarray(seen * np.maximum(rho, 1)), rho
-
-
-def _model(request: Request, rho: Array, angles: tuple[Array, Array, Array]) -> Array:
-    """Reflectance factor in all directions, (angles, bands)."""
-    physical = np.minimum(rho, 1)
-    if request.model == "reference":
-        # The solver takes milliseconds a direction; its table is within a thousandth.
-        [found] = yardstick.reflectance(physical[np.newaxis], *angles, np.array([request.sigma]))
-    else:
-        found = ladder.reflectance(request.model, physical, *angles, request.sigma)
-    return np.asarray(found * np.maximum(rho, 1))
 
 
 @lru_cache(maxsize=16)

@@ -68,6 +68,7 @@ _collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
 _swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
 _pending: dict[_Wish, int] = {}
+_differences: dict[int, tuple[int, tuple[float, float, float] | None]] = {}
 
 
 def unit(preferences: Any) -> int:
@@ -127,6 +128,16 @@ def icon_id(material: Any, figure: str, units: float, context: Any) -> int:
     return picture.icon
 
 
+def differences(material: Any, context: Any) -> tuple[float, float, float] | None:
+    """Give ΔE00 of what is in the shader node, to be called while drawing, after `icon_id`.
+
+    At the instrument, and mean and 95th percentile over all angles; None until they are computed
+    along with the pictures.
+    """
+    known = _differences.get(material.session_uid)
+    return known[1] if known is not None and known[0] == _state(material, context) else None
+
+
 def refresh(material: Any) -> None:
     """Make the visible pictures of a material again, now; not to be called while drawing."""
     uid, now = material.session_uid, time.monotonic()
@@ -175,6 +186,7 @@ def clear() -> None:
     if bpy.app.timers.is_registered(_work):
         bpy.app.timers.unregister(_work)
     _pending.clear()
+    _differences.clear()
     _pictures.clear()
     _swatches.clear()
     if _collection is not None:
@@ -236,14 +248,28 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
     state = _state(material, context)
     look = theme.current(context.preferences)
     try:
-        found = data.collect(material, working_space.current(), context.scene.render.engine)
+        space = working_space.current()
+        found = data.collect(material, space, context.scene.render.engine)
     except RoughSpectraError:
         # The panel says what is wrong with the material; there is nothing to picture.
         for wish in wishes:
             _store(wish, state, None)
         return
+    _differences[material.session_uid] = (state, _compared(material, space))
     for wish in wishes:
         _store(wish, state, compose.picture(wish.figure, found, wish.side, look))
+
+
+def _compared(material: Any, space: Any) -> tuple[float, float, float] | None:
+    """Compare the shader node with the target where the stamp does not say how far they are."""
+    if stamp.numbers_hold(material):
+        return None
+    from . import data, shown
+
+    request = data.settled(material)
+    color, roughness = data.written(material)
+    shader = (color, 0.0 if stamp.engine_is_flat() else roughness)
+    return shown.differences(request, data.spectra(request), shader, space)
 
 
 def _store(wish: _Wish, state: int, canvas: Any) -> None:

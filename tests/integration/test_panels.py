@@ -84,6 +84,7 @@ def drawn(where=None):
 
 @pytest.fixture
 def green():
+    bpy.context.scene.render.engine = "CYCLES"
     material = rgb_material("Wall")
     mesh_object("Wall", material)
     OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=0.5)
@@ -154,9 +155,31 @@ def test_an_edit_by_hand_is_offered_to_be_renewed_or_kept(green):
     assert "rough_spectra.keep" not in page
 
 
+def test_the_difference_is_of_what_the_node_holds_now(green):
+    """The render is the judge of the number that the panel computes after an edit by hand."""
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    node.inputs["Color"].default_value = (0.09, 0.27, 0.11, 1)
+    drawn()
+    icons._work()
+    at_instrument, mean, high = icons.differences(green, context())
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    assert at_instrument == pytest.approx(measured.get(green).delta_e, abs=0.01)
+    assert at_instrument > 1
+    assert high > mean > 0
+    assert f"45°/0°: ΔE00 {at_instrument:.2f}, visible" in drawn()
+    OPS.renew("EXEC_DEFAULT")
+    assert "45°/0°: ΔE00 0.00, not visible" in drawn()
+
+
 def test_another_engine_is_named_as_what_limits(green):
+    in_cycles = float(next(line for line in drawn() if "All angles" in line).split()[-3].strip(","))
     bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
-    assert any("only Cycles shows the roughness" in line for line in drawn())
+    drawn()
+    icons._work()
+    page = drawn()
+    assert any("only Cycles shows the roughness" in line for line in page)
+    _, mean, _ = icons.differences(green, context())
+    assert mean > 2 * in_cycles
 
 
 def test_a_measurement_stands_beside_the_prediction(green):
