@@ -163,7 +163,9 @@ def child(name: str, arguments: list[str]) -> None:
 
 def _keep(smallest: dict[str, int], data: bytes, reason: list[str]) -> None:
     """Write the input if it is the smallest of its kind."""
-    kind = hashlib.sha256(re.sub(r"'.*'|\d+", "", reason[0]).encode()).hexdigest()[:12]
+    # "message: what is wrong: ...", or "ErrorType in file, line 5: ...".
+    parts = reason[0].split(": ")[: 2 if reason[0][0].islower() else 1]
+    kind = hashlib.sha256(re.sub(r" [\d.]+ ", " ", ": ".join(parts)).encode()).hexdigest()[:12]
     if len(data) < smallest.get(kind, LONGEST + 1):
         smallest[kind] = len(data)
         Path("found", kind).write_bytes(data)

@@ -27,7 +27,7 @@ OTHER_QUANTITIES = {
 }
 
 # Never part of text. Tab, line feed, form feed, return and the DOS end-of-file mark are.
-_CONTROL = re.compile("[\x00-\x08\x0e-\x19\x1b-\x1f]")
+_CONTROL = re.compile("[\x00-\x08\x0e-\x19\x1b-\x1f\x7f-\x9f]")
 
 
 @dataclass(frozen=True)
@@ -131,9 +131,9 @@ class Document:
             try:
                 text = self.data.decode("utf-8-sig")
             except UnicodeDecodeError:
-                # Every byte is a Latin-1 character, so this cannot fail; older instruments'
-                # software writes µ, ° and umlauts this way.
-                text = self.data.decode("latin-1")
+                # Older instruments' software writes µ, ° and umlauts in Latin-1, and on Windows
+                # dashes and quotation marks where Latin-1 has controls. Five bytes are neither.
+                text = self.data.decode("cp1252", errors="replace")
         control = _CONTROL.search(text)
         if control:
             line = text.count("\n", 0, control.start()) + 1

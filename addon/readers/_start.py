@@ -131,7 +131,7 @@ def _numbers_follow(content: list[tuple[int, str]]) -> bool:
 
 
 def _is_keyed(cells: list[str]) -> bool:
-    return _statements.field_of(cells[0]) not in ("", "name")
+    return bool(cells) and _statements.field_of(cells[0]) not in ("", "name")
 
 
 def _numbers_by(line: str) -> str:

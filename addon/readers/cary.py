@@ -27,6 +27,7 @@ _MARKS = ",;\t"
 _AXIS = re.compile(r"wavelength \(?nm\)?", re.IGNORECASE)
 _REFLECTANCE = re.compile(r"%\s*r|r\s*%?|r\s*\(%\)|.*reflec.*", re.IGNORECASE)
 _SEARCHED = 5  # lines
+_HEAD = 20_000  # characters in which they stand
 
 
 def sniff(document: Document) -> bool:
@@ -43,9 +44,7 @@ def read(document: Document) -> list[Sample]:
         No pair is reflectance, a field is not a number, or a spectrum is not one.
     """
     line, mark = _header(document.text) or (1, ",")
-    rows = csv.reader(
-        itertools.islice(_table.lines(document), line - 1, None), delimiter=mark, strict=False
-    )
+    rows = _rows(document, line, mark)
     names, labels = next(rows), next(rows)
     pairs = [
         i for i in range(0, len(labels) - 1, 2) if _REFLECTANCE.fullmatch(labels[i + 1].strip())
@@ -63,14 +62,33 @@ def read(document: Document) -> list[Sample]:
 
 def _header(text: str) -> tuple[int, str] | None:
     """Return the line of the names, counted from 1, and the delimiter; None if there are none."""
-    top = text[:20_000].split("\n")[: _SEARCHED + 1]
+    top = text[:_HEAD].split("\n")
+    if len(text) > _HEAD:
+        del top[-1]  # cut somewhere
+    top = top[: _SEARCHED + 1]
     for i, (above, line) in enumerate(itertools.pairwise(top), start=1):
         for mark in _MARKS:
-            cells = [cell.strip(' "') for cell in line.split(mark)]
+            cells = [cell.strip(' "') for cell in _fields(line, mark)]
             axes = cells[0::2][: len(cells) // 2]
-            if axes and all(map(_AXIS.fullmatch, axes)) and len(above.split(mark)) > 1:
+            if axes and all(map(_AXIS.fullmatch, axes)) and len(_fields(above, mark)) > 1:
                 return i, mark
     return None
+
+
+def _rows(document: Document, first: int, mark: str) -> Iterator[list[str]]:
+    """Yield the fields of each line from line `first` on; no field goes on in the next line."""
+    lines = itertools.islice(_table.lines(document), first - 1, None)
+    for number, line in enumerate(lines, start=first):
+        try:
+            yield _fields(line, mark)
+        except csv.Error:
+            raise document.error(
+                f"line {number}", "a column is longer than any value; export it again"
+            ) from None
+
+
+def _fields(line: str, mark: str) -> list[str]:
+    return next(csv.reader([line], delimiter=mark), [])
 
 
 def _columns(
