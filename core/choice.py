@@ -68,21 +68,17 @@ def choose_shader(
         for e in (np.asarray(errors_lambert), np.asarray(errors_rough))
     )
     errors = dict(zip(SHADERS, (lambert, rough), strict=True))
-    limit = f"{tolerance:g}"
+    limit = f"the {tolerance:g} allowed"
     if lambert <= tolerance:
-        reason = f"lambert: at most {unit} {_number(lambert, tolerance)} off, within {limit}."
+        reason = f"lambert: at worst {unit} {_number(lambert, tolerance)} off, within {limit}."
         return Choice("lambert", lambert, errors, reason)
-    if rough <= tolerance:
-        reason = (
-            f"rough: at most {unit} {_number(rough, tolerance)} off, within {limit}; "
-            f"lambert would be off by {_number(lambert, tolerance)}."
-        )
-        return Choice("rough", rough, errors, reason)
-    model = "lambert" if lambert <= rough else "rough"
+    model = "rough" if rough <= tolerance or rough < lambert else "lambert"
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
-        f"{model}: up to {unit} {_number(errors[model], tolerance)} off, more than {limit}, and "
-        f"{other} would be off by {_number(errors[other], tolerance)}: neither suffices."
+        f"{model}: at worst {unit} {_number(errors[model], tolerance)} off, "
+        f"{'within' if errors[model] <= tolerance else 'more than'} {limit}; "
+        f"{'without' if model == 'rough' else 'with'} roughness it would be "
+        f"{_number(errors[other], tolerance)}."
     )
     return Choice(model, errors[model], errors, reason)
 
@@ -107,24 +103,25 @@ def cheapest(
     model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])
     below = rungs[rungs.index(model) - 1] if model != rungs[0] else None
     where = f"over {_plural(directions, 'direction')} and {_plural(lights, 'light')}"
-    limit = f"{tolerance:g}"
+    limit = f"the {tolerance:g} allowed"
     if model == rungs[-1]:
         best = errors[rungs[-2]]
         reason = (
-            f"{model}: {below} may be off by {unit} {_number(best, tolerance)} {where}, "
+            f"{model}: the simpler {below} is up to {unit} {_number(best, tolerance)} off {where}, "
             f"more than {limit}."
             if np.isfinite(best)
-            else f"{model}: the error of {below} is not known {where}; some "
+            else f"{model}: how far the simpler {below} is off is not known {where}; some "
             "directions lie beyond what is tabulated."
         )
     elif not any(errors.values()):
         reason = f"{model}: exact, because the surface is level (σ = 0)."
     else:
         reason = (
-            f"{model}: at most {unit} {_number(errors[model], tolerance)} {where}, within {limit}"
+            f"{model}: at most {unit} {_number(errors[model], tolerance)} from the reference "
+            f"{where}, within {limit}"
         )
         if below is not None:
-            reason += f"; {below} would be off by {_number(errors[below], tolerance)}"
+            reason += f"; the simpler {below} is {_number(errors[below], tolerance)} off"
         reason += "."
     return Choice(model, errors[model], errors, reason)
 

@@ -25,9 +25,8 @@ def draw_scene(layout: Any, context: Any, material: Any) -> None:
     found = stamp.get_stamp(material)
     if not group.use_scene or found is None:
         return
-    column = layout.column(align=True)
     for name, delta_e in found.delta_e_lights:
         text = f"{name}: ΔE00 {delta_e:.2f}, {iface_(words.words(delta_e))}"
-        sentence(column, context, text, "LIGHT")
+        sentence(layout, context, text, "LIGHT")
     if found.scene_reason:
         sentence(layout, context, found.scene_reason, "INFO")

@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-import textwrap
 from functools import lru_cache
 from typing import Any
 
+import blf
+
 from ..preview import theme
 
-_PIXELS_A_CHARACTER = 5.7  # at UI scale 1, of the mean of Blender's interface font
-_MARGINS = 70.0  # icon, box and panel, pixels at UI scale 1
-_FEWEST = 16
+_FONT = 0  # the interface's
+_MARGINS = 78.0  # icon, panel and scroll bar, pixels at UI scale 1
+_LEAST = 80.0
 
 
 def sentence(
@@ -31,17 +32,44 @@ def sentence(
     icon
         Before the first line.
     inset
-        Pixels at UI scale 1 that a box around the sentence takes.
+        Pixels at UI scale 1 that are taken beside the sentence, such as by a box around it.
     """
     scale = theme.scale(context.preferences)
-    width = int((context.region.width / scale - _MARGINS - inset) / _PIXELS_A_CHARACTER)
+    width = max(int(context.region.width / scale - _MARGINS - inset), _LEAST)
     column = layout.column(align=True)
-    for number, line in enumerate(_lines(text, max(width, _FEWEST))):
+    for number, line in enumerate(_lines(text, width, _points(context.preferences), scale)):
         row = column.row()
         row.scale_y = 0.8
         row.label(text=line, icon=icon if number == 0 else "BLANK1", translate=False)
 
 
+def _points(preferences: Any) -> float:
+    return float(preferences.ui_styles[0].widget.points)
+
+
 @lru_cache(maxsize=256)
-def _lines(text: str, width: int) -> tuple[str, ...]:
-    return tuple(textwrap.wrap(text, width))
+def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, ...]:
+    """Wrap to a width in pixels at UI scale 1, as the font is drawn: Blender cuts what is longer.
+
+    A word that is too long by itself, such as a path, is broken.
+    """
+    blf.size(_FONT, points * scale)
+    lines, line = [], ""
+    for word in text.split():
+        longer = f"{line} {word}".lstrip()
+        if _fits(longer, width * scale):
+            line = longer
+            continue
+        if line:
+            lines.append(line)
+        line = ""
+        for letter in word:
+            if line and not _fits(line + letter, width * scale):
+                lines.append(line)
+                line = ""
+            line += letter
+    return (*lines, line)
+
+
+def _fits(text: str, pixels: float) -> bool:
+    return bool(blf.dimensions(_FONT, text)[0] <= pixels)

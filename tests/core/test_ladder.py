@@ -161,8 +161,8 @@ def test_white_steep_grooves_lit_along_the_normal_need_the_reference():
         np.ones((1, 16)), np.radians(50), normal, LIGHTS[:1], 1.0, difference=difference
     )
     assert choice.model == "reference"
-    assert choice.reason.startswith("reference: closure may be off by ΔE00 ")
-    assert choice.reason.endswith("over 1 direction and 1 light, more than 1.")
+    assert choice.reason.startswith("reference: the simpler closure is up to ΔE00 ")
+    assert choice.reason.endswith("off over 1 direction and 1 light, more than the 1 allowed.")
 
 
 def test_what_is_not_known_is_not_taken_for_good():
@@ -187,18 +187,39 @@ def test_the_reason_says_why_the_cheaper_one_does_not_do():
         np.full((1, 16), 0.8), np.radians(30), geometries, LIGHTS, 1.0, difference=difference
     )
     assert choice.reason == (
-        f"closure: at most ΔE00 {choice.error:.2f} over 2 directions and 2 lights, within 1; "
-        f"two-bounce would be off by {choice.errors['two-bounce']:.2f}."
+        f"closure: at most ΔE00 {choice.error:.2f} from the reference over 2 directions and "
+        "2 lights, within the 1 allowed; the simpler two-bounce is "
+        f"{choice.errors['two-bounce']:.2f} off."
     )
 
 
 @pytest.mark.parametrize(
     ("lambert", "rough", "model", "words"),
     [
-        ([0.2, 0.9], [0.1, 0.1], "lambert", "lambert: at most ΔE00 0.90 off, within 1."),
-        ([0.2, 3.0], [0.1, 0.4], "rough", "lambert would be off by 3.00."),
-        ([0.2, 3.0], [0.1, 1.0004], "rough", "rough: up to ΔE00 1.0004 off, more than 1, and"),
-        ([0.2, 2.0], [0.1, 2.5], "lambert", "neither suffices"),
+        (
+            [0.2, 0.9],
+            [0.1, 0.1],
+            "lambert",
+            "lambert: at worst ΔE00 0.90 off, within the 1 allowed.",
+        ),
+        (
+            [0.2, 3.0],
+            [0.1, 0.4],
+            "rough",
+            "within the 1 allowed; without roughness it would be 3.00.",
+        ),
+        (
+            [0.2, 3.0],
+            [0.1, 1.0004],
+            "rough",
+            "rough: at worst ΔE00 1.0004 off, more than the 1 allowed",
+        ),
+        (
+            [0.2, 2.0],
+            [0.1, 2.5],
+            "lambert",
+            "more than the 1 allowed; with roughness it would be 2.50.",
+        ),
         ([np.nan], [0.5], "rough", "an unknown amount"),
     ],
 )
