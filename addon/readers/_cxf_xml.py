@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 _WHOLE = ("Object", "ColorSpecification")
 _PIECE = 2**16  # bytes that are parsed at a time
+_BYTES_AN_ELEMENT = 8
+"""The shortest in use is ``<L>5</L>``. An element takes 90 bytes of memory."""
 _DEEPEST = 50  # levels; the standard's own elements reach about ten
 
 
@@ -27,11 +29,16 @@ def parts(document: Document) -> Iterator[Element]:
     Raises
     ------
     InputError
-        The XML is broken, nested too deep, or declares a document type or entities.
+        The XML is broken, has too many elements, is nested too deep, or declares a document type
+        or entities.
     """
     from defusedxml import DefusedXmlException
     from defusedxml.ElementTree import DefusedXMLParser, ParseError
 
+    ends = document.data.count(b"</") + document.data.count(b"<\0/")  # also in UTF-16
+    elements = document.data.count(b"<") - ends
+    if elements > 8 + len(document.data) // _BYTES_AN_ELEMENT:
+        raise document.error("", "it has more elements than measurements need; export it again")
     target = _Target(document)
     parser = DefusedXMLParser(target=target, forbid_dtd=True)
     try:

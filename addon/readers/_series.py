@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import re
 from array import array
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -131,6 +131,15 @@ def number(document: Document, place: str, text: str) -> float:
     raise document.error(place, f"{quote(text)} is not a number; export the file again")
 
 
+def fields(text: str, mark: str) -> Iterator[str]:
+    """Yield what stands between the marks of a long text, stripped, without a list of it all."""
+    start = 0
+    while (end := text.find(mark, start)) >= 0:
+        yield text[start:end].strip()
+        start = end + 1
+    yield text[start:].strip()
+
+
 def two_columns(
     document: Document, numbered: Iterable[tuple[int, str]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], Sequence[int]]:
@@ -146,15 +155,15 @@ def two_columns(
     found = array("d")
     at = array("L")
     for line, text in numbered:
-        fields = text.replace(";", " ").replace(",", ".").split()
-        if not fields:
+        cells = text.replace(";", " ").replace(",", ".").split()
+        if not cells:
             continue
-        if len(fields) != 2:
+        if len(cells) != 2:
             raise document.error(
                 f"line {line}",
-                f"two columns were expected, found {len(fields)}; export one spectrum a file",
+                f"two columns were expected, found {len(cells)}; export one spectrum a file",
             )
-        found.extend([number(document, f"line {line}", field) for field in fields])
+        found.extend([number(document, f"line {line}", cell) for cell in cells])
         at.append(line)
     table = np.array(found).reshape(-1, 2)
     return table[:, 0], table[:, 1], at

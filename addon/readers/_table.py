@@ -19,6 +19,7 @@ from ._document import Document, quote
 SPACES = " "
 # In the order in which they are preferred: a comma may be a decimal comma, a space part of a name.
 DELIMITERS = {"\t": "tabs", ";": "semicolons", ",": "commas", SPACES: "spaces"}
+_AT_ONCE = 2**13  # characters that are split into lines
 EXPECTED = "commas, semicolons, tabs or spaces between the columns"
 
 # What instruments' software writes where nothing was measured.
@@ -63,11 +64,14 @@ def lines(document: Document) -> Iterator[str]:
     in messages would no longer be those of an editor.
     """
     text = document.text
+    if not text:
+        return
+    last = len(text) - text.endswith("\n")
     start = 0
-    while start < len(text):
-        end = text.find("\n", start)
-        end = len(text) if end < 0 else end
-        yield text[start:end]
+    while start <= last:  # some at a time, which is several times faster than one by one
+        end = text.find("\n", start + _AT_ONCE, last)
+        end = last if end < 0 else end
+        yield from text[start:end].split("\n")
         start = end + 1
 
 
@@ -98,7 +102,7 @@ def rows(document: Document, delimiter: str, skip: int = 0) -> Iterator[Row]:
     """
     # A line left out goes to the csv module as an empty one, so that its count stays right.
     kept = (
-        "" if number < skip or line.lstrip().startswith("#") else line
+        "" if number < skip or ("#" in line and line.lstrip().startswith("#")) else line
         for number, line in enumerate(lines(document))
     )
     if delimiter == SPACES:
@@ -157,17 +161,19 @@ def numbers(
     """
     flat = array("d")  # 8 bytes a number, where a list of floats takes 32
     block = Block(np.empty((0, len(columns))))
+    width = len(header)
+    plain = "_" not in document.text  # Python reads 1_0 as ten
     for row in table:
         fields = row.fields
-        if len(fields) != len(header):
+        if len(fields) != width:
             fields = _fit(document, row, header)
         cells = [fields[column] for column in columns]
         if decimal_comma:
             # "1.234,5" becomes no number, and `_number` below says what is wrong with the original.
             cells = [cell.replace(",", ".") for cell in cells]
         try:
-            found = [float(cell) for cell in cells]
-            exact = "_" not in "".join(cells)  # Python reads 1_0 as ten
+            found = list(map(float, cells))
+            exact = plain or "_" not in "".join(cells)
         except ValueError:
             exact = False
         if not exact:

@@ -10,6 +10,7 @@ Reflectance stands in ``STD_R``, always in percent, from ``STD_REFLLOW`` on in s
 from __future__ import annotations
 
 import re
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -133,8 +134,8 @@ def _values(document: Document, section: _Section) -> NDArray[np.float64]:
     place = f"line {section.lines[name]}, key {name}"
     text = section.texts[name].rstrip(", ")
     # A semicolon between values leaves the comma for decimals; the format itself uses commas.
-    fields = text.split(";") if ";" in text else text.split(",")
-    values = np.array([_series.number(document, place, cell.strip()) for cell in fields])
+    fields = _series.fields(text, ";" if ";" in text else ",")
+    values = np.array(array("d", (_series.number(document, place, cell) for cell in fields)))
     if f"{section.prefix}REFLPOINTS" in section.texts:
         stated = _number(document, section, "REFLPOINTS")
         if stated != values.size:
