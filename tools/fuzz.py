@@ -52,7 +52,8 @@ def main(arguments: Sequence[str]) -> int:
     print(f"{len(wanted)} readers, {each} s each, {options.jobs} at once", flush=True)
     seeds = _seeds(readers)
     failed = []
-    waiting, running = list(wanted), {}
+    waiting = list(wanted)
+    running: dict[str, subprocess.Popen[bytes]] = {}
     while waiting or running:
         while waiting and len(running) < options.jobs:
             name = waiting.pop(0)

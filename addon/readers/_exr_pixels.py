@@ -36,7 +36,7 @@ class Run(NamedTuple):
     """Channels that follow each other and have pixels of one type."""
 
     first: int
-    count: int
+    channels: int
     form: np.dtype[np.generic]
 
 
@@ -72,13 +72,13 @@ def blocks(image: Image, first: int, count: int) -> Iterator[tuple[int, NDArray[
     for top in range(0, count, max(at_once, 1)):
         lines = min(max(at_once, 1), count - top)
         for span in spans:
-            size = sum(run.count * run.form.itemsize for run in span) * width
+            size = sum(run.channels * run.form.itemsize for run in span) * width
             raw = supply.take(lines * size).reshape(lines, size)
             at = 0
             for run in span:
-                end = at + run.count * width * run.form.itemsize
+                end = at + run.channels * width * run.form.itemsize
                 part = np.ascontiguousarray(raw[:, at:end]).view(run.form)
-                yield run.first, part.reshape(lines, run.count, width).astype(np.float32)
+                yield run.first, part.reshape(lines, run.channels, width).astype(np.float32)
                 at = end
 
 
@@ -87,8 +87,8 @@ def _parts(image: Image) -> list[list[Run]]:
     parts = []
     for run in runs(image.channels):
         step = max(1, _BLOCK // (image.width * run.form.itemsize))
-        for first in range(0, run.count, step):
-            count = min(step, run.count - first)
+        for first in range(0, run.channels, step):
+            count = min(step, run.channels - first)
             parts.append([Run(run.first + first, count, run.form)])
     return parts
 
@@ -217,7 +217,7 @@ class _Steps:
         inflate = self._inflate
         parts = []
         while count and not inflate.eof:
-            tail = inflate.unconsumed_tail
+            tail: bytes | memoryview = inflate.unconsumed_tail
             if not tail:
                 tail = self._packed[self._at : self._at + _PIECE]
                 self._at += len(tail)
@@ -233,7 +233,7 @@ class _Steps:
 
 def _summed(steps: bytes, last: int) -> Bytes:
     """Return the running sum of differences, which are 128 too large, modulo 256."""
-    found = np.frombuffer(steps, np.uint8) ^ 0x80
+    found = np.frombuffer(steps, np.uint8) ^ np.uint8(0x80)
     if found.size:
         found[0] = (int(found[0]) + last) & 0xFF
         np.add.accumulate(found, dtype=np.uint8, out=found)

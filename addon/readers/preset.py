@@ -56,7 +56,11 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         lambda band: f"number {band + 1}",
     )
     sigma = fields["sigma_degrees"]
-    optional = {name: fields[name] for name in _OPTIONAL if name in fields}
+    optional: dict[str, Any] = {
+        name: tuple(fields[name]) if isinstance(fields[name], list) else fields[name]
+        for name in _OPTIONAL
+        if name in fields
+    }
     return Sample(
         name=fields["name"],
         wavelengths=wavelengths,
@@ -67,10 +71,7 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         sigma_source=fields["sigma_source"],
         source=fields["source"],
         license=fields["license"],
-        **{
-            name: tuple(value) if isinstance(value, list) else value
-            for name, value in optional.items()
-        },
+        **optional,
     )
 
 
