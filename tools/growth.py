@@ -52,6 +52,7 @@ def by_reader(readers: Any) -> dict[str, list[Path]]:
     """Return all fixtures and one preset by the reader that takes them."""
     found: dict[str, list[Path]] = {promises.short(reader): [] for reader in readers.readers()}
     files = [path for path in sorted(FIXTURES.rglob("*")) if path.is_file()]
+    files = [path for path in files if path.suffix != ".md"]
     for path in [*files, *sorted((ROOT / "presets" / "colorchecker").glob("*.json"))[:1]]:
         data = path.read_bytes()
         document = readers.Document(path, data)

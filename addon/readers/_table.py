@@ -53,7 +53,7 @@ class Block:
     """
 
     values: NDArray[np.float64]
-    lines: list[int] = field(default_factory=list)
+    lines: array[int] = field(default_factory=lambda: array("L"))
     texts: list[list[str]] = field(default_factory=list)
 
 
