@@ -53,7 +53,7 @@ INSTRUMENT_ITEMS = (
     ("45as110", "45°:as110°", "Light at 45°, view 110° from the mirror direction", 13),
 )
 MODEL_ITEMS = (
-    ("auto", "Auto", "The cheapest model that stays within ΔE00 1.0 of the V-cavity reference", 3),
+    ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
     ("lambert", "Lambert", "As if the surface were smooth", 4),
     ("first-order", "First-order", "Without light between facets: F1 ρ", 1),
     ("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
