@@ -79,12 +79,15 @@ class Document:
         return self._decoded[1]
 
     def companion(self, name: str) -> Document | None:
-        """Open another file of the same folder that belongs to this one; None if it is not there.
+        """Open another file that belongs to this one; None if it is not there.
+
+        It stands in the same folder, or else in the one above: libraries keep what all their
+        chapters share there.
 
         Parameters
         ----------
         name
-            A file name without any folder: nothing outside the folder can be reached.
+            A file name without any folder: nothing outside the two folders can be reached.
 
         Raises
         ------
@@ -93,8 +96,15 @@ class Document:
         """
         if not name or name in (".", "..") or set(name) & set("/\\:\0"):
             raise self.error("", f"{quote(name)} is no plain file name; put that file beside it")
-        beside = self.path.with_name(name)
-        return open_document(beside) if beside.exists() else None
+        for folder in self.folders():
+            if os.path.exists(folder / name):  # unlike Path.exists, False where looking is denied
+                return open_document(folder / name)
+        return None
+
+    def folders(self) -> tuple[Path, Path]:
+        """Return the folder of this file and the one above it."""
+        folder = self.path.absolute().parent
+        return folder, folder.parent
 
     def not_reflectance(self, place: str, quantity: str) -> InputError:
         """Return the error that refuses another quantity by its name.

@@ -13,6 +13,7 @@ R. N. Clark et al., "USGS digital spectral library splib06a" (USGS Data Series 2
 
 from __future__ import annotations
 
+import contextlib
 import re
 from array import array
 from dataclasses import dataclass
@@ -197,7 +198,7 @@ def _version_7(
 def _wavelengths(
     document: Document, title: _Title, channels: int
 ) -> tuple[NDArray[np.float64], str]:
-    """Return the wavelengths in nm from the file beside the spectrum, and that file's name."""
+    """Return the wavelengths in nm from the file of all spectra alike, and that file's name."""
     prefix = f"{title.library}_Wavelengths_{title.family}"
     known = _WAVELENGTH_FILES.get((title.library, title.family), "")
     others = []
@@ -209,7 +210,7 @@ def _wavelengths(
         if numbers.size == channels:
             # Rounded to 1e-9 nm: 0.57 µm is 570 nm, while the product of the two floats is not.
             return np.round(numbers * (1.0 if _NANOMETERS.search(text) else 1000.0), 9), name
-        others.append(f"'{name}' beside it has {numbers.size}")
+        others.append(f"'{name}' has {numbers.size}")
     if others:
         raise document.error(
             "",
@@ -219,17 +220,17 @@ def _wavelengths(
     wanted = f"'{known}'" if known else f"the file whose name begins with '{prefix}'"
     raise document.error(
         "",
-        f"its wavelengths are in another file; copy {wanted} from the library's folder above into "
-        "the folder of this file",
+        f"its wavelengths are in another file; copy {wanted} from the library into the folder of "
+        "this file or the one above",
     )
 
 
 def _beginning_with(document: Document, prefix: str) -> list[str]:
-    try:
-        found = [p.name for p in document.path.parent.iterdir() if p.name.startswith(prefix)]
-    except OSError:
-        return []
-    return sorted(found)
+    found: list[str] = []
+    for folder in document.folders():
+        with contextlib.suppress(OSError):
+            found += sorted(p.name for p in folder.iterdir() if p.name.startswith(prefix))
+    return found
 
 
 def _column(document: Document) -> tuple[str, str, NDArray[np.float64]]:

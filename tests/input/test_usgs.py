@@ -91,6 +91,17 @@ def test_a_file_of_wavelengths_with_another_name_is_found(tmp_path):
     assert readers.read(tmp_path / BECKMAN)[0].wavelengths[-1] == 700
 
 
+def test_wavelengths_stand_in_the_folder_above_as_the_library_unpacks(tmp_path):
+    chapter = tmp_path / "ChapterM_Minerals"
+    chapter.mkdir()
+    shutil.copy(FOLDER / BECKMAN, chapter)
+    shutil.copy(FOLDER / WAVELENGTHS, tmp_path)
+    (found,) = readers.read(chapter / BECKMAN)
+    (beside,) = readers.read(FOLDER / BECKMAN)
+    assert found.wavelengths.tolist() == beside.wavelengths.tolist()
+    assert found.values.tolist() == beside.values.tolist()
+
+
 def test_the_wrong_number_of_wavelengths_is_refused(tmp_path):
     shutil.copy(FOLDER / BECKMAN, tmp_path)
     (tmp_path / WAVELENGTHS).write_text(
