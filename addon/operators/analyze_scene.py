@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
 from ...core.errors import RoughSpectraError
@@ -59,11 +60,14 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
                 self.report({"WARNING"}, sentence)
         common.report_warnings(self, [(c.material, c.solution) for c in changes])
         after = sum(change.solution.delta_e_mean for change in changes) / len(changes)
-        count = f"{len(changes)} material" + ("s" if len(changes) > 1 else "")
-        self.report(
-            {"INFO"},
-            f"{count} matched to the scene in {report.seconds:.1f} s, mean ΔE00 {after:.2f}",
-        )
+        if len(changes) == 1:
+            sentence = rpt_("1 material matched to the scene in {time:.1f} s, mean ΔE00 {mean:.2f}")
+        else:
+            sentence = rpt_(
+                "{count} materials matched to the scene in {time:.1f} s, mean ΔE00 {mean:.2f}"
+            )
+        sentence = sentence.format(count=len(changes), time=report.seconds, mean=after)
+        self.report({"INFO"}, sentence)
         return {"FINISHED"}
 
     def _view(self, context: Any) -> Any | None:

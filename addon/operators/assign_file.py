@@ -71,9 +71,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             return {"CANCELLED"}
         for note in sample.notes:
             self.report({"WARNING"}, f"{sample.name}: {note}")
-        common.report_warnings(self, assigned)
-        names = ", ".join(material.name for material, _ in assigned[:3])
-        self.report({"INFO"}, f"{names}: {sample.name} assigned")
+        common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
 
     def _ask(self, samples: list[Any]) -> set[str]:

@@ -58,9 +58,7 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        common.report_warnings(self, assigned)
-        names = ", ".join(material.name for material, _ in assigned[:3])
-        self.report({"INFO"}, f"{names}: {request.sample.name} assigned")
+        common.report_assigned(self, assigned, request.sample)
         return {"FINISHED"}
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.errors import RoughSpectraError
 
@@ -67,7 +68,7 @@ class InBackground:
         """Watch the second Blender; everything else goes to Blender as ever."""
         if event.type == "ESC":
             self._end(context)
-            self.report({"WARNING"}, self.stopped)
+            self.report({"WARNING"}, rpt_(self.stopped))
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
@@ -86,7 +87,7 @@ class InBackground:
     def _show(self, context: Any) -> None:
         done, total = self._job.done, max(self._job.total, 1)
         context.window_manager.progress_update(done / total)
-        context.workspace.status_text_set(f"{self.state(done, total)}   |   ESC: stop")
+        context.workspace.status_text_set(f"{self.state(done, total)}   |   {rpt_('ESC: stop')}")
 
     def _finish(self, context: Any) -> set[str]:
         sentence = self.finish(self._job)
@@ -139,8 +140,11 @@ class Measuring(InBackground):
 
     def state(self, done: int, total: int) -> str:
         """Say how many renders are done."""
-        what = "1 material" if self._count == 1 else f"{self._count} materials"
-        return f"Measuring {what}: {done} of {total} renders"
+        if self._count == 1:
+            sentence = rpt_("Measuring 1 material: {done} of {total} renders")
+        else:
+            sentence = rpt_("Measuring {count} materials: {done} of {total} renders")
+        return sentence.format(count=self._count, done=done, total=total)
 
     def finish(self, job: Any) -> str:
         """Hand the values on."""

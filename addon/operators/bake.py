@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, StringProperty
 
 from . import background, common
@@ -66,10 +67,17 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
         result = readings.compare(self._prepared, values[self._places])
         written = writers.write(result, self._base)
         largest = result.largest_delta_e
-        difference = "" if largest is None else f", largest ΔE00 {largest:.2f}"
-        return (
-            f"{len(result.entries)} readings{difference}; {len(written)} files in "
-            f"{self._base.parent}"
+        if largest is None:
+            sentence = rpt_("{readings} readings; {files} files in {folder}")
+        else:
+            sentence = rpt_(
+                "{readings} readings, largest ΔE00 {largest:.2f}; {files} files in {folder}"
+            )
+        return sentence.format(
+            readings=len(result.entries),
+            largest=largest,
+            files=len(written),
+            folder=self._base.parent,
         )
 
 

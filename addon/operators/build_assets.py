@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...core.errors import InputError
@@ -80,7 +81,8 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
 
     def state(self, done: int, total: int) -> str:
         """Say how many previews are done."""
-        return f"Building the asset library: {done} of {total} previews"
+        sentence = rpt_("Building the asset library: {done} of {total} previews")
+        return sentence.format(done=done, total=total)
 
     def finish(self, job: Any) -> str:
         """Put the library into its folder and tell Blender of it."""
@@ -90,13 +92,13 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         for name, sentences in built.warnings.items():
             for sentence in sentences:
                 self.report({"WARNING"}, f"{name}: {sentence}")
-        said = f"{built.count} materials in {built.blend}"
+        said = rpt_("{count} materials in {file}").format(count=built.count, file=built.blend)
         if not self.add_to_preferences:
             return said
         name = build.add_to_preferences(self._folder)
         if name is None:
-            return f"{said}; its folder is in the preferences already"
-        return f"{said}; choose {name!r} in the Asset Browser"
+            return f"{said}; {rpt_('its folder is in the preferences already')}"
+        return f"{said}; {rpt_('choose {!r} in the Asset Browser').format(name)}"
 
 
 def _degrees(text: str) -> list[float]:

@@ -84,8 +84,7 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        common.report_warnings(self, assigned)
-        self.report({"INFO"}, f"{assigned[0][0].name}: {sample.name} assigned")
+        common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
 
 

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import radians
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
 from ...core.errors import RoughSpectraError
@@ -178,6 +179,14 @@ def has_materials(operator: Any) -> bool:
         return True
     operator.poll_message_set("There is no material to measure")
     return False
+
+
+def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> None:
+    """Report every warning of the solutions, and which materials got the sample."""
+    report_warnings(operator, assigned)
+    names = ", ".join(material.name for material, _ in assigned[:3])
+    sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
+    operator.report({"INFO"}, sentence)
 
 
 def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:

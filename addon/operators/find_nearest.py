@@ -8,6 +8,7 @@ from math import radians
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import (
     CollectionProperty,
     FloatProperty,
@@ -156,10 +157,10 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         common.report_warnings(self, assigned)
+        sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
         names = ", ".join(material.name for material, _ in assigned[:3])
-        self.report(
-            {"INFO"}, f"{names}: {sample.name} assigned, ΔE00 {match.difference:.2f} from the color"
-        )
+        sentence = sentence.format(materials=names, sample=sample.name, difference=match.difference)
+        self.report({"INFO"}, sentence)
         return {"FINISHED"}
 
 

@@ -8,6 +8,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -126,7 +127,7 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         )
         row = layout.row()
         row.prop(self, "all_chosen")
-        row.label(text=f"{len(self.items)} samples")
+        row.label(text=iface_("{} samples").format(len(self.items)), translate=False)
         if 0 <= self.index < len(self.items):
             column = layout.column(align=True)
             item = self.items[self.index]
@@ -199,9 +200,10 @@ def _draw_refused(layout: Any, refused: tuple[str, ...]) -> None:
     column = layout.column(align=True)
     column.alert = True
     for sentence in refused[:_MOST_REFUSED]:
-        _draw_sentence(column, f"Not read: {sentence}", "CANCEL")
+        _draw_sentence(column, iface_("Not read: {}").format(sentence), "CANCEL")
     if len(refused) > _MOST_REFUSED:
-        column.label(text=f"{len(refused) - _MOST_REFUSED} more files were not read")
+        text = iface_("{} more files were not read").format(len(refused) - _MOST_REFUSED)
+        column.label(text=text, translate=False)
 
 
 def _draw_sentence(column: Any, sentence: str, icon: str) -> None:

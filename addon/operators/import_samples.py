@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ...core.errors import RoughSpectraError
@@ -114,7 +115,9 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
         for sentence in said[:_MOST_SENTENCES]:
             self.report({"WARNING"}, sentence)
         if len(said) > _MOST_SENTENCES:
-            self.report({"WARNING"}, f"{len(said) - _MOST_SENTENCES} more such sentences")
+            self.report(
+                {"WARNING"}, rpt_("{} more such sentences").format(len(said) - _MOST_SENTENCES)
+            )
         return carry_out(self, context, batch.found, batch.found[0])
 
     def _paths(self) -> list[Path]:
@@ -190,9 +193,11 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
             if warning not in seen:
                 operator.report({"WARNING"}, f"{material.name}: {warning}")
     names = ", ".join(material.name for material, _ in assigned[:3])
-    more = f" and {len(assigned) - 3} more" if len(assigned) > 3 else ""
-    made = f"assigned to {names}{more}" if assigned else ""
-    operator.report({"INFO"}, "; ".join(filter(None, (said, made))) or "Nothing was asked for")
+    if len(assigned) > 3:
+        names = rpt_("{} and {} more").format(names, len(assigned) - 3)
+    made = rpt_("assigned to {}").format(names) if assigned else ""
+    told = "; ".join(filter(None, (said, made))) or rpt_("Nothing was asked for")
+    operator.report({"INFO"}, told)
     return {"FINISHED"}
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.errors import RoughSpectraError
 from .. import stamp
@@ -46,7 +47,7 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{material.name} kept as it is")
+        self.report({"INFO"}, rpt_("{} kept as it is").format(material.name))
         return {"FINISHED"}
 
 

@@ -9,6 +9,7 @@ from math import radians
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
 from ...core.errors import RoughSpectraError
@@ -60,9 +61,7 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        common.report_warnings(self, assigned)
-        names = ", ".join(material.name for material, _ in assigned[:3])
-        self.report({"INFO"}, f"{names}: {sample.name} assigned")
+        common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
 
 
@@ -98,7 +97,7 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{self.sample} is now {new}")
+        self.report({"INFO"}, rpt_("{} is now {}").format(self.sample, new))
         return {"FINISHED"}
 
 
@@ -119,7 +118,7 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
             self,
             event,
             title="Remove Sample",
-            message=f"Remove {self.sample} from the library? This cannot be undone.",
+            message=rpt_("Remove {} from the library? This cannot be undone.").format(self.sample),
             confirm_text="Remove",
             icon="WARNING",
         )
@@ -133,7 +132,7 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{self.sample} removed from the library")
+        self.report({"INFO"}, rpt_("{} removed from the library").format(self.sample))
         return {"FINISHED"}
 
 
@@ -153,7 +152,8 @@ class ROUGHSPECTRA_OT_open_library(bpy.types.Operator):
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             reason = error.strerror or error
-            self.report({"ERROR"}, f"{folder} cannot be made ({reason}); choose another folder")
+            sentence = rpt_("{folder} cannot be made ({reason}); choose another folder")
+            self.report({"ERROR"}, sentence.format(folder=folder, reason=reason))
             return {"CANCELLED"}
         return set(bpy.ops.wm.path_open(filepath=str(folder)))
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
 from . import background, common
@@ -74,13 +75,16 @@ def _sentence(entries: Any) -> str:
     if len(entries) == 1:
         entry = entries[0]
         if entry.delta_e_00 is not None:
-            return f"{entry.material}: measured ΔE00 {entry.delta_e_00:.2f} from its spectrum"
+            sentence = rpt_("{material}: measured ΔE00 {difference:.2f} from its spectrum")
+            return sentence.format(material=entry.material, difference=entry.delta_e_00)
         rgb = ", ".join(f"{value:.3f}" for value in entry.measured.rgb)
-        return f"{entry.material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with"
+        sentence = rpt_("{material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with")
+        return sentence.format(material=entry.material, rgb=rgb)
     worst = max(entries, key=lambda entry: entry.delta_e_00 or 0.0)
-    largest = "" if worst.delta_e_00 is None else f"; largest ΔE00 {worst.delta_e_00:.2f}"
-    name = f" in {worst.material}" if largest else ""
-    return f"{len(entries)} materials measured{largest}{name}"
+    if worst.delta_e_00 is None:
+        return rpt_("{count} materials measured").format(count=len(entries))
+    sentence = rpt_("{count} materials measured; largest ΔE00 {difference:.2f} in {material}")
+    return sentence.format(count=len(entries), difference=worst.delta_e_00, material=worst.material)
 
 
 classes = (ROUGHSPECTRA_OT_measure,)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty
 
 from ...core.errors import RoughSpectraError
@@ -65,7 +66,7 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         for sentence in left:
             self.report({"WARNING"}, sentence)
         common.report_warnings(self, zip(materials, solutions, strict=True))
-        self.report({"INFO"}, f"{_names(materials)} renewed")
+        self.report({"INFO"}, rpt_("{} renewed").format(_names(materials)))
         return {"FINISHED"} if materials else {"CANCELLED"}
 
     def _materials(self, context: Any) -> list[Any]:
@@ -85,14 +86,16 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         edited = [] if self.overwrite_edits else [m for m in materials if stamp.edited_by_hand(m)]
         if not edited:
             return materials, []
-        sentence = f"{_names(edited)} left as edited by hand; overwrite edits to renew them too"
+        sentence = rpt_("{} left as edited by hand; overwrite edits to renew them too").format(
+            _names(edited)
+        )
         return [m for m in materials if m not in edited], [sentence]
 
 
 def _names(materials: list[Any]) -> str:
     if 0 < len(materials) <= _NAMED:
         return ", ".join(material.name for material in materials)
-    return f"{len(materials)} materials"
+    return rpt_("{} materials").format(len(materials))
 
 
 classes = (ROUGHSPECTRA_OT_renew,)

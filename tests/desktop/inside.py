@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The part of these tests that runs inside the desktop Blender."""
+
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+import driver
+import scenes_background  # noqa: F401
+import scenes_files  # noqa: F401
+import scenes_panel  # noqa: F401
+
+ZIP, FOLDER, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
+
+
+def main() -> None:
+    """Install the extension, make room for the Material tab, and act out the scenes."""
+    preferences = bpy.context.preferences
+    preferences.view.show_splash = False
+    preferences.use_preferences_save = False
+    bpy.ops.extensions.package_install_files(
+        filepath=ZIP, repo="user_default", enable_on_install=True, overwrite=True
+    )
+    driver.play(NAMES, Path(FOLDER) / "results.json")
+
+
+if __name__ == "__main__":
+    main()

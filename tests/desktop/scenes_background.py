@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What runs in a second Blender while the window stays in use."""
+
+import gc
+import subprocess
+from pathlib import Path
+
+import bpy
+from driver import area, click, find, middle, move, over, press, scene, window
+from stage import OPS, green_file, ours, state, wall
+
+
+def children():
+    """Give the second Blenders that run, whether anybody still knows of them or not."""
+    known = [each for each in gc.get_objects() if type(each) is subprocess.Popen]
+    return [process for process in (*known, *subprocess._active) if process.poll() is None]
+
+
+def jobs():
+    """Folders of jobs under way."""
+    return list(Path(bpy.app.tempdir).parent.glob("rough-spectra-*/job.json"))
+
+
+def _measured():
+    material = wall()
+    found = None if material is None else ours("addon.measured").get(material)
+    return None if found is None else [found.delta_e, found.current]
+
+
+def _start():
+    """Click Measure."""
+    yield from click(*(yield from find(area("PROPERTIES"), "rough_spectra.measure", 0.3)))
+    yield lambda: bool(jobs())
+
+
+def _ended():
+    return not jobs()
+
+
+@scene
+def measuring(found):
+    """Measure while the text editor is typed into, to the end."""
+    yield from green_file()
+    text = bpy.data.texts.new("Notes")
+    area("TEXT_EDITOR").spaces.active.text = text
+    yield from _start()
+    found["modal"] = [op.bl_idname for op in window().modal_operators]
+    yield from click(*middle(area("TEXT_EDITOR")))
+    for letter in "abc":
+        yield from press(letter.upper(), letter)
+    found["typed"] = text.as_string()
+    found["still_running"] = bool(jobs())
+    yield _ended
+    yield 0.5
+    found["measured"] = _measured()
+    found["modal_after"] = [op.bl_idname for op in window().modal_operators]
+    yield from move(*middle(area("PROPERTIES")))
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = _measured()
+    found["state_then"] = state()["kind"]
+    yield from press("Z", ctrl=True, shift=True)
+    yield 0.5
+    found["redone"] = _measured()
+
+
+@scene
+def stopping_a_measurement(found):
+    """Press ESC while it runs."""
+    yield from green_file()
+    before = state()
+    yield from _start()
+    found["ran"] = bool(children())
+    yield from press("ESC")
+    yield 0.5
+    found["left"] = [len(children()), len(jobs()), _measured()]
+    found["same"] = state() == before
+    found["modal"] = [op.bl_idname for op in window().modal_operators]
+
+
+@scene
+def undo_while_measuring(found):
+    """Change sigma, measure, and undo the change while it is measured."""
+    yield from green_file()
+    x, y = yield from find(area("PROPERTIES"), "sigma")
+    yield from click(x, y)
+    yield from press("A", ctrl=True)
+    for key, letter in (("FOUR", "4"), ("FIVE", "5")):
+        yield from press(key, letter)
+    yield from press("RET")
+    yield 0.5
+    found["entered"] = state()["sigma"]
+    yield from _start()
+    yield from move(*middle(area("PROPERTIES")))
+    yield from press("Z", ctrl=True)
+    yield 0.3
+    found["undone"] = state()["sigma"]
+    found["running"] = bool(jobs())
+    yield _ended
+    yield 0.5
+    found["measured"] = _measured()
+
+
+@scene
+def another_file_while_measuring(found):
+    """Open another file while it is measured."""
+    yield from green_file()
+    yield from _start()
+    found["ran"] = bool(children())
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    yield 1.0
+    found["left"] = [len(children()), len(jobs())]
+    found["modal"] = [op.bl_idname for op in window().modal_operators]
+
+
+@scene
+def stopping_a_bake(found):
+    """Press ESC while readings are baked."""
+    yield from green_file()
+    base = Path(bpy.app.tempdir) / "stopped"
+    with over(area("TEXT_EDITOR")):
+        OPS.bake("EXEC_DEFAULT", filepath=str(base))
+    yield lambda: bool(jobs())
+    found["ran"] = bool(children())
+    yield from press("ESC")
+    yield 0.5
+    found["left"] = [len(children()), len(jobs()), len(list(base.parent.glob("stopped*")))]
+
+
+@scene
+def baking(found):
+    """Bake to the end."""
+    yield from green_file()
+    base = Path(bpy.app.tempdir) / "whole"
+    with over(area("TEXT_EDITOR")):
+        OPS.bake("EXEC_DEFAULT", filepath=str(base))
+    yield lambda: bool(jobs())
+    yield _ended
+    yield 0.5
+    found["files"] = sorted(path.name for path in base.parent.glob("whole*"))
+
+
+@scene
+def stopping_an_asset_library(found):
+    """Press ESC while previews are rendered."""
+    yield from green_file()
+    folder = Path(bpy.app.tempdir) / "assets"
+    folder.mkdir(exist_ok=True)
+    before = len(bpy.context.preferences.filepaths.asset_libraries)
+    with over(area("TEXT_EDITOR")):
+        OPS.build_assets("EXEC_DEFAULT", directory=str(folder), collection="colorchecker")
+    yield lambda: bool(jobs())
+    found["ran"] = bool(children())
+    yield from press("ESC")
+    yield 0.5
+    after = len(bpy.context.preferences.filepaths.asset_libraries)
+    found["left"] = [len(children()), len(jobs()), len(list(folder.iterdir())), after - before]

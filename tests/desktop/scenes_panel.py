@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel under mouse and keys."""
+
+from driver import TICK, area, click, find, move, press, scene, window, write
+from stage import empty_file, green_file, state
+
+
+@scene
+def dragging_sigma(found):
+    """Drag the slider, then undo and redo once each."""
+    yield from green_file()
+    found["before"] = state()
+    panel = area("PROPERTIES")
+    x, y = yield from find(panel, "sigma")
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield TICK
+    found["dragged"] = []
+    for step in range(1, 9):
+        yield from move(x + 10 * step, y)
+        found["dragged"].append(state())
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x + 80, y=y)
+    yield 0.5
+    found["after"] = state()
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = state()
+    yield from press("Z", ctrl=True, shift=True)
+    yield 0.5
+    found["redone"] = state()
+
+
+@scene
+def choosing_a_sample(found):
+    """Click the button, type a name, press Enter, and undo."""
+    yield from empty_file()
+    panel = area("PROPERTIES")
+    x, y = yield from find(panel, "rough_spectra.choose_sample")
+    yield from click(x, y)
+    yield 1.0
+    yield from write("foliage")
+    yield 0.5
+    yield from press("RET")
+    yield 1.0
+    found["chosen"] = state()
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = state()
+    yield from press("Z", ctrl=True, shift=True)
+    yield 0.5
+    found["redone"] = state()
+    x, y = yield from find(panel, "rough_spectra.choose_sample")
+    yield from click(x, y)
+    yield 1.0
+    yield from press("ESC")
+    yield 0.3
+    found["left"] = state()

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a user finds who works in the window."""
+
+import pytest
+
+
+def same(one, other):
+    """Whether two states are equal, but for the single precision of what was read back."""
+    return {**one, "color": 0, "roughness": 0} == {**other, "color": 0, "roughness": 0} and [
+        *one["color"],
+        one["roughness"],
+    ] == pytest.approx([*other["color"], other["roughness"]], abs=1e-7)
+
+
+def test_dragging_sigma(scene):
+    assert len({state["sigma"] for state in scene["dragged"]}) > 4
+    assert len({state["roughness"] for state in scene["dragged"]}) > 4
+    assert all(state["kind"] == "fresh" for state in scene["dragged"])
+    assert scene["after"]["sigma"] != scene["before"]["sigma"]
+    assert same(scene["undone"], scene["before"])
+    assert same(scene["redone"], scene["after"])
+
+
+def test_choosing_a_sample(scene):
+    assert "Foliage" in scene["chosen"]["sample"]
+    assert scene["chosen"]["kind"] == "fresh"
+    assert scene["undone"] is None
+    assert scene["redone"] == scene["left"] == scene["chosen"]
+
+
+MEASURE = "ROUGH_SPECTRA_OT_measure"
+
+
+def test_measuring(scene):
+    assert MEASURE in scene["modal"]
+    assert scene["typed"] == "abc"
+    assert scene["still_running"]
+    assert scene["measured"] == [pytest.approx(0, abs=0.02), True]
+    assert scene["modal_after"] == []
+    assert scene["undone"] is None
+    assert scene["state_then"] == "fresh"
+    assert scene["redone"] == scene["measured"]
+
+
+def test_stopping_a_measurement(scene):
+    assert scene == {"ran": True, "left": [0, 0, None], "same": True, "modal": []}
+
+
+def test_undo_while_measuring(scene):
+    assert scene["entered"] == pytest.approx(0.7854, abs=1e-4)
+    assert scene["undone"] == pytest.approx(0.5236, abs=1e-4)
+    assert scene["running"]
+    # What was measured is no longer what is there, and the panel says so.
+    assert scene["measured"] == [pytest.approx(0, abs=0.02), False]
+
+
+def test_another_file_while_measuring(scene):
+    assert scene == {"ran": True, "left": [0, 0], "modal": []}
+
+
+def test_stopping_a_bake(scene):
+    assert scene == {"ran": True, "left": [0, 0, 0]}
+
+
+def test_baking(scene):
+    assert scene["files"]
+
+
+def test_stopping_an_asset_library(scene):
+    assert scene == {"ran": True, "left": [0, 0, 0, 0]}
+
+
+def test_nothing_unwanted_was_printed(session):
+    assert session["status"] == 0
+    for word in ("Traceback", "Error", "Warning", "rough_spectra", "memory"):
+        assert not [line for line in session["said"].splitlines() if word in line]
+
+
+def test_a_dropped_file(scene):
+    assert scene["PROPERTIES"]
+    assert not scene["TEXT_EDITOR"]
+    assert scene["left"] == [None, True]
+    assert scene["agreed"]["sample"] == "Plaster"
+    assert scene["agreed"]["kind"] == "fresh"
+    assert scene["added"] == ["Loess", "Plaster"]
+    assert scene["undone"] is None
+
+
+def test_a_file_from_the_menu(scene):
+    assert scene["options"] == "ROUGH_SPECTRA_OT_import_samples"
+    assert scene["added"] == ["Lime", "Loam"]
+    assert scene["material"] is None
+
+
+def test_other_files(scene):
+    assert scene["saved"]
+    assert scene["reloaded"]
+    assert scene["appended"] == "fresh"
+    assert scene["linked"] == scene["overridden"] == "linked"
+    assert scene["override"]
+    assert scene["local"] == [True, "fresh"]
