@@ -20,7 +20,7 @@ from ._document import Document, quote
 from ._table import Row
 
 SIGNATURE = re.compile(
-    r"CGATS(?:\.\w+)?|IT8\.7/\d\w*|CTI[1-4]|SPECT|CCSS|CCMX|CAL|ECI2002\w*|ISO\s?\d{5}(?:-\d)?"
+    r"CGATS(?:\.\w+)?|IT8\.7/\d\w*|CTI[1-4]|SPECT|CCSS|CCMX|CMF|CAL|ECI2002\w*|ISO\s?\d{5}(?:-\d)?"
 )
 """First lines of a table that say what it is; many dialects leave them out."""
 

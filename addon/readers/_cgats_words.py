@@ -26,6 +26,7 @@ _SOURCES = re.compile(r"MEASUREMENT_SOURCE|BARBIERI_INFO_\d+|FILTER_STATUS|MEASU
 _SIGNATURES = {
     "CCSS": "emission",
     "CCMX": "corrections of a display's colorimeter",
+    "CMF": "color matching functions",
     "IT8.7/1": "transmittance",
 }
 

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..sample import Sample
-from . import _labels, _series, _statements, _table
+from . import _labels, _series, _shapes, _statements, _table
 from ._across import not_read
-from ._document import Document, quote
+from ._document import OTHER_QUANTITIES, Document, quote
 from ._scale import nanometers, scale
 from ._table import EXPECTED, Row
 
@@ -24,10 +24,23 @@ _QUANTITY = re.compile(
     r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
     re.IGNORECASE,
 )
+_NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
 # What stands beside a spectrum and is none.
 _ASIDE = re.compile(
     r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?",
     re.IGNORECASE,
+)
+# Names of columns that say what they are only together; their marks and brackets do not count.
+_TOGETHER = {
+    frozenset("xyz"): "color matching functions",
+    frozenset("rgb"): "sensitivities of a camera",
+    frozenset("lms"): "sensitivities of the eye",
+    frozenset("nk"): "refractive indices of a material",
+}
+_MARKS = re.compile(r"[^a-z]|bar|lambda|cie|_?\d+", re.IGNORECASE)
+# Not A and C alone, nor F2: samples are called so.
+_ILLUMINANT = re.compile(
+    r"(?:cie|iso)?[ _-]*(?:D(?:50|55|60|65|75)|iso[ _-]?7589|std[ _-]?illum.*)", re.IGNORECASE
 )
 # What spectrometers' software saves beside a reflectance that it calls so.
 _RAW = re.compile(r"dark|ref(?:erence)?|white(?: ref\w*)?|sample|raw|target", re.IGNORECASE)
@@ -61,9 +74,12 @@ def read(
     axis = next((i for i, label in enumerate(header) if _labels.is_wavelength(label)), 0)
     units, own, table = _rows_above_numbers(header, axis, table)
     columns, unread = _columns(document, header, labels, units, axis)
+    _refuse_others(document, [header[i] for i in columns])
     block = _table.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
     nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]])
     values = block.values[:, 1:].T
+    if len(columns) == 3 and _shapes.are_of_the_eye(nm, values):
+        raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
     samples = []
     for i, column in enumerate(columns):
         label = header[column]
@@ -92,6 +108,30 @@ def read(
             )
         )
     return samples
+
+
+def _refuse_others(document: Document, names: list[str]) -> None:
+    """Refuse a table whose columns together, or whose file's name alone, name another quantity."""
+    together = _TOGETHER.get(frozenset(_MARKS.sub("", name).lower() for name in names), "")
+    if not together and names[0] and all(map(_ILLUMINANT.fullmatch, names)):
+        together = "emission (the spectrum of a light source)"
+    if together:
+        quoted = ", ".join(map(quote, names))
+        raise document.error(
+            f"columns {quoted}",
+            f"columns of these names hold {together}, not reflectance; if they are samples, give "
+            "them longer names",
+        )
+    if any(name and not _NEUTRAL.fullmatch(name) for name in names):
+        return
+    other = _series.other_quantity_of_name(document.path.stem)
+    if other:
+        what = OTHER_QUANTITIES.get(other, other)
+        raise document.error(
+            "",
+            f"only the file's name says what the values are, and by it they are {what}, not "
+            "reflectance; if they are, call their column 'reflectance'",
+        )
 
 
 def _columns(

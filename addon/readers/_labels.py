@@ -23,6 +23,7 @@ _BAND = re.compile(
     r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
     re.IGNORECASE,
 )
+_LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a name stands before
 # ArgyllCMS' family of names is percent, as CGATS readers know.
 _SPEC = re.compile(r"spec_\d", re.IGNORECASE)
 _UNIT = re.compile(
@@ -35,6 +36,7 @@ _MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\
 # "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
 _PERCENT = re.compile(r"(?<!\d)(?<!\d )(?:%|\bpercent\b|\bpct\b)", re.IGNORECASE)
 _ABOUT_VALUES = re.compile(r"reflectance|values?\b|units?\b|scale\b|spectr", re.IGNORECASE)
+_OPTICAL = re.compile(r"optical constants|refractive ind", re.IGNORECASE)
 _KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
 
 _UNITS = {
@@ -69,6 +71,27 @@ def band(label: str) -> float | None:
     found = float(match[1].replace(",", "."))
     # Rounded as in `delimited`: 0.57 µm is 570 nm.
     return round(found * 1000.0, 9) if (match[2] or "nm").lower() != "nm" else found
+
+
+def bands_of(cells: list[str], least: float) -> list[float]:
+    """Return the wavelengths that a row of column names states, none unless it can be one.
+
+    Bare numbers also stand in rows of data: two of them, or some here and there, name no bands.
+
+    Parameters
+    ----------
+    cells
+        The row.
+    least
+        The smallest wavelength in nanometers that counts.
+    """
+    at = [i for i, cell in enumerate(cells) if (band(cell) or 0.0) >= least]
+    bare = at and all(cells[i].strip()[:1].isdigit() and cells[i][-1:].isdigit() for i in at)
+    if bare and at != list(range(len(cells))):
+        together = at[-1] - at[0] + 1 == len(at)
+        if not together or (len(at) < _LEAST_BARE and at[0] > 1):
+            return []
+    return [band(cells[i]) or 0.0 for i in at]
 
 
 def is_unit_row(cells: list[str]) -> bool:
@@ -137,6 +160,8 @@ def comments(document: Document) -> Comments:
                 found.texts[key] = value
         elif not stated and percent_of_values(text):
             found.scale = 100.0
+        elif _OPTICAL.search(text):
+            raise document.not_reflectance(f"line {number}", "refractive indices of a material")
     return found
 
 

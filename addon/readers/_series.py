@@ -22,8 +22,9 @@ _NAMED = 8  # how many of the bands left out a sentence names
 # Whole words, the longest first: "transmission" says more than its "T". "Scope" is what both Ocean
 # Optics and Avantes call raw counts.
 _OTHERS = (
-    (re.compile(r"irradian[cz]|µ?w(?:att)?/cm|j/cm", re.IGNORECASE), "irradiance"),
-    (re.compile(r"radiance\b(?! factor)", re.IGNORECASE), "radiance"),
+    (re.compile(r"/\s*sr\b", re.IGNORECASE), "radiance"),
+    (re.compile(r"irradian[cz]|µ?w(?:att)?/c?m|j/cm", re.IGNORECASE), "irradiance"),
+    (re.compile(r"radiance\b(?! factor)|\brad\. \(", re.IGNORECASE), "radiance"),
     (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%", re.IGNORECASE), "transmittance"),
     (
         re.compile(
@@ -35,7 +36,22 @@ _OTHERS = (
     (re.compile(r"kubelka|\bk\s*/\s*s\b|f\(r\)", re.IGNORECASE), "Kubelka-Munk values (K/S)"),
     (re.compile(r"emissi|emitted|fluorescence|luminescence", re.IGNORECASE), "emission"),
     (re.compile(r"\bcounts?\b|\bscope\b|digital number|\bdn\b", re.IGNORECASE), "counts"),
+    (
+        re.compile(r"sensitivit|responsivit|quantum efficiency", re.IGNORECASE),
+        "sensitivities of a camera, a detector or the eye",
+    ),
+    (
+        re.compile(r"colou?r[ _-]?matching|\bcmfs?\b|\b[xyz][ _]?bar\b", re.IGNORECASE),
+        "color matching functions",
+    ),
+    (re.compile(r"illuminant|power distribution|\bspd\b", re.IGNORECASE), "emission"),
+    (
+        re.compile(r"refractive|optical constants|extinction coef", re.IGNORECASE),
+        "refractive indices of a material",
+    ),
 )
+# Shorter words are names of samples as well, such as ABS.
+_LEAST_IN_NAMES = 6
 _REFLECTANCE = re.compile(r"reflec|r[ée]flec|remission|albedo|radiance factor", re.IGNORECASE)
 
 # U+FFFD is what Java's number format makes of NaN.
@@ -104,6 +120,15 @@ def other_quantity(text: str) -> str:
     if _REFLECTANCE.search(text):
         return ""
     return next((name for pattern, name in _OTHERS if pattern.search(text.strip())), "")
+
+
+def other_quantity_of_name(name: str) -> str:
+    """Return what `other_quantity` finds in the name of a file, where nothing else says it."""
+    words = re.sub(r"[_.-]+", " ", name)
+    if _REFLECTANCE.search(words):
+        return ""
+    matches = ((pattern.search(words), other) for pattern, other in _OTHERS)
+    return next((other for m, other in matches if m and len(m[0]) >= _LEAST_IN_NAMES), "")
 
 
 def says_reflectance(text: str) -> bool:

@@ -68,13 +68,19 @@ def above(document: Document, start: int, said: _labels.Comments) -> dict[str, A
             found.setdefault(field, content)
         if _VALUES_KEY.match(key):
             other = _series.other_quantity(value)
-            if other:
+            if other and not _header_says_reflectance(document, start):
                 raise document.not_reflectance(f"line {number}", other)
             if said.scale is None and "%" in value:
                 said.scale = 100.0
         if said.scale is None and _labels.percent_of_values(text):
             said.scale = 100.0
     return found
+
+
+def _header_says_reflectance(document: Document, start: int) -> bool:
+    """Return whether a column is reflectance, whatever unit the raw columns beside it have."""
+    header = next(itertools.islice(_table.lines(document), start, None), "")
+    return _series.says_reflectance(header[:_LONGEST])
 
 
 def _key_and_value(text: str) -> tuple[str, str]:
@@ -107,7 +113,7 @@ def _names_wavelengths(line: str) -> bool:
 def _names_bands(line: str, following: str, *, first: bool) -> bool:
     for mark in DELIMITERS:
         cells = _cells(line, mark)
-        found = [nm for nm in map(_labels.band, cells) if nm and nm >= LEAST_BAND]
+        found = _labels.bands_of(cells, LEAST_BAND)
         if len(found) < 2 or (not first and _is_number(cells[0])):
             continue
         plain = all(_is_number(cell) for cell in cells[1:])

@@ -127,7 +127,7 @@ def _is_across(document: Document, header: list[str], top: list[Row], comma: boo
                 "column 'name' if it has names, or begin the names in the first row with a letter",
             )
         return _increasing(rest)
-    if max(bands) >= LEAST_BAND:
+    if _labels.bands_of(header, LEAST_BAND):
         return True
     if down and _plain_number(rows[0].fields[0], comma) is not None and len(header) > 1:
         return False

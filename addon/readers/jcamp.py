@@ -29,6 +29,7 @@ PRIORITY = 95
 
 _WAVENUMBERS = re.compile(r"1/cm|cm *\^?-1|wave *numbers?", re.IGNORECASE)
 _NM_CM = 1e7  # nanometers in a centimeter
+_NO_LIGHT = re.compile(r"\bnmr\b|\bmass\b|\bms\b|chromatogra|raman", re.IGNORECASE)
 _PERCENT = re.compile(r"%|percent|pct", re.IGNORECASE)
 _LABEL = re.compile(r"##([^=]{1,80})=(.*)")
 _TABLES = {"XYDATA", "XYPOINTS"}
@@ -44,9 +45,11 @@ class _Block:
 
 
 def sniff(document: Document) -> bool:
-    """Return whether the file begins with a title and says which JCAMP-DX it is."""
+    """Return whether the file begins with a record and has that of the version or of a table."""
     head = document.head_text.lstrip()
-    return head.startswith("##") and bool(re.search(r"^##\s*JCAMP.?DX\s*=", head, re.I | re.M))
+    return head.startswith("##") and bool(
+        re.search(r"^##\s*(?:JCAMP.?DX|XYDATA|NTUPLES|PEAK TABLE)\s*=", head, re.I | re.M)
+    )
 
 
 def read(document: Document) -> list[Sample]:
@@ -100,6 +103,11 @@ def _blocks(document: Document) -> Iterator[_Block]:
         if label in _TABLES:
             table = block.table = _new_table(document, number, label, value)
         elif label in _UNREAD:
+            kind = block.texts.get("DATATYPE", "")
+            if _NO_LIGHT.search(kind):
+                raise document.not_reflectance(
+                    f"line {block.lines['DATATYPE']}, ##DATA TYPE=", quote(kind)
+                )
             raise document.error(
                 f"line {number}", f"##{record[1].strip()}= is not read; export it as ##XYDATA="
             )

@@ -35,7 +35,7 @@ _VERSION_6 = "USGS Digital Spectral Library"
 _VALUE = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?\s*")
 _CODE = re.compile(r"([A-Z][A-Z0-9]*?)([a-z?]{0,2})")
 _NO_SPECTRUM = re.compile(
-    r"wavelengths?\b|waves\b|wavenumber|bandpass|srf\b|errorbar", re.IGNORECASE
+    r"wavelengths?\b|waves\b|wavenumber|bandpass|srf\b|error ?bars?", re.IGNORECASE
 )
 _NANOMETERS = re.compile(r"\bnm\b|nanomet", re.IGNORECASE)  # else micrometers
 _DELETED = -1e30  # anything below: the library writes -1.23e34, some copies of it are rounded

@@ -186,6 +186,7 @@ def test_names_with_spaces_and_empty_cells_between_tabs(tmp_path):
             ["line 8", "MEASUREMENT_SOURCE", "transmittance"],
         ),
         ("CTI3", "SPECT", ["SPECT", 'MEAS_TYPE "REFLECTIVE"']),
+        ("CTI3", "CMF", ["signature CMF", "color matching functions"]),
         ("SPEC_380", "SPEC_390", ["line 27", "390 nm stands twice", "'SPEC_390'"]),
         ("SPEC_", "DENSITY_", ["no spectral data", "export the spectra"]),
         ('SPECTRAL_END_NM "730.000000"', 'SPECTRAL_NORM "0"', ["SPECTRAL_NORM", "'0'"]),

@@ -4,6 +4,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rough_spectra.addon import readers
 from rough_spectra.core.errors import InputError
@@ -299,3 +300,75 @@ def test_two_byte_text_without_a_mark(tmp_path, encoding):
 )
 def test_other_quantities_are_refused_by_name(tmp_path, top, quantity):
     assert quantity in refusal(tmp_path, f"{top}\n400,0.5\n410,0.5\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("wavelength,D65\n400,0.8\n410,0.9\n", "emission"),
+        ("nm,x_bar,y_bar,z_bar\n400,0.1,0.2,0.3\n410,0.1,0.2,0.3\n", "color matching functions"),
+        ("nm,R,G,B\n400,0.1,0.2,0.3\n410,0.1,0.2,0.3\n", "sensitivities of a camera"),
+        ("nm;n;k\n400;0.1;3.2\n410;0.1;3.3\n", "refractive indices"),
+        ("nm,Sensitivity\n400,0.1\n410,0.2\n", "sensitivities"),
+        ("nm,Rad. (Ref.)\n400,0.1\n410,0.2\n", "radiance"),
+        ("# Optical constants for Al\n400 0.1\n410 0.2\n", "refractive indices"),
+        ("Y units: W/m^2/sr/nm\nnm,Sample\n400,0.1\n410,0.2\n", "radiance"),
+    ],
+)
+def test_what_only_looks_like_reflectance_is_refused_by_its_names(tmp_path, text, what):
+    assert what in refusal(tmp_path, text)
+
+
+def test_samples_may_be_called_like_a_color_or_an_illuminant_among_others(tmp_path):
+    for names in ("red,green,blue", "D50,D51,D52", "A,B,C", "R,G,white"):
+        text = f"nm,{names}\n400,0.1,0.2,0.3\n410,0.1,0.2,0.3\n"
+        assert [s.name for s in read(tmp_path, text)] == names.split(",")
+
+
+def test_the_file_name_counts_where_nothing_else_says_what_the_values_are(tmp_path):
+    path = tmp_path / "window_transmission.csv"
+    path.write_text("400,0.5\n410,0.5\n420,0.5\n")
+    with pytest.raises(InputError, match=r"by it they are transmittance.*call their column"):
+        readers.read(path)
+    path.write_text("nm,reflectance\n400,0.5\n410,0.5\n")
+    assert readers.read(path)[0].values.tolist() == [0.5, 0.5]
+    plastic = tmp_path / "ABS.csv"
+    plastic.write_text("nm,value\n400,0.5\n410,0.5\n")
+    assert readers.read(plastic)[0].name == "ABS"
+
+
+@pytest.mark.parametrize("observer", ["2 Degree", "10 Degree"])
+def test_functions_of_the_eye_are_known_by_their_shape(tmp_path, observer):
+    # colour-science's tables, in any scale and without a single name.
+    colour = pytest.importorskip("colour")
+    names = [name for name in colour.MSDS_CMFS if observer in name and "Observer" in name]
+    for name in names:
+        table = colour.MSDS_CMFS[name]
+        rows = [
+            ",".join(f"{0.5 * value:.6f}" for value in row) for row in np.nan_to_num(table.values)
+        ]
+        text = "\n".join(f"{nm:g}.0,{row}" for nm, row in zip(table.wavelengths, rows, strict=True))
+        assert "color matching functions" in refusal(tmp_path, text)
+    assert len(names) > 1
+
+
+def test_three_vivid_surfaces_are_not_taken_for_the_eye(tmp_path):
+    nm = np.arange(400, 710, 10.0)
+    bumps = 0.04 + np.exp(-0.5 * ((nm[:, None] - [450, 540, 610]) / 40.0) ** 2)
+    rows = [f"{w},{','.join(map(str, row))}" for w, row in zip(nm, bumps, strict=True)]
+    assert len(read(tmp_path, "\n".join(rows))) == 3
+
+
+def test_a_column_of_reflectance_is_read_beside_those_of_radiance(tmp_path):
+    text = (
+        "Units: W/m^2/sr/nm\nData:\nWvl\tRad. (Ref.)\tRad. (Target)\tReflect. %\n"
+        " 400.0\t 5.08E-003\t 1.10E-003\t    25.0\n 410.0\t 5.2E-003\t 1.1E-003\t    50.0\n"
+    )
+    (sample,) = read(tmp_path, text)
+    assert sample.values.tolist() == [0.25, 0.5]
+    assert sample.notes == ("Columns not read: Rad. (Ref.), Rad. (Target).",)
+
+
+def test_numbers_in_rows_of_data_are_no_bands(tmp_path):
+    text = "site,sample,mass,length\nA,a1,39,13.3\nB,b2,130.5,212\nB,b3,140,248\n"
+    assert "no wavelengths found at 'site'" in refusal(tmp_path, text)

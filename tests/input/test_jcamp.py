@@ -112,3 +112,18 @@ def test_other_units_are_refused_by_their_name(x, y, parts):
         jcamp.read(document("400 1 2", 2, x, y))
     for part in parts:
         assert part in str(caught.value)
+
+
+def test_what_is_no_light_is_refused_by_its_data_type(tmp_path):
+    path = tmp_path / "ethanol.jdx"
+    head = "##TITLE= ethanol\n##JCAMP-DX= 5.0\n##DATA TYPE= NMR SPECTRUM\n"
+    path.write_text(head + "##NTUPLES= NMR SPECTRUM\n##END=\n")
+    with pytest.raises(InputError, match="line 3, ##DATA TYPE=: the values are 'NMR SPECTRUM', "):
+        readers.read(path)
+
+
+def test_a_file_without_a_version_is_still_judged_by_its_units(tmp_path):
+    path = tmp_path / "small.dx"
+    path.write_text("##TITLE= small\n##XYDATA=(X++(Y..Y))\n  400 0.5 0.25\n##END=\n")
+    with pytest.raises(InputError, match="##YUNITS= is missing"):
+        readers.read(path)
