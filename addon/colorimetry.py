@@ -101,8 +101,23 @@ def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
     """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
     bent = np.where(ratio > _DARK, np.cbrt(ratio), ratio * (841 / 108) + 4 / 29)
+    return _to_lab(bent)
+
+
+def _to_lab(bent: Array) -> Array:
     x, y, z = np.moveaxis(bent, -1, 0)
     return np.stack((116 * y - 16, 500 * (x - y), 200 * (y - z)), axis=-1)
+
+
+def lab_with_slopes(xyz: Array, white_xyz: Array, changes: Array) -> tuple[Array, Array]:
+    """L*a*b* of XYZ (..., 3), and its derivatives (..., 3, n) from those of XYZ, `changes`."""
+    ratio = xyz / white_xyz
+    root = np.cbrt(ratio)
+    bright = ratio > _DARK
+    bent = np.where(bright, root, ratio * (841 / 108) + 4 / 29)
+    slope = np.where(bright, root / (3 * np.where(bright, ratio, 1)), 841 / 108) / white_xyz
+    x, y, z = np.moveaxis(slope[..., np.newaxis] * changes, -2, 0)
+    return _to_lab(bent), np.stack((116 * y, 500 * (x - y), 200 * (y - z)), axis=-2)
 
 
 def spectrum_to_lab(

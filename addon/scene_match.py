@@ -10,10 +10,11 @@ at 45°/0° is then no longer met by itself: what the material reads there follo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ..core import compromise, cycles, geometry, ladder, reading
+from ..core import compromise, cycles, cycles_slopes, geometry, ladder, reading
 from ..core.arrays import Array
 from . import colorimetry
 from .scene_view import SceneLight, SceneView
@@ -94,7 +95,7 @@ def match(
     free = np.ones((len(roughness), 4), bool)
     free[-1, 3] = False
     found, apart = compromise.fit(
-        places.perceive,
+        places.perceive_with_slopes,
         wanted,
         places.weights,
         colorimetry.delta_e,
@@ -250,6 +251,11 @@ class _Places:
         angles, to_xyz = (light, view_angle, azimuth), np.linalg.inv(space.from_xyz).T
         return cls(angles, view.lights, index, weights, whites, rgb, space.from_xyz, to_xyz)
 
+    @cached_property
+    def directions(self) -> cycles_slopes.Directions:
+        """What of Cycles' closure these directions decide."""
+        return cycles_slopes.prepare(*self.angles)
+
     def under_lights(self, reflected: Array, bands: Array) -> Array:
         """XYZ of spectra (places, bands), each under the light of its place."""
         matrices = np.stack([light.weights(bands) for light in self.lights])
@@ -266,6 +272,18 @@ class _Places:
         color, roughness = parameters[..., np.newaxis, :3], parameters[..., np.newaxis, 3]
         seen = cycles.reflectance(color, roughness, *self.angles)
         return colorimetry.xyz_to_lab((seen * self.rgb) @ self.to_xyz, self.whites)
+
+    def perceive_with_slopes(self, parameters: Array) -> tuple[Array, Array]:
+        """Lab of materials (materials, 4) in all places, and its derivatives by the four."""
+        seen, by_color, by_roughness = cycles_slopes.reflectance(
+            parameters[:, :3], parameters[:, 3], self.directions
+        )
+        changes = np.empty((*seen.shape, 4))
+        mix = self.rgb[:, np.newaxis] * self.to_xyz.T
+        changes[..., :3] = mix * by_color[:, :, np.newaxis]
+        changes[..., 3] = (by_roughness * self.rgb) @ self.to_xyz
+        xyz = (seen * self.rgb) @ self.to_xyz
+        return colorimetry.lab_with_slopes(xyz, self.whites, changes)
 
 
 def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:

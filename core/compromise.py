@@ -17,8 +17,6 @@ import numpy as np
 from .arrays import Array
 
 _STEPS = 24
-_PROBE = 1e-5
-"""Step of derivatives, of parameters that run from 0 to 1."""
 _METRIC_PROBE = 0.02
 """Step in Lab within which a color difference is a quadratic form."""
 _KINK = 0.01
@@ -28,7 +26,7 @@ _SETTLED = 1e-4
 
 
 def fit(
-    perceive: Callable[[Array], Array],
+    perceive: Callable[[Array], tuple[Array, Array]],
     wanted: Array,
     weights: Array,
     difference: Callable[[Array, Array], Array],
@@ -40,7 +38,8 @@ def fit(
     Parameters
     ----------
     perceive
-        Lab in all places of parameters within 0 and 1: (..., n) -> (..., places, 3).
+        Lab in all places of parameters within 0 and 1, and its derivatives by them:
+        (starts, n) -> (starts, places, 3) and (starts, places, 3, n).
     wanted
         Lab that the places should show, shape (places, 3).
     weights
@@ -57,50 +56,66 @@ def fit(
     found, differences
         Parameters, shape (starts, n), and what remains in each place, shape (starts, places).
     """
-    metric = _metric(wanted, difference)
+    whitener = _whitener(wanted, difference)
     found = np.array(starts, np.float64)
-    count = found.shape[1]
-    damping = np.full(len(found), 1e-3)
-    seen, slopes = _linear(perceive, found)
-    cost = _cost(seen - wanted, metric, weights)
+    apart, slopes = _linear(perceive, found, wanted, whitener)
+    cost, damping = _cost(apart, weights), np.full(len(found), 1e-3)
+    searching = np.arange(len(found))
     for _ in range(_STEPS):
-        apart = seen - wanted
-        scaled = weights / np.sqrt(_square(apart, metric) + _KINK**2)
-        pulled = np.einsum("bg,gij,bgj->bgi", scaled, metric, apart)
-        gradient = np.einsum("bgin,bgi->bn", slopes, pulled)
-        leaning = np.einsum("gij,bgjn->bgin", metric, slopes) * scaled[..., np.newaxis, np.newaxis]
-        bend = np.einsum("bgin,bgim->bnm", slopes, leaning)
-        bend += np.eye(count) * (damping * np.trace(bend, axis1=1, axis2=2))[:, None, None]
-        # What already lies at its bound and would leave it stays there.
-        outward = ((found <= 0) & (gradient > 0)) | ((found >= 1) & (gradient < 0))
-        moving = free & ~outward
-        both = moving[:, :, np.newaxis] & moving[:, np.newaxis, :]
-        bend = np.where(both, bend, np.eye(count))
-        step = np.linalg.solve(bend, np.where(moving, -gradient, 0)[..., np.newaxis])[..., 0]
-        tried = np.clip(found + step, 0, 1)
-        new_seen, new_slopes = _linear(perceive, tried)
-        new_cost = _cost(new_seen - wanted, metric, weights)
-        better = new_cost < cost
-        gained = np.where(better, cost - new_cost, 0)
-        damping = np.where(better, damping / 5, damping * 8)
-        found = np.where(better[:, None], tried, found)
-        seen = np.where(better[:, None, None], new_seen, seen)
-        slopes = np.where(better[:, None, None, None], new_slopes, slopes)
-        cost = np.where(better, new_cost, cost)
-        if ((better & (gained < _SETTLED)) | (damping > 1e3)).all():
+        at = found[searching]
+        gradient, bend = _normal(apart[searching], slopes[searching], weights)
+        step = _step(at, gradient, bend, damping[searching], free[searching])
+        new_apart, new_slopes = _linear(perceive, at + step, wanted, whitener)
+        new_cost = _cost(new_apart, weights)
+        gained = cost[searching] - new_cost
+        better = gained > 0
+        kept = searching[better]
+        found[kept], cost[kept] = (at + step)[better], new_cost[better]
+        apart[kept], slopes[kept] = new_apart[better], new_slopes[better]
+        damping[searching] *= np.where(better, 1 / 5, 8)
+        # Where a step gains nothing, what it had promised tells whether there is more to find.
+        promised = -np.einsum("bn,bn->b", gradient + (bend @ step[..., None])[..., 0] / 2, step)
+        ended = np.where(better, gained, promised) < _SETTLED
+        searching = searching[~ended & (damping[searching] <= 1e3)]
+        if not searching.size:
             break
-    return found, difference(seen, wanted)
+    return found, difference(perceive(found)[0], wanted)
 
 
-def _linear(perceive: Callable[[Array], Array], at: Array) -> tuple[Array, Array]:
-    """Lab (starts, places, 3) and its derivatives (starts, places, 3, n)."""
-    count = at.shape[1]
-    # Probes go inward, where the shader is defined.
-    steps = np.where(at > 0.5, -_PROBE, _PROBE)
-    probes = at[:, np.newaxis] + np.eye(count) * steps[:, np.newaxis]
-    values = perceive(np.concatenate((at[:, np.newaxis], probes), axis=1))
-    changes = (values[:, 1:] - values[:, :1]) / steps[..., np.newaxis, np.newaxis]
-    return values[:, 0], np.moveaxis(changes, 1, -1)
+def _linear(
+    perceive: Callable[[Array], tuple[Array, Array]], at: Array, wanted: Array, whitener: Array
+) -> tuple[Array, Array]:
+    """Whitened distance from what is wanted (starts, places, 3), and its slopes (…, 3, n)."""
+    seen, slopes = perceive(at)
+    return (whitener @ (seen - wanted)[..., np.newaxis])[..., 0], whitener @ slopes
+
+
+def _normal(apart: Array, slopes: Array, weights: Array) -> tuple[Array, Array]:
+    """Gradient (starts, n) and curvature (starts, n, n) of the squares, weighted anew."""
+    root = np.sqrt(weights / np.sqrt((apart * apart).sum(axis=-1) + _KINK**2))[..., np.newaxis]
+    rows = (slopes * root[..., np.newaxis]).reshape(len(apart), -1, slopes.shape[-1])
+    columns = np.swapaxes(rows, 1, 2)
+    pulled = (apart * root).reshape(len(apart), -1, 1)
+    return (columns @ pulled)[..., 0], columns @ rows
+
+
+def _step(at: Array, gradient: Array, bend: Array, damping: Array, free: Array) -> Array:
+    """Step to the least of the squares, damped, within the bounds."""
+    one = np.eye(at.shape[1])
+    damped = bend + one * (damping * np.trace(bend, axis1=1, axis2=2))[:, None, None]
+    # What already lies at its bound and would leave it stays there.
+    outward = ((at <= 0) & (gradient > 0)) | ((at >= 1) & (gradient < 0))
+    moving = free & ~outward
+    both = moving[:, :, np.newaxis] & moving[:, np.newaxis, :]
+    pull = np.where(moving, -gradient, 0)[..., np.newaxis]
+    step = np.linalg.solve(np.where(both, damped, one), pull)[..., 0]
+    return np.asarray(np.clip(at + step, 0, 1) - at)
+
+
+def _whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
+    """Matrices (places, 3, 3) after which the difference is a plain distance."""
+    squares, axes = np.linalg.eigh(_metric(at, difference))
+    return np.asarray(np.sqrt(np.maximum(squares, 0))[..., np.newaxis] * np.swapaxes(axes, 1, 2))
 
 
 def _metric(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
@@ -117,9 +132,5 @@ def _metric(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
     return metric
 
 
-def _square(apart: Array, metric: Array) -> Array:
-    return np.asarray(np.maximum(np.einsum("bgi,gij,bgj->bg", apart, metric, apart), 0))
-
-
-def _cost(apart: Array, metric: Array, weights: Array) -> Array:
-    return np.asarray((weights * np.sqrt(_square(apart, metric) + _KINK**2)).sum(axis=-1))
+def _cost(apart: Array, weights: Array) -> Array:
+    return np.asarray((weights * np.sqrt((apart * apart).sum(axis=-1) + _KINK**2)).sum(axis=-1))

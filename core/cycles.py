@@ -20,9 +20,9 @@ from .arrays import Array, polar_angle, precision, spectrum
 from .errors import DomainError
 from .reading import INSTRUMENT_ANGLES
 
-_ALBEDO_SPAN = np.pi / 2 - 2 / 3
+ALBEDO_SPAN = np.pi / 2 - 2 / 3
 """How much a rough surface's directional albedo can lose; Fujii's normalization."""
-_MEAN_SPAN = _ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
+MEAN_SPAN = ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
 """The same, averaged over the hemisphere; 5.6 is Cycles' rounded constant."""
 
 _NEWTON_STEPS = 12
@@ -213,16 +213,16 @@ def _lobe(
     view = polar_angle(theta_r, "theta_r", dtype)
     tilt = np.sin(light) * np.sin(view) * np.cos(delta_phi)
     tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(light), np.cos(view)), tilt)
-    a = 1 / (np.pi + roughness * dtype.type(_ALBEDO_SPAN))
+    a = 1 / (np.pi + roughness * dtype.type(ALBEDO_SPAN))
     single = np.pi * a * (1 + roughness * tilt)
     lost = a * roughness
-    mean_lost = lost * dtype.type(_MEAN_SPAN)
+    mean_lost = lost * dtype.type(MEAN_SPAN)
     multiple = (
         lost
-        * (_ALBEDO_SPAN - _albedo_shape(light))
-        * (_ALBEDO_SPAN - _albedo_shape(view))
+        * (ALBEDO_SPAN - albedo_shape(light))
+        * (ALBEDO_SPAN - albedo_shape(view))
         * (1 - mean_lost)
-        / dtype.type(_MEAN_SPAN)
+        / dtype.type(MEAN_SPAN)
     )
     # numpy 1.26 promotes scalars on the way.
     return (
@@ -232,7 +232,7 @@ def _lobe(
     )
 
 
-def _albedo_shape(theta: Array) -> Array:
+def albedo_shape(theta: Array) -> Array:
     """G(θ): how the directional albedo rises towards grazing.
 
     (sin θ / cos θ)(1 - sin³ θ) is ∞ · 0 at θ = π/2; with 1 - sin θ = cos² θ / (1 + sin θ) the

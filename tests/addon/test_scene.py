@@ -377,7 +377,8 @@ def test_search_stays_within_its_bounds():
     """A target that no parameter reaches ends at the bound nearest to it."""
 
     def perceive(parameters):
-        return np.repeat(parameters[..., np.newaxis, :1] * 100, 3, axis=-1) * [1, 0, 0]
+        slopes = np.broadcast_to([[[[100.0], [0], [0]]]], (len(parameters), 1, 3, 1))
+        return parameters[:, np.newaxis] * [100.0, 0, 0], slopes
 
     found, apart = compromise.fit(
         perceive,

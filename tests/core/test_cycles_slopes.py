@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The closure's derivatives against differences of `cycles.reflectance`."""
+
+import numpy as np
+import pytest
+
+from core import cycles, cycles_slopes
+
+STEP = 1e-6
+
+
+def test_values_and_slopes_are_those_of_the_closure():
+    random = np.random.default_rng(5)
+    color, roughness = random.uniform(0.01, 0.99, (7, 3)), random.uniform(0.01, 0.99, 7)
+    angles = (*random.uniform(0, np.pi / 2, (2, 50)), random.uniform(0, np.pi, 50))
+
+    def plain(color, roughness):
+        return cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *angles)
+
+    seen, by_color, by_roughness = cycles_slopes.reflectance(
+        color, roughness, cycles_slopes.prepare(*angles)
+    )
+    assert seen == pytest.approx(plain(color, roughness), abs=1e-14)
+    steeper = plain(color + STEP, roughness) - plain(color - STEP, roughness)
+    assert by_color == pytest.approx(steeper / (2 * STEP), abs=1e-8)
+    rougher = plain(color, roughness + STEP) - plain(color, roughness - STEP)
+    assert by_roughness == pytest.approx(rougher / (2 * STEP), abs=1e-8)
+
+
+def test_ends_of_the_domain_are_finite():
+    angles = (np.array([0.0, np.pi / 2]), np.array([np.pi / 2, np.pi / 2]), np.zeros(2))
+    ends = np.array([0.0, 1.0])
+    color = np.repeat(ends[:, np.newaxis], 3, axis=1)
+    found = cycles_slopes.reflectance(color, ends, cycles_slopes.prepare(*angles))
+    assert all(np.isfinite(part).all() for part in found)
