@@ -16,8 +16,8 @@ import bpy
 
 from ..core.errors import InputError, MaterialError
 from . import library, readers, selection
+from .request import Request
 from .sample import KINDS, Kind, Sample
-from .target import Request
 
 _FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
 

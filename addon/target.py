@@ -7,24 +7,38 @@ The targets are computed spectrally and turned into RGB at the end: RGB(ρ²) is
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import cycles, geometry, instruments, ladder, reading
+from ..core import cycles, geometry, ladder, reading
 from ..core.arrays import Array
 from ..core.choice import choose_shader
-from ..core.errors import DomainError
-from . import colorimetry, judgement, scene_match
-from .sample import Sample
+from . import colorimetry, judgement, scene_match, spectra
+from .request import AUTO, TOLERANCE, VIRTUAL, Request
 from .scene_view import SceneView
 from .working_space import WorkingSpace
 
 if TYPE_CHECKING:
     from ..core.ladder import Choice
+
+__all__ = [
+    "ASKED_FOR",
+    "AUTO",
+    "CHOICE_GEOMETRIES",
+    "MATCH_GEOMETRIES",
+    "TOLERANCE",
+    "VIRTUAL",
+    "Request",
+    "Solution",
+    "choose",
+    "differences",
+    "settle",
+    "solve",
+    "target_reading",
+]
 
 MATCH_GEOMETRIES = 32
 """Directions the roughness is matched over. Against 2,000 of them the mean ΔE00 of the
@@ -35,59 +49,14 @@ ASKED_FOR = "asked for"
 
 _ROUGH = "rough: matched to the model asked for"
 
-VIRTUAL = "45a:0"
-"""Instrument that materials are matched and measured with, whichever gave the reading."""
-
-AUTO = "auto"
-"""Model of a request that leaves the choice to `choose`."""
-
 CHOICE_GEOMETRIES = 12
 """Directions the model is chosen over, beside the instrument's."""
-
-TOLERANCE = 1.0
-"""Largest ΔE00 from the reference that a model may have to be chosen."""
 
 _CHUNK = 64
 """Materials whose spectra in all directions are held at once: about 2 MB."""
 
 _ENOUGH = 1e-6
 """Overshoot of gamut or albedo that is rounding, not a fact about the material."""
-
-
-@dataclass(frozen=True)
-class Request:
-    """What to make of one sample.
-
-    Parameters
-    ----------
-    sample
-        The measured spectrum.
-    sigma
-        Roughness σ, radians.
-    model
-        One of `core.ladder.RUNGS`, or `AUTO` for the cheapest that is good enough.
-    illuminant
-        The light under which the color is right.
-    observer
-        Of the colorimetry in reports; scene RGB is always of the 2° observer.
-    scene
-        Lights and directions that it is matched for instead of the illuminant and the whole
-        hemisphere, or None.
-    flat
-        Whether the scene is rendered by an engine that ignores roughness. Only a scene has an
-        engine: without one, a material is always made for Cycles.
-    tolerance
-        Largest ΔE00 that "auto" accepts for the sake of a simpler model.
-    """
-
-    sample: Sample
-    sigma: float
-    model: str = AUTO
-    illuminant: str = "D65"
-    observer: int = 2
-    scene: SceneView | None = None
-    flat: bool = False
-    tolerance: float = TOLERANCE
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +108,7 @@ class Solution:
 def target_reading(request: Request) -> Array:
     """r(λ) that the material has to show at the virtual instrument, shape (bands,)."""
     [(settled, _)] = settle([request])
-    return np.asarray(_spectra([settled])[0][0])
+    return np.asarray(spectra.readings_and_albedos([settled])[0][0])
 
 
 def choose(requests: Sequence[Request]) -> list[Choice]:
@@ -161,9 +130,9 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
         return colorimetry.delta_e(lab_seen, lab_wanted)
 
     found: list[Choice | None] = [None] * len(requests)
-    for members in _alike(requests):
+    for members in spectra.alike(requests):
         first = requests[members[0]]
-        with _naming(first.sample):
+        with spectra.naming(first.sample):
             lights = [colorimetry.weights(first.sample.wavelengths, first.illuminant)]
         geometries = _with_instrument(hemisphere)
         if first.scene is not None:
@@ -172,7 +141,7 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
         sigma = np.array([requests[i].sigma for i in members])
         tolerance = np.array([requests[i].tolerance for i in members])
         # The closure's albedo stands for the true one: it is what the other models approximate.
-        rho = _albedos([requests[i] for i in members], "closure")
+        rho = spectra.albedos([requests[i] for i in members], "closure")
         choices = ladder.choose_model(
             np.minimum(rho, 1), sigma, geometries, lights, tolerance, difference=difference
         )
@@ -269,7 +238,7 @@ def differences(
 ) -> Array:
     """ΔE00 of a shader's color and roughness in each of a scene's directions."""
     [(settled, _)] = settle([replace(request, scene=view)])
-    [albedo] = _albedos([settled], settled.model)
+    [albedo] = spectra.albedos([settled], settled.model)
     bands, shader = settled.sample.wavelengths, (color, roughness)
     return scene_match.judge(view, shader, albedo, settled.model, settled.sigma, bands, space)
 
@@ -278,9 +247,9 @@ def _solve_in_scene(
     request: Request, reason: str, view: SceneView, space: WorkingSpace
 ) -> Solution:
     sample = request.sample
-    with _naming(sample):
+    with spectra.naming(sample):
         colorimetry.weights(sample.wavelengths)
-    [read], [albedo] = _spectra([request])
+    [read], [albedo] = spectra.readings_and_albedos([request])
     rough, lambert, target = scene_match.match(
         view, albedo, read, request.model, request.sigma, sample.wavelengths, space
     )
@@ -316,11 +285,11 @@ def _colors(
     """RGB of the readings (M, 3) and of the targets in other directions (M, G, 3)."""
     readings = np.empty((len(requests), 3))
     targets = np.empty((len(requests), geometries[0].size, 3))
-    for members in _alike(requests):
+    for members in spectra.alike(requests):
         first = requests[members[0]]
-        with _naming(first.sample):
+        with spectra.naming(first.sample):
             weights = space.rgb_weights(first.sample.wavelengths, first.illuminant)
-        measured, rho = _spectra([requests[i] for i in members])
+        measured, rho = spectra.readings_and_albedos([requests[i] for i in members])
         readings[members] = measured @ weights
         sigma = np.array([requests[i].sigma for i in members])
         for start in range(0, len(members), _CHUNK):
@@ -329,7 +298,7 @@ def _colors(
             spread = ladder.reflectance(
                 first.model, np.minimum(albedo, 1), *geometries, sigma[chunk, np.newaxis]
             )
-            # No model holds for facets that return more light than reaches them: see `_to_albedo`.
+            # No model holds for facets that return more light than reaches them: see `spectra`.
             targets[members[chunk]] = (spread * np.maximum(albedo, 1)) @ weights
     # The published model turns negative at grazing opposite directions; no surface does. A channel
     # that is negative in the reading itself is out of gamut, which is another matter.
@@ -337,80 +306,10 @@ def _colors(
     return readings, targets
 
 
-def _spectra(requests: list[Request]) -> tuple[Array, Array]:
-    """Give readings and albedos, each (materials, bands), of requests that `_alike` put together.
-
-    An albedo is above 1 where the reading is more than white facets give.
-    """
-    model = requests[0].model
-    rho = _albedos(requests, model)
-    if model == "lambert":
-        return rho, rho
-    sigma = np.array([request.sigma for request in requests])
-    seen = [i for i, request in enumerate(requests) if _as_printed(request)]
-    predicted = rho.copy() if len(seen) == len(requests) else _from_albedo(rho, sigma, model)
-    for i in seen:
-        predicted[i] = requests[i].sample.reflectance
-    return predicted, rho
-
-
-def _as_printed(request: Request) -> bool:
-    """Whether the measured values themselves are what the virtual instrument has to read."""
-    return request.sample.kind == "reading" and request.sample.instrument == VIRTUAL
-
-
-def _albedos(requests: list[Request], model: str) -> Array:
-    """Albedos (materials, bands) by a model, of requests with the same bands and instrument."""
-    instrument = instruments.find(requests[0].sample.instrument).name
-    values = np.stack([request.sample.reflectance for request in requests])
-    is_albedo = np.array([request.sample.kind == "albedo" for request in requests])
-    if model == "lambert" or is_albedo.all():
-        return values
-    sigma = np.array([request.sigma for request in requests])
-    behind = _to_albedo(values, sigma, model, instrument)
-    return np.where(is_albedo[:, np.newaxis], values, behind)
-
-
-def _to_albedo(values: Array, sigma: Array, model: str, instrument: str) -> Array:
-    """Give the albedo behind readings; above 1 in proportion where white facets give less.
-
-    Only fluorescence or gloss reads more than white facets, which no model of them describes.
-    """
-    white = reading.white_reading(sigma, model, instrument)[:, np.newaxis]
-    rho = reading.to_albedo(np.minimum(values, white), sigma, model, instrument)
-    return np.asarray(rho * np.maximum(values / white, 1))
-
-
-def _from_albedo(rho: Array, sigma: Array, model: str) -> Array:
-    """Predict the virtual instrument's readings; beyond 1 in proportion, as `_to_albedo`."""
-    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
-    return np.asarray(seen * np.maximum(rho, 1))
-
-
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
     """Add the virtual instrument's direction at the end."""
     light, view, azimuth = map(np.append, geometries, reading.INSTRUMENT_ANGLES[VIRTUAL])
     return light, view, azimuth
-
-
-def _alike(requests: Sequence[Request]) -> list[list[int]]:
-    """Group requests that share wavelengths, light, model and instrument: their matrices."""
-    groups: dict[tuple[object, ...], list[int]] = {}
-    for i, request in enumerate(requests):
-        sample, light = request.sample, request.scene or request.illuminant
-        key = (sample.wavelengths.tobytes(), light, request.model, sample.instrument)
-        groups.setdefault(key, []).append(i)
-    return list(groups.values())
-
-
-@contextmanager
-def _naming(sample: Sample) -> Iterator[None]:
-    """Name the sample in what the core says of its wavelengths."""
-    try:
-        yield
-    except DomainError as error:
-        msg = f"{sample.source or 'Sample'}, {sample.name!r}: {error}"
-        raise DomainError(msg) from error
 
 
 def _warnings(

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from .. import assign
+from ..request import Request
 from ..sample import Sample
 from ..spectrophotometer.worker import end_if_orphaned, report
-from ..target import Request
 from . import previews
 
 if TYPE_CHECKING:

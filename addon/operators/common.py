@@ -89,7 +89,7 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
 def new_request(sample: Sample, sigma: float) -> Request:
     """Give the request of a new material, with the user's preferences."""
     from .. import preferences
-    from ..target import Request
+    from ..request import Request
 
     chosen = preferences.defaults()
     return Request(

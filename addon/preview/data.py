@@ -13,8 +13,8 @@ import numpy as np
 from ...core import cycles, reading
 from ...core.arrays import Array
 from ...core.errors import MaterialError
-from .. import colorimetry, nodes, stamp, storage
-from ..target import AUTO, VIRTUAL, Request
+from .. import colorimetry, nodes, spectra, stamp, storage
+from ..request import AUTO, VIRTUAL, Request
 from ..working_space import WorkingSpace
 from .figures import LARGEST_SIGMA, LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
@@ -146,7 +146,7 @@ def of_request(
     """Compute the same from a request with a settled model, and what is in the shader node."""
     sample, light = request.sample, request.illuminant
     weights = space.rgb_weights(sample.wavelengths, light)
-    seen, rho = spectra(request)
+    seen, rho = spectra_of(request)
     # Sockets may hold anything; what the closure does to a color above 1 is not defined.
     color = np.clip(color, 0, 1)
     roughness = min(max(roughness, 0.0), 1.0)
@@ -227,22 +227,10 @@ def _white(model: str, instrument: str) -> tuple[Array, Array]:
     return degrees, reading.white_reading(np.radians(degrees), model, instrument)
 
 
-def spectra(request: Request) -> tuple[Array, Array]:
-    """Give reading at the virtual instrument and albedo, as `target` matches them."""
-    sample, sigma, model = request.sample, request.sigma, request.model
-    values = sample.reflectance
-    if model == "lambert":
-        return values, values
-    if sample.kind == "albedo":
-        rho = values
-    else:
-        white = reading.white_reading(sigma, model, sample.instrument)
-        rho = reading.to_albedo(np.minimum(values, white), sigma, model, sample.instrument)
-        rho = rho * np.maximum(values / white, 1)
-        if sample.instrument == VIRTUAL:
-            return values, rho
-    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
-    return np.asarray(seen * np.maximum(rho, 1)), rho
+def spectra_of(request: Request) -> tuple[Array, Array]:
+    """Give reading at the virtual instrument and albedo, each (bands,), as `target` matches."""
+    [seen], [rho] = spectra.readings_and_albedos([request])
+    return seen, rho
 
 
 @lru_cache(maxsize=16)

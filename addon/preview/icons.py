@@ -269,7 +269,7 @@ def _compared(material: Any, space: Any) -> tuple[float, float, float] | None:
     request = data.settled(material)
     color, roughness = data.written(material)
     shader = (color, 0.0 if stamp.engine_is_flat() else roughness)
-    return shown.differences(request, data.spectra(request), shader, space)
+    return shown.differences(request, data.spectra_of(request), shader, space)
 
 
 def _store(wish: _Wish, state: int, canvas: Any) -> None:

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the measured spectra of requests to the surface's readings and its facets' albedos."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+
+from ..core import instruments, reading
+from ..core.arrays import Array
+from ..core.errors import DomainError
+from .request import VIRTUAL, Request
+from .sample import Sample
+
+
+def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
+    """Give readings and albedos, each (materials, bands), of requests that `alike` put together.
+
+    An albedo is above 1 where the reading is more than white facets give.
+    """
+    model = requests[0].model
+    rho = albedos(requests, model)
+    if model == "lambert":
+        return rho, rho
+    sigma = np.array([request.sigma for request in requests])
+    seen = [i for i, request in enumerate(requests) if _as_printed(request)]
+    predicted = rho.copy() if len(seen) == len(requests) else _from_albedo(rho, sigma, model)
+    for i in seen:
+        predicted[i] = requests[i].sample.reflectance
+    return predicted, rho
+
+
+def _as_printed(request: Request) -> bool:
+    """Whether the measured values themselves are what the virtual instrument has to read."""
+    return request.sample.kind == "reading" and request.sample.instrument == VIRTUAL
+
+
+def albedos(requests: list[Request], model: str) -> Array:
+    """Albedos (materials, bands) by a model, of requests with the same bands and instrument."""
+    instrument = instruments.find(requests[0].sample.instrument).name
+    values = np.stack([request.sample.reflectance for request in requests])
+    is_albedo = np.array([request.sample.kind == "albedo" for request in requests])
+    if model == "lambert" or is_albedo.all():
+        return values
+    sigma = np.array([request.sigma for request in requests])
+    behind = _to_albedo(values, sigma, model, instrument)
+    return np.where(is_albedo[:, np.newaxis], values, behind)
+
+
+def _to_albedo(values: Array, sigma: Array, model: str, instrument: str) -> Array:
+    """Give the albedo behind readings; above 1 in proportion where white facets give less.
+
+    Only fluorescence or gloss reads more than white facets, which no model of them describes.
+    """
+    white = reading.white_reading(sigma, model, instrument)[:, np.newaxis]
+    rho = reading.to_albedo(np.minimum(values, white), sigma, model, instrument)
+    return np.asarray(rho * np.maximum(values / white, 1))
+
+
+def _from_albedo(rho: Array, sigma: Array, model: str) -> Array:
+    """Predict the virtual instrument's readings; beyond 1 in proportion, as `_to_albedo`."""
+    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
+    return np.asarray(seen * np.maximum(rho, 1))
+
+
+def alike(requests: Sequence[Request]) -> list[list[int]]:
+    """Group requests that share wavelengths, light, model and instrument: their matrices."""
+    groups: dict[tuple[object, ...], list[int]] = {}
+    for i, request in enumerate(requests):
+        sample, light = request.sample, request.scene or request.illuminant
+        key = (sample.wavelengths.tobytes(), light, request.model, sample.instrument)
+        groups.setdefault(key, []).append(i)
+    return list(groups.values())
+
+
+@contextmanager
+def naming(sample: Sample) -> Iterator[None]:
+    """Name the sample in what the core says of its wavelengths."""
+    try:
+        yield
+    except DomainError as error:
+        msg = f"{sample.source or 'Sample'}, {sample.name!r}: {error}"
+        raise DomainError(msg) from error
