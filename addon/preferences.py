@@ -76,7 +76,8 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        column = layout.column(heading="New Materials")
+        column = layout.column()
+        column.label(text="New Materials")
         column.prop(self, "illuminant")
         column.prop(self, "observer")
         column.prop(self, "tolerance")

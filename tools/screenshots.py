@@ -30,6 +30,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--zip", type=Path, required=True, help="the built extension")
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "images" / "window")
     parser.add_argument("--scale", type=float, default=1.0, help="UI scale")
+    parser.add_argument("--width", type=int, default=440, help="of the panel, pixels at scale 1")
     parser.add_argument("--theme", choices=("dark", "light"), default="dark")
     parser.add_argument("--size", default="1600x1900", help="of the window, in pixels")
     parser.add_argument(
@@ -47,7 +48,7 @@ def main(arguments: Sequence[str]) -> int:
             *("--window-geometry", "0", "0", *options.size.split("x")),
             *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
             *(str(options.zip.resolve()), str(options.output.resolve())),
-            *(str(options.scale), options.theme, options.grab, *options.names),
+            *(str(options.scale), str(options.width), options.theme, options.grab, *options.names),
         ]
         try:
             done = subprocess.run(

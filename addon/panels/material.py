@@ -17,6 +17,7 @@ from .text import sentence
 _SWATCH_UNITS = 5.0
 _WHERE = ("45°/0°", "All angles", "95 % below")
 _BOX = 24.0
+_SWATCHES = 88.0
 _GAMUT = 0.05
 """ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
 
@@ -74,7 +75,8 @@ def draw_state(layout: Any, context: Any, material: Any) -> None:
     column.alert = state.kind in ("stale", "error")
     icon = "INFO" if state.kind in ("kept", "linked") else "ERROR"
     for reason in state.reasons:
-        sentence(column, context, reason[:1].upper() + reason[1:], icon, _BOX)
+        text = reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
+        sentence(column, context, text, icon, _BOX)
         icon = "BLANK1"
     if state.kind == "linked":
         return
@@ -94,12 +96,13 @@ def draw_difference(layout: Any, context: Any, material: Any) -> None:
     picture = icons.icon_id(material, "swatches", _SWATCH_UNITS, context)
     row.template_icon(picture, scale=_SWATCH_UNITS)
     column = row.column(align=True)
-    column.label(text="Left the target, right Blender")
+    sentence(column, context, iface_("Left the target, right Blender"), "NONE", _SWATCHES)
     numbers = icons.differences(material, context)
     if found is not None and stamp.numbers_hold(material):
         numbers = (found.delta_e_instrument, found.delta_e_mean, found.delta_e_95)
     for where, number in zip(_WHERE, numbers or (), strict=bool(numbers)):
-        column.label(text=_difference(iface_(where), number), translate=False)
+        text = _difference(iface_(where), number)
+        sentence(column, context, text, "NONE", _SWATCHES)
     if found is None or stamp.state(material).kind != "fresh":
         return
     sentence(layout, context, _limit(found, context), "INFO")
@@ -147,10 +150,11 @@ def draw_measurement(layout: Any, context: Any) -> None:
     predicted = None if material is None else stamp.get_stamp(material)
     if found is not None and found.delta_e is not None and predicted is not None:
         column = layout.column(align=True)
-        column.label(
-            text=_difference(iface_("Predicted"), predicted.delta_e_instrument), translate=False
-        )
-        column.label(text=_difference(iface_("Measured"), found.delta_e), translate=False)
+        for when, delta_e in (
+            (iface_("Predicted"), predicted.delta_e_instrument),
+            (iface_("Measured"), found.delta_e),
+        ):
+            sentence(column, context, _difference(when, delta_e), "NONE")
         if not found.current:
             text = iface_("Measured before the last change; measure again")
             sentence(column, context, text, "ERROR")

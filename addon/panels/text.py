@@ -37,10 +37,11 @@ def sentence(
     scale = theme.scale(context.preferences)
     width = max(int(context.region.width / scale - _MARGINS - inset), _LEAST)
     column = layout.column(align=True)
+    below = "NONE" if icon == "NONE" else "BLANK1"
     for number, line in enumerate(_lines(text, width, _points(context.preferences), scale)):
         row = column.row()
         row.scale_y = 0.8
-        row.label(text=line, icon=icon if number == 0 else "BLANK1", translate=False)
+        row.label(text=line, icon=icon if number == 0 else below, translate=False)
 
 
 def _points(preferences: Any) -> float:
