@@ -36,6 +36,7 @@ def pytest_collection_modifyitems(items):
 def session(tmp_path_factory):
     """What was found in each scene, and everything that Blender printed."""
     folder = tmp_path_factory.mktemp("desktop")
+    (folder / "tmp").mkdir()
     build = [sys.executable, str(ROOT / "dev.py"), "build"]
     subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
     [package] = (ROOT / "build").glob("rough_spectra-*.zip")
@@ -49,7 +50,8 @@ def session(tmp_path_factory):
                 *(str(package), str(folder)),
                 *os.environ.get("ROUGH_SPECTRA_SCENES", "").split(),
             ],
-            env=os.environ | {"BLENDER_USER_RESOURCES": str(folder / "user")},
+            env=os.environ
+            | {"BLENDER_USER_RESOURCES": str(folder / "user"), "TMPDIR": str(folder / "tmp")},
             stdout=console,
             stderr=subprocess.STDOUT,
             timeout=SECONDS,

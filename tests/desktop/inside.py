@@ -10,6 +10,7 @@ import bpy
 sys.path.insert(0, str(Path(__file__).parent))
 import driver
 import scenes_background  # noqa: F401
+import scenes_comfort  # noqa: F401
 import scenes_files  # noqa: F401
 import scenes_panel  # noqa: F401
 

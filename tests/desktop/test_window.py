@@ -34,7 +34,6 @@ MEASURE = "ROUGH_SPECTRA_OT_measure"
 
 def test_measuring(scene):
     assert MEASURE in scene["modal"]
-    assert scene["typed"] == "abc"
     assert scene["still_running"]
     assert scene["measured"] == [pytest.approx(0, abs=0.02), True]
     assert scene["modal_after"] == []
@@ -71,10 +70,27 @@ def test_stopping_an_asset_library(scene):
     assert scene == {"ran": True, "left": [0, 0, 0, 0]}
 
 
-def test_nothing_unwanted_was_printed(session):
-    assert session["status"] == 0
-    for word in ("Traceback", "Error", "Warning", "rough_spectra", "memory"):
-        assert not [line for line in session["said"].splitlines() if word in line]
+def test_searching(scene):
+    assert {words: bool(ran) for words, ran in scene.items()} == dict.fromkeys(scene, True)
+
+
+def test_sidebar_and_menus(scene):
+    assert scene["material"]
+    assert scene["category"] == "Rough Spectra"
+    assert len(scene["drawn"]) == 4
+
+
+def test_preferences(scene):
+    assert scene == {"new": ["A", "10", 0.5], "saved": ["A", "10", 0.5]}
+
+
+def test_another_language(scene):
+    assert scene["drawn"] == "Gemessen: ΔE00 0.10, nicht sichtbar"
+    assert scene["label"] == "Erneuern"
+
+
+def test_off_and_on(scene):
+    assert scene["same"]
 
 
 def test_a_dropped_file(scene):
@@ -100,3 +116,9 @@ def test_other_files(scene):
     assert scene["linked"] == scene["overridden"] == "linked"
     assert scene["override"]
     assert scene["local"] == [True, "fresh"]
+
+
+def test_nothing_unwanted_was_printed(session):
+    assert session["status"] == 0
+    for word in ("Traceback", "Error", "Warning", "rough_spectra", "memory"):
+        assert not [line for line in session["said"].splitlines() if word in line]
