@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rough_spectra.addon import readers
-from rough_spectra.core.errors import InputError
+
+from tests.input.refused import refusal
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "cgats"
 TI3 = (FOLDER / "argyll.ti3").read_text(encoding="utf-8")
@@ -22,16 +23,6 @@ def write(folder, text, encoding="utf-8"):
     path = folder / "measured.txt"
     path.write_bytes(text.encode(encoding))
     return path
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        readers.read(path)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    assert "\n" not in sentence
-    return sentence
 
 
 def tables(path, mark):

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rough_spectra.addon import readers
-from rough_spectra.core.errors import InputError
+
+from tests.input.refused import refusal
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "cxf"
 TWO = (FOLDER / "two.cxf").read_text(encoding="utf-8")
@@ -26,16 +27,6 @@ def write(folder, text, encoding="utf-8"):
     path = folder / "measured.cxf"
     path.write_bytes(text.encode(encoding))
     return path
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        readers.read(path)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    assert "\n" not in sentence
-    return sentence
 
 
 @pytest.mark.parametrize("name", ["two.cxf", "mixed.cxf"])

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 from rough_spectra.addon import readers
-from rough_spectra.core.errors import InputError
+
+from tests.input.refused import refusal
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 CONCRETE = (FIXTURES / "ecostress" / "concrete.spectrum.txt").read_text()
@@ -18,15 +19,6 @@ def write(tmp_path, text):
     path = tmp_path / "spectrum.txt"
     path.write_text(text)
     return path
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        readers.read(path)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    return sentence
 
 
 @pytest.mark.parametrize("name", ["concrete", "descending"])

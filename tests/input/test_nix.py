@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from rough_spectra.addon import readers
-from rough_spectra.core.errors import InputError
+
+from tests.input.refused import refusal
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "nix"
 FILES = sorted(FOLDER.glob("*.csv"))
@@ -18,16 +19,6 @@ def write(tmp_path, text, encoding="utf-8"):
     path = tmp_path / "export.csv"
     path.write_bytes(text.encode(encoding))
     return path
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        readers.read(path)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    assert "\n" not in sentence
-    return sentence
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

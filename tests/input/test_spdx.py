@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 from rough_spectra.addon import readers
-from rough_spectra.core.errors import InputError
+
+from tests.input.refused import refusal
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "spdx"
 TILE = (FOLDER / "tile.spdx").read_text()
@@ -17,15 +18,6 @@ def write(tmp_path, text):
     path = tmp_path / "file.spdx"
     path.write_text(text)
     return path
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        readers.read(path)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    return sentence
 
 
 def test_reflectance_is_read_with_all_that_stands_around_it():

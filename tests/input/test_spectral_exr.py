@@ -15,6 +15,8 @@ from rough_spectra.addon.readers._document import Document
 from rough_spectra.addon.writers import images
 from rough_spectra.core.errors import InputError
 
+from tests.input.refused import refusal
+
 PIXELS = Path(__file__).resolve().parents[1] / "fixtures" / "spectral_exr" / "pixels.spectral.exr"
 DATA = PIXELS.read_bytes()
 NAMES = ["R", "G", "B", *(f"T.{nm},000000nm" for nm in (400, 475, 550, 625, 1000))]
@@ -35,15 +37,6 @@ def write(path, pixels, names=NAMES, compression="zip", half=True, **attributes)
     assert out.write_image(np.ascontiguousarray(pixels, np.float32))
     assert out.close()
     return path
-
-
-def refusal(path, region=None):
-    with pytest.raises(InputError) as caught:
-        readers.read(path, region)
-    sentence = str(caught.value)
-    assert sentence.startswith(str(path))
-    assert sentence.endswith(".")
-    return sentence
 
 
 def test_the_whole_image_and_regions_of_it():
