@@ -206,9 +206,10 @@ def weigh(name: str) -> None:
             _keep(smallest, data, reason)
             continue
         fast = min(promises.outcome(readers, path, data, name).seconds for _ in range(2))
-        peak = promises.weighed(readers, path, data, name).peak or 0
+        full = promises.weighed(readers, path, data, name)
+        allowed = promises.memory_allowed(len(data), len(full.samples))
         slowest = max(slowest, fast)
-        heaviest = max(heaviest, peak / promises.memory_allowed(len(data)))
+        heaviest = max(heaviest, (full.peak or 0) / allowed)
     print(
         f"{len(kept)} kept for what they reached; of these the slowest takes {1000 * slowest:.1f} "
         f"ms, the heaviest {100 * heaviest:.0f} % of the memory allowed"

@@ -28,6 +28,8 @@ MEMORY = 20
 """Bytes, a byte of the file."""
 MEMORY_AT_LEAST = 2**20
 """What imports, tables and messages take, whatever the file."""
+MEMORY_A_SAMPLE = 1024
+"""What comes out stays: names and arrays of a sample, even if its line has few bytes."""
 
 _SENTENCES_OF_FILES = ("preset", "library")
 """Formats in which notes are the user's own text."""
@@ -102,7 +104,7 @@ def faults(name: str, path: Path, size: int, found: Outcome) -> Iterator[str]:
     for sample in found.samples:
         yield from _faults_of_sample(name, sample)
     if found.peak is not None:
-        if found.peak > memory_allowed(size):
+        if found.peak > memory_allowed(size, len(found.samples)):
             yield f"memory: {found.peak} bytes for a file of {size}"
     elif found.seconds > seconds_allowed(name, size):
         yield f"time: {found.seconds:.2f} s for {size} bytes"
@@ -113,9 +115,9 @@ def seconds_allowed(name: str, size: int) -> float:
     return max(SECONDS * size, SECONDS_AT_LEAST_OF.get(name, SECONDS_AT_LEAST))
 
 
-def memory_allowed(size: int) -> int:
-    """Return how many bytes of memory a file of so many bytes may take."""
-    return MEMORY * size + MEMORY_AT_LEAST
+def memory_allowed(size: int, samples: int) -> int:
+    """Return how many bytes of memory a file of so many bytes and samples may take."""
+    return MEMORY * size + MEMORY_AT_LEAST + MEMORY_A_SAMPLE * samples
 
 
 def _faults_of_message(path: Path, message: str) -> Iterator[str]:

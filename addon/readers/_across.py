@@ -12,7 +12,7 @@ import numpy as np
 
 from ..sample import Sample
 from . import _labels, _series, _statements, _table
-from ._document import Document, quote
+from ._document import Document, plain, quote
 from ._scale import nanometers, scale
 from ._start import LEAST_BAND
 from ._table import Row
@@ -55,12 +55,14 @@ def read(
     color, light = _statements.color_columns(header)
     if name is None:
         name = next((i for i in others if i not in keyed and i not in color), None)
-    other = _series.other_quantity(header[0]) if 0 not in bands and header[0] else ""
+    first = "" if 0 in bands or _statements.field_of(header[0]) else header[0]
+    other = _series.other_quantity(first)
     if other:
         raise document.not_reflectance(f"line {line}, column {quote(header[0])}", other)
     texts = [*([] if name is None else [name]), *keyed, *color]
     unread = [header[i] for i in others if header[i] and i not in texts]
     block = _table.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
+    _table.check_count(document, len(block.lines))
     nm = np.array([_labels.band(header[i]) for i in bands], dtype=np.float64)
     stated = [header[0]] if 0 not in bands else []
     if _labels.unit_of_wavelengths(header[bands[0]]) == "":
@@ -68,6 +70,7 @@ def read(
     # Of the other columns' names only the corner's is about the values below.
     values = block.values
     values /= scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
+    nm.flags.writeable = values.flags.writeable = False  # so that no sample copies them
     samples = []
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
@@ -104,7 +107,7 @@ def not_read(labels: list[str]) -> tuple[str, ...]:
     if not labels:
         return ()
     more = f" and {len(labels) - _NAMED} more" if len(labels) > _NAMED else ""
-    return (f"Columns not read: {', '.join(labels[:_NAMED])}{more}.",)
+    return (f"Columns not read: {plain(', '.join(labels[:_NAMED]))}{more}.",)
 
 
 def _lab(

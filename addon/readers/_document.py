@@ -213,3 +213,8 @@ def open_document(
 def quote(text: str) -> str:
     """Return a piece of a file fit for a sentence: short, printable, in quotation marks."""
     return repr(text if len(text) <= 40 else text[:39] + "…")
+
+
+def plain(text: str) -> str:
+    """Return a piece of a file fit for a note: one line without control characters."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())

@@ -19,6 +19,7 @@ from ._document import Document, quote
 SPACES = " "
 # In the order in which they are preferred: a comma may be a decimal comma, a space part of a name.
 DELIMITERS = {"\t": "tabs", ";": "semicolons", ",": "commas", SPACES: "spaces"}
+_SHORT, _MOST_SHORT = 50, 50_000  # bytes a sample, and how many samples may have fewer
 _AT_ONCE = 2**13  # characters that are split into lines
 EXPECTED = "commas, semicolons, tabs or spaces between the columns"
 
@@ -191,6 +192,21 @@ def numbers(
         # Copied out of the array, whose memory must not move while numpy looks at it.
         block.values = np.array(flat, dtype=np.float64).reshape(-1, len(columns))
     return block
+
+
+def check_count(document: Document, samples: int) -> None:
+    """Refuse a huge number of samples that hardly have a spectrum: each takes 1 kB of memory.
+
+    Raises
+    ------
+    InputError
+        There are more than 50,000, of fewer than 50 bytes each.
+    """
+    if samples > _MOST_SHORT and len(document.data) < _SHORT * samples:
+        raise document.error(
+            "",
+            f"it has {samples} samples with a few numbers each; split it, or export whole spectra",
+        )
 
 
 def _fit(document: Document, row: Row, header: Sequence[str]) -> list[str]:

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..sample import Sample
 from . import _labels, _series, _table
-from ._document import Document, quote
+from ._document import Document, plain, quote
 
 NAME = "Cary WinUV CSV"
 PRIORITY = 60
@@ -55,7 +55,7 @@ def read(document: Document) -> list[Sample]:
             place, _series.other_quantity(labels[1]) or f"in units of {quote(labels[1])}"
         )
     left = [names[i] for i in range(0, min(len(names), len(labels) - 1), 2) if i not in pairs]
-    notes = (f"Columns not read: {', '.join(left[:8])}.",) if left else ()
+    notes = (f"Columns not read: {plain(', '.join(left[:8]))}.",) if left else ()
     table = _columns(document, rows, pairs, line + 2)
     return [_sample(document, names, labels, i, table[i], line + 2, notes) for i in pairs]
 

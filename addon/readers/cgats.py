@@ -99,6 +99,7 @@ def _numbers(document: Document, table: Table, columns: Columns) -> _Read:
         [*texts, *columns.lab, *columns.xyz],
         decimal_comma=True,
     )
+    _table.check_count(document, len(block.lines) * len(columns.spectra))
     notes = list(columns.notes)
     for key, count in (
         ("NUMBER_OF_FIELDS", len(table.fields)),

@@ -70,7 +70,8 @@ def read(document: Document) -> list[Sample]:
         decimal_comma=True,
     )
     samples: list[Sample] = []
-    for values, line, texts in zip(block.values, block.lines, block.texts, strict=True):
+    described = block.texts or [[]] * len(block.lines)
+    for values, line, texts in zip(block.values, block.lines, described, strict=True):
         where = f"line {line}"
         wavelengths, fractions = check_spectrum(
             nm, values, f"{document.path}, {where}", lambda band: f"column {header[bands[band]]!r}"

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..sample import Sample, check_spectrum
 from . import _bands, _geometry, _labels, _table
-from ._document import Document, quote
+from ._document import Document, plain, quote
 from ._table import Row
 
 NAME = "RELAB file"
@@ -91,7 +91,7 @@ def read(document: Document) -> list[Sample]:
         notes = (_UNITS, *notes)
     described = [line for line in below if ":" not in line]
     if described:
-        notes = (*notes, f"The file says of the sample: {'; '.join(described)[:300]}.")
+        notes = (*notes, f"The file says of the sample: {plain('; '.join(described)[:300])}.")
     if columns > 2:
         notes = (*notes, _DEVIATIONS)
     title = _TITLE.search(" ".join(top.fields))
