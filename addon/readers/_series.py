@@ -44,7 +44,13 @@ _OTHERS = (
         re.compile(r"colou?r[ _-]?matching|\bcmfs?\b|\b[xyz][ _]?bar\b", re.IGNORECASE),
         "color matching functions",
     ),
-    (re.compile(r"illuminant|power distribution|\bspd\b", re.IGNORECASE), "emission"),
+    (
+        # At the beginning: a unit or a mode may well name the illuminant that it is for.
+        re.compile(
+            r"^(?:cie |std |standard )*illuminant|power distribution|\bspd\b", re.IGNORECASE
+        ),
+        "emission",
+    ),
     (
         re.compile(r"refractive|optical constants|extinction coef", re.IGNORECASE),
         "refractive indices of a material",

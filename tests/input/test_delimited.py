@@ -372,3 +372,8 @@ def test_a_column_of_reflectance_is_read_beside_those_of_radiance(tmp_path):
 def test_numbers_in_rows_of_data_are_no_bands(tmp_path):
     text = "site,sample,mass,length\nA,a1,39,13.3\nB,b2,130.5,212\nB,b3,140,248\n"
     assert "no wavelengths found at 'site'" in refusal(tmp_path, text)
+
+
+def test_a_first_column_with_the_illuminant_is_what_colors_were_computed_for(tmp_path):
+    (sample,) = read(tmp_path, "Illuminant;Name;400 nm;410 nm;420 nm\nD65;chalk;0.5;0.5;0.5\n")
+    assert (sample.name, sample.illuminant) == ("chalk", "D65")

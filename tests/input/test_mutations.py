@@ -24,6 +24,7 @@ FIXTURES = [
     ROOT / "tests" / "fixtures" / "ecostress" / "concrete.spectrum.txt",
     ROOT / "tests" / "fixtures" / "spdx" / "tile.spdx",
     ROOT / "tests" / "fixtures" / "asd" / "tile.asd",
+    ROOT / "tests" / "fixtures" / "svc" / "tile.sig",
     ROOT / "tests" / "fixtures" / "spectral_exr" / "pixels.spectral.exr",
     *sorted((ROOT / "tests" / "fixtures" / "cgats").glob("*.[ts]*")),
     *sorted((ROOT / "tests" / "fixtures" / "cxf").glob("*.cxf")),

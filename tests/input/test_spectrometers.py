@@ -128,3 +128,18 @@ def test_qtx():
     assert (standard.specular, standard.instrument) == ("SCI", "di:8")
     assert (batch.specular, batch.instrument) == ("SCE", "de:8")
     assert standard.aperture == "LAV"
+
+
+def test_spectra_vista_in_percent_with_detectors_that_overlap(tmp_path):
+    path = FIXTURES / "svc" / "tile.sig"
+    (sample,) = readers.read(path)
+    nm = [400.5, 550.0, 971.5, 990.0, 1020.0]
+    assert spectrum(sample) == ("tile", nm, [0.125, 0.25, 0.375, 0.375, 0.5])
+    assert sample.device == "1234567 (HR-1024i)"
+    assert "order" in sample.altered[0]
+    assert sample.altered[1] == "Wavelengths that two detectors share were averaged: 1 of 5."
+    data = path.read_bytes()
+    head = data.split(b"data= \n")[0]
+    assert "no rows of data" in refusal(tmp_path, head + b"data= \n")
+    assert "column 'reflectance'" in refusal(tmp_path, data.replace(b"  12.50", b""))
+    assert "times white" in refusal(tmp_path, data.replace(b"25.00\n990", b"2500\n990"))
