@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ..core.arrays import Array
 from ..core.errors import DomainError
 from .request import VIRTUAL, Request
 from .sample import Sample
+
+_LARGEST = 90.0
+"""Degrees: σ goes no further."""
 
 
 def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
@@ -31,6 +35,25 @@ def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
     for i in seen:
         predicted[i] = requests[i].sample.reflectance
     return predicted, rho
+
+
+def sigma_max(request: Request) -> float | None:
+    """Largest σ, degrees, at which white facets read no less than the sample; None without one."""
+    sample, model = request.sample, request.model
+    if sample.kind == "albedo" or model == "lambert":
+        return None
+    # The reference takes seconds at first, and the closure is within 1 % of it for white facets.
+    degrees, white = _white("closure" if model == "reference" else model, sample.instrument)
+    peak = float(sample.reflectance.max())
+    too_dark = np.flatnonzero(white < peak)
+    if not too_dark.size:
+        return None
+    first = int(too_dark[0])
+    if first == 0:
+        return 0.0
+    above, below = white[first - 1], white[first]
+    share = (above - peak) / (above - below)
+    return float(degrees[first - 1] + share * (degrees[first] - degrees[first - 1]))
 
 
 def _as_printed(request: Request) -> bool:
@@ -84,3 +107,9 @@ def naming(sample: Sample) -> Iterator[None]:
     except DomainError as error:
         msg = f"{sample.source or 'Sample'}, {sample.name!r}: {error}"
         raise DomainError(msg) from error
+
+
+@lru_cache(maxsize=64)
+def _white(model: str, instrument: str) -> tuple[Array, Array]:
+    degrees = np.linspace(0, _LARGEST, 361)
+    return degrees, reading.white_reading(np.radians(degrees), model, instrument)

@@ -64,6 +64,8 @@ class Stamp:
     kept
         What the surface showed when the user chose to keep edits by hand, else an empty string.
         The predictions are then not of what is shown.
+    sigma_max
+        Largest σ, degrees, that the reading allows; None where every σ fits.
     """
 
     inputs: str
@@ -84,6 +86,7 @@ class Stamp:
     version: str = ""
     derivation: int = 1
     kept: str = ""
+    sigma_max: float | None = None
 
 
 Kind = Literal["none", "fresh", "stale", "kept", "error", "linked"]

@@ -159,6 +159,7 @@ def set_stamp(
         "delta_e_instrument": solution.delta_e_instrument,
         "delta_e_mean": solution.delta_e_mean,
         "delta_e_95": solution.delta_e_95,
+        "sigma_max": solution.sigma_max,
         "warnings": list(solution.warnings),
         "delta_e_lights": solution.delta_e_lights,
         "scene_reason": solution.scene_reason,

@@ -84,6 +84,8 @@ class Solution:
         Mean of the same for the Lambertian material with the same reading.
     warnings
         Sentences about what could not be met.
+    sigma_max
+        Largest σ, degrees, at which white facets read no less than the sample; None without one.
     delta_e_lights
         Name and mean ΔE00 of each of the scene's lights; empty without a scene.
     scene_reason
@@ -101,6 +103,7 @@ class Solution:
     delta_e_lambert: float
     shader_reason: str
     warnings: tuple[str, ...]
+    sigma_max: float | None = None
     delta_e_lights: tuple[tuple[str, float], ...] = ()
     scene_reason: str = ""
 
@@ -223,6 +226,7 @@ def _solve(
             delta_e_95=float(high[i]),
             delta_e_lambert=float(lambert[i].mean()),
             shader_reason=_ROUGH if (found := shaders[i]) is None else found.reason,
+            sigma_max=spectra.sigma_max(request),
             warnings=(
                 *request.sample.altered,
                 *judged[i],
@@ -274,6 +278,7 @@ def _solve_in_scene(
         delta_e_lambert=float(np.average(lambert.over_scene, weights=view.weights)),
         shader_reason=shader_reason,
         warnings=(*sample.altered, *judged, *(sentence for sentence in found if sentence)),
+        sigma_max=spectra.sigma_max(request),
         delta_e_lights=per_light,
         scene_reason=scene_match.explain(view, per_light),
     )

@@ -16,8 +16,11 @@ from .text import sentence
 
 _SWATCH_UNITS = 5.0
 _WHERE = ("45°/0°", "All angles", "95 % below")
+_LABELS = 0.4
+"""Share of the width that Blender gives to the names of properties."""
+_LARGEST_SIGMA = 90.0
 _BOX = 24.0
-_SWATCHES = 88.0
+_SWATCHES = 98.0
 _GAMUT = 0.05
 """ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
 
@@ -55,6 +58,7 @@ def _draw_settings(layout: Any, material: Any) -> None:
     if group.kind == "reading":
         column.prop(group, "instrument")
     column.prop(group, "sigma", slider=True)
+    _draw_sigma_range(column, material)
     if group.scene_view:
         column.prop(group, "use_scene")
     if not (group.scene_view and group.use_scene):
@@ -63,6 +67,17 @@ def _draw_settings(layout: Any, material: Any) -> None:
     column.prop(group, "model")
     if group.model == "auto":
         column.prop(group, "tolerance")
+
+
+def _draw_sigma_range(layout: Any, material: Any) -> None:
+    """Draw how far σ may go, to the scale of the slider above."""
+    found = stamp.get_stamp(material)
+    if found is None or found.sigma_max is None:
+        return
+    split = layout.split(factor=_LABELS)
+    split.label(text="")
+    text = iface_("Fits up to {degrees}°").format(degrees=f"{found.sigma_max:.1f}")
+    split.progress(text=text, factor=found.sigma_max / _LARGEST_SIGMA, type="BAR")
 
 
 def draw_state(layout: Any, context: Any, material: Any) -> None:

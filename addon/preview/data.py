@@ -16,7 +16,7 @@ from ...core.errors import MaterialError
 from .. import colorimetry, nodes, spectra, stamp, storage
 from ..request import AUTO, VIRTUAL, Request
 from ..working_space import WorkingSpace
-from .figures import LARGEST_SIGMA, LIGHT_ANGLE, STEEPEST, VISIBLE_NM
+from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
 from .shown import in_directions, under_main_light
 
@@ -171,7 +171,7 @@ def of_request(
         blender_curve=space.to_xyz(shown, light)[:, 1],
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
-        sigma_max=sigma_max(request),
+        sigma_max=spectra.sigma_max(request),
         engine=engine,
     )
 
@@ -200,31 +200,6 @@ def rgb_bars(
     return tuple(
         (start, end, float(value)) for (start, end), value in zip(spans, rgb[::-1], strict=True)
     )
-
-
-def sigma_max(request: Request) -> float | None:
-    """Largest σ, degrees, at which white facets read no less than the sample; None without one."""
-    sample, model = request.sample, request.model
-    if sample.kind == "albedo" or model == "lambert":
-        return None
-    # The reference takes seconds at first, and the closure is within 1 % of it for white facets.
-    degrees, white = _white("closure" if model == "reference" else model, sample.instrument)
-    peak = float(sample.reflectance.max())
-    too_dark = np.flatnonzero(white < peak)
-    if not too_dark.size:
-        return None
-    first = int(too_dark[0])
-    if first == 0:
-        return 0.0
-    above, below = white[first - 1], white[first]
-    share = (above - peak) / (above - below)
-    return float(degrees[first - 1] + share * (degrees[first] - degrees[first - 1]))
-
-
-@lru_cache(maxsize=64)
-def _white(model: str, instrument: str) -> tuple[Array, Array]:
-    degrees = np.linspace(0, LARGEST_SIGMA, 361)
-    return degrees, reading.white_reading(np.radians(degrees), model, instrument)
 
 
 def spectra_of(request: Request) -> tuple[Array, Array]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, colorimetry, target, working_space
+from rough_spectra.addon import assign, colorimetry, spectra, target, working_space
 from rough_spectra.addon.preview import compose, data, figures, plot, text, theme, words
 from rough_spectra.core import reading
 
@@ -243,8 +243,8 @@ def test_sigma_max_is_the_published_bound(green):
             green, kind="reading", values=np.full(green.wavelengths.size, peak), instrument="45a:0"
         )
         request = target.Request(bright, 0.1, model="two-bounce")
-        assert data.sigma_max(request) == pytest.approx(degrees, abs=0.06)
-    assert data.sigma_max(target.Request(replace(green, kind="albedo"), 0.1)) is None
+        assert spectra.sigma_max(request) == pytest.approx(degrees, abs=0.06)
+    assert spectra.sigma_max(target.Request(replace(green, kind="albedo"), 0.1)) is None
 
 
 def test_bars_cover_the_visible_range_in_order(green):

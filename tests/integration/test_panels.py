@@ -7,6 +7,8 @@ and holds every property, operator and icon name against Blender's own. The real
 at by `dev.py screenshots`.
 """
 
+import json
+import math
 import sys
 import types
 
@@ -14,6 +16,7 @@ import bpy
 import pytest
 from rough_spectra.addon import measured, panels, storage
 from rough_spectra.addon.preview import icons
+from rough_spectra.core import reading
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object
@@ -49,6 +52,10 @@ class Layout:
         kind = getattr(getattr(bpy.ops, module), function).get_rna_type()
         self.page.append(name if text is None else f"{name}: {text}")
         return types.SimpleNamespace(**dict.fromkeys(kind.properties.keys()))
+
+    def progress(self, *, text="", factor=0.0, type="RING"):
+        assert 0 <= factor <= 1
+        self.page.append(text)
 
     def template_icon(self, icon_value, scale=1.0):
         assert scale >= 1
@@ -169,6 +176,17 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     assert f"45°/0°: ΔE00 {at_instrument:.2f}, visible" in drawn()
     OPS.renew("EXEC_DEFAULT")
     assert "45°/0°: ΔE00 0.00, not visible" in drawn()
+
+
+def test_the_range_of_sigma_stands_below_the_slider(green):
+    assert not any("Fits up to" in line for line in drawn())
+    OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/19-white-9-5", sigma=0.2)
+    group = green.rough_spectra
+    group.kind, group.model = "reading", "two-bounce"
+    spectrum = json.loads(group.spectrum)
+    limit = math.degrees(reading.sigma_max(max(spectrum["values"])))  # the closed form
+    page = drawn()
+    assert page[page.index("sigma") + 2] == f"Fits up to {limit:.1f}°"
 
 
 def test_another_engine_is_named_as_what_limits(green):
