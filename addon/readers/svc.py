@@ -61,7 +61,7 @@ def read(document: Document) -> list[Sample]:
     percent = np.add.reduceat(block.values[order, 1], first) / count
     if nm.size < order.size:
         altered += (
-            f"Wavelengths that two detectors share were averaged: {np.sum(count > 1)} of {nm.size}.",
+            f"Bands that two detectors share were averaged: {np.sum(count > 1)} of {nm.size}.",
         )
     wavelengths, values = check_spectrum(
         nm,

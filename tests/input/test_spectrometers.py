@@ -137,7 +137,7 @@ def test_spectra_vista_in_percent_with_detectors_that_overlap(tmp_path):
     assert spectrum(sample) == ("tile", nm, [0.125, 0.25, 0.375, 0.375, 0.5])
     assert sample.device == "1234567 (HR-1024i)"
     assert "order" in sample.altered[0]
-    assert sample.altered[1] == "Wavelengths that two detectors share were averaged: 1 of 5."
+    assert sample.altered[1] == "Bands that two detectors share were averaged: 1 of 5."
     data = path.read_bytes()
     head = data.split(b"data= \n")[0]
     assert "no rows of data" in refusal(tmp_path, head + b"data= \n")
