@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rough_spectra.addon.readings import Readings
+    from rough_spectra.addon.readings_document import Readings
 
 SIGMAS = (0, 15, 30, 45)
 """Degrees."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..readings import Readings
+    from ..readings_document import Readings
 
 SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
 DESCRIPTION = (
@@ -72,7 +72,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0."""
-    from .. import outputs, readings, selection, writers
+    from .. import outputs, readings, readings_document, selection, writers
 
     outputs.check_base(options.output)
     result = measure(options, not options.predicted_only)
@@ -83,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
         part = replace(result, shard=index, shards=count, whole=whole)
         target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
         with outputs.publication() as files:
-            files.write(target, readings.to_json(part))
+            files.write(target, readings_document.to_json(part))
         written = [target]
     else:
         written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))

@@ -26,9 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Join and write; exit status 0."""
-    from .. import readings, writers
+    from .. import readings_document, writers
 
-    result = readings.merge(readings.from_json(path) for path in options.parts)
+    result = readings_document.merge(readings_document.from_json(path) for path in options.parts)
     written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
     names = ", ".join(path.name for path in written)
     print(f"{len(result.entries)} readings; wrote {names}", file=sys.stderr)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from .. import outputs
-from ..readings import Readings, to_json
+from ..readings_document import Readings, to_json
 from . import cgats, images, tables
 
 FORMATS = ("csv", "cgats", "exr")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..readings import INSTRUMENT, Readings
+from ..readings_document import INSTRUMENT, Readings
 from ..version import version
 from .tables import nanometers
 

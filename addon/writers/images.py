@@ -18,7 +18,7 @@ import numpy as np
 from ...core.arrays import Array
 from ...core.errors import OutputError
 from ..openimageio import openimageio
-from ..readings import Reading, Readings
+from ..readings_document import Reading, Readings
 from ..version import version
 
 SWATCH = 16

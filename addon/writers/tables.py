@@ -8,7 +8,7 @@ import csv
 import io
 from collections.abc import Sequence
 
-from ..readings import APERTURE, INSTRUMENT, Measured, Predicted, Readings
+from ..readings_document import APERTURE, INSTRUMENT, Measured, Predicted, Readings
 from ..version import version
 
 
