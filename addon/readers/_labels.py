@@ -19,7 +19,7 @@ NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0}
 _BAND = re.compile(
     # What stands before: R400, %R400, nm400, SPECTRAL_NM_400, X400 (as R names columns), R[400].
     r"%?\s*(?:r|refl(?:ectance)?|spec(?:tral)?(?:[ _]?nm)?|nm|wl|w|wavelength|λ|x)?\s*%?"
-    r"[ _.\[(-]{0,2}(\d{1,5}(?:[.,]\d{1,9})?)"
+    r"[ _.\[(-]{0,2}(\d{1,5}(?:[.,]\d{1,17})?)"
     r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
     re.IGNORECASE,
 )
