@@ -24,6 +24,15 @@ def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple
         yield entry.id, entry.name
 
 
+def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
+    """List those of the library alone, which can be renamed and removed."""
+    from .. import library
+
+    for entry in library.search(text, library.user_folder()):
+        if not entry.is_preset:
+            yield entry.id, entry.name
+
+
 class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
     """Make the material read like a sample of the library or a preset, and store its spectrum"""
 
@@ -73,16 +82,22 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     sample: StringProperty(
-        name="Sample", description="Collection and name of the sample", options={"HIDDEN"}
+        name="Sample",
+        description="Collection and name of the sample",
+        search=own_samples,
+        options={"SKIP_SAVE"},
     )
-    new_name: StringProperty(name="Name", description="What it is to be called")
+    new_name: StringProperty(
+        name="Name", description="What it is to be called", options={"SKIP_SAVE"}
+    )
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
-        """Ask for the name, beginning with the present one."""
+        """Ask for the name, beginning with the present one, and for the sample if none is given."""
         from .. import library
 
         try:
-            self.new_name = library.load(self.sample, library.user_folder()).name
+            if self.sample:
+                self.new_name = library.load(self.sample, library.user_folder()).name
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -109,11 +124,18 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     sample: StringProperty(
-        name="Sample", description="Collection and name of the sample", options={"SKIP_SAVE"}
+        name="Sample",
+        description="Collection and name of the sample",
+        search=own_samples,
+        options={"SKIP_SAVE"},
     )
 
     def invoke(self, context: Any, event: Any) -> set[str]:
-        """Ask first, since there is no undo for files."""
+        """Ask first, since there is no undo for files; ask which if none is given."""
+        if not self.sample:
+            return context.window_manager.invoke_props_dialog(
+                self, title=rpt_("Remove from the library? This cannot be undone"), width=400
+            )
         return context.window_manager.invoke_confirm(
             self,
             event,

@@ -89,7 +89,7 @@ def draw_state(layout: Any, context: Any, material: Any) -> None:
     column = box.column(align=True)
     column.alert = state.kind in ("stale", "error")
     icon = "INFO" if state.kind in ("kept", "linked") else "ERROR"
-    for reason in state.reasons:
+    for reason in map(tip_, state.reasons):
         text = reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
         sentence(column, context, text, icon, _BOX)
         icon = "BLANK1"

@@ -21,7 +21,7 @@ _ACTIONS = (
     ("choose_sample", "find_nearest", "assign_file", "import_samples"),
     ("analyze_scene", "renew", "keep"),
     ("measure", "bake"),
-    ("build_assets", "open_library"),
+    ("build_assets", "rename_sample", "remove_sample", "open_library"),
 )
 
 

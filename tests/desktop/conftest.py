@@ -16,7 +16,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("ROUGH_SPECTRA_BLENDER", "")
-SECONDS = 400
+SECONDS = 1200
 
 
 def pytest_collection_modifyitems(items):

@@ -14,6 +14,9 @@ SEARCHED = ("measure with virtual", "choose sample", "analyze scene", "renew", "
 def searching(found):
     """Search for operators by name in each editor."""
     yield from green_file("ShaderNodeTree")
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.scene.collection.objects.link(camera)
+    bpy.context.scene.camera = camera  # without one there is nothing to analyze
     yield from move(*middle(area("NODE_EDITOR")))
     for words in SEARCHED:
         before = len(bpy.context.window_manager.operators)
@@ -79,6 +82,9 @@ def preferences(found):
     with over(area("PROPERTIES")):
         OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
     group = wall().rough_spectra
+    chosen.library_folder = bpy.app.tempdir
+    found["library"] = ours("addon.library").user_folder().samefile(bpy.app.tempdir)
+    chosen.library_folder = ""
     found["new"] = [group.illuminant, group.observer, round(group.tolerance, 3)]
     bpy.ops.wm.save_userpref()
     chosen.illuminant, chosen.observer, chosen.tolerance = "D65", "2", 1.0

@@ -81,7 +81,7 @@ def test_sidebar_and_menus(scene):
 
 
 def test_preferences(scene):
-    assert scene == {"new": ["A", "10", 0.5], "saved": ["A", "10", 0.5]}
+    assert scene == {"new": ["A", "10", 0.5], "saved": ["A", "10", 0.5], "library": True}
 
 
 def test_another_language(scene):
