@@ -22,7 +22,7 @@ from ..core.errors import InputError
 from . import colorimetry, judgement, library_files, presets, readers, swatches
 from .library_files import Added, add, add_all, remove, rename
 from .readers import library as library_reader
-from .readers._document import open_document
+from .readers import open_document
 from .sample import Sample
 
 __all__ = [

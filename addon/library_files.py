@@ -19,8 +19,7 @@ from typing import Any
 from ..core.errors import InputError
 from . import outputs
 from .file_lock import locked
-from .readers import library
-from .readers._document import Document, open_document
+from .readers import Document, library, open_document
 from .sample import Sample
 
 _LONGEST = 80  # characters of a collection's name or an id: file names end at 255 bytes

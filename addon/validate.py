@@ -9,8 +9,7 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from . import judgement
-from .readers import _preset_fields, preset
-from .readers._document import open_document
+from .readers import _preset_fields, open_document, preset
 
 COVERED_NM = (400.0, 700.0)
 """What the spectrum of a preset has to cover: without it the color is a guess."""

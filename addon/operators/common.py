@@ -164,6 +164,31 @@ def assign_in_scope(
     return [(material, solutions[0])]
 
 
+def assign_from_library(
+    operator: Any, context: Any, name: str
+) -> tuple[Sample, list[tuple[Any, Solution]]]:
+    """Assign a sample of library or presets by an operator's `AssignOptions`.
+
+    σ is the sample's unless the caller of the operator gave one.
+
+    Returns
+    -------
+    The sample, and what `assign_in_scope` gave.
+
+    Raises
+    ------
+    RoughSpectraError
+        If there is no such sample, or it cannot be assigned; nothing was changed then.
+    """
+    from .. import library
+
+    sample = library.load(name, library.user_folder())
+    if not operator.properties.is_property_set("sigma"):
+        operator.sigma = radians(sample.sigma_degrees or 0.0)
+    request = new_request(sample, operator.sigma)
+    return sample, assign_in_scope(context, operator.scope, request, operator.shader)
+
+
 def can_have_material(operator: Any, context: Any) -> bool:
     """Poll for operators that assign to the active material."""
     thing = active_object(context)

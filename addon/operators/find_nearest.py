@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from math import radians
 from typing import Any
 
 import bpy
@@ -139,8 +138,6 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Assign the match to all materials in scope, or to none."""
-        from .. import library
-
         if not self.matches:
             _find(self)
         try:
@@ -148,11 +145,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
                 msg = f"There are only {len(self.matches)} matches; choose one of them."
                 raise RoughSpectraError(msg)
             match = self.matches[self.index]
-            sample = library.load(match.sample, library.user_folder())
-            if not self.properties.is_property_set("sigma"):
-                self.sigma = radians(sample.sigma_degrees or 0.0)
-            request = common.new_request(sample, self.sigma)
-            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+            sample, assigned = common.assign_from_library(self, context, match.sample)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import radians
 from typing import Any
 
 import bpy
@@ -59,14 +58,8 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none; σ is the sample's unless it is given."""
-        from .. import library
-
         try:
-            sample = library.load(self.sample, library.user_folder())
-            if not self.properties.is_property_set("sigma"):
-                self.sigma = radians(sample.sigma_degrees or 0.0)
-            request = common.new_request(sample, self.sigma)
-            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+            sample, assigned = common.assign_from_library(self, context, self.sample)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -25,7 +25,7 @@ from ...core.errors import InputError
 from ..sample import Sample
 from ._document import Document, open_document
 
-__all__ = ["Document", "Reader", "formats", "read", "readers"]
+__all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
 
 
 class Reader(Protocol):
