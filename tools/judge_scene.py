@@ -25,7 +25,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 SEED = 4711
-PATCHES = 24
 
 
 def dress(materials: list[Any], illuminant: str = "D65") -> None:
