@@ -8,8 +8,7 @@ batch does the same on every machine.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, StringProperty
@@ -20,8 +19,7 @@ PACKAGE = (__package__ or "").rpartition(".")[0]
 """What Blender calls the extension."""
 
 
-@dataclass(frozen=True)
-class Defaults:
+class Defaults(NamedTuple):
     """What a new material begins with.
 
     Parameters

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import bpy
 
 from . import command_line, live, panels, preferences, properties
@@ -54,10 +56,10 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
-    # Nothing at register needs it, and importing takes time.
-    from .preview import icons
-
-    icons.clear()
+    # Imported only once a picture was asked for.
+    icons = sys.modules.get(f"{__package__}.preview.icons")
+    if icons is not None:
+        icons.clear()
     command_line.unregister()
     live.unregister()
     panels.unregister_menus()

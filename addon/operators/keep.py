@@ -10,7 +10,6 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.errors import RoughSpectraError
-from .. import stamp
 from . import common
 
 
@@ -24,6 +23,8 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material that is not up to date."""
+        from .. import stamp
+
         material = common.active_material(context)
         if material is None or not stamp.has_spectrum(material):
             cls.poll_message_set("The material has no measured spectrum; assign one first")

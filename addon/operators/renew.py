@@ -11,7 +11,6 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty
 
 from ...core.errors import RoughSpectraError
-from .. import stamp
 from . import common
 
 _NAMED = 3
@@ -43,7 +42,7 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need a material with a spectrum."""
-        if any(stamp.has_spectrum(material) for material in bpy.data.materials):
+        if any(material.rough_spectra.spectrum for material in bpy.data.materials):
             return True
         cls.poll_message_set("No material has a measured spectrum; assign one first")
         return False
@@ -70,6 +69,8 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         return {"FINISHED"} if materials else {"CANCELLED"}
 
     def _materials(self, context: Any) -> list[Any]:
+        from .. import stamp
+
         if self.scope == "ALL_STALE":
             states = ((m, stamp.state(m)) for m in bpy.data.materials)
             found = [m for m, state in states if state.kind in {"stale", "error"}]
@@ -83,6 +84,8 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
 
     def _without_edited(self, materials: list[Any]) -> tuple[list[Any], list[str]]:
         """Leave out what was edited by hand, and say so."""
+        from .. import stamp
+
         edited = [] if self.overwrite_edits else [m for m in materials if stamp.edited_by_hand(m)]
         if not edited:
             return materials, []

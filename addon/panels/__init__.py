@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor."""
+"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor.
+
+What draws is imported when it draws: most sessions of Blender never show these panels.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from typing import Any
 import bpy
 
 from ..operators import common
-from . import material, menus, scene, source
+from . import menus
 
 _ENGINES = {"CYCLES", "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
@@ -56,6 +59,8 @@ class _Main:
 
     def draw(self, context: Any) -> None:
         """Draw the sample and the settings."""
+        from . import material
+
         material.draw_sample(_prepared(self), context)
 
 
@@ -66,7 +71,8 @@ class _Part:
     def poll(cls, context: Any) -> bool:
         """Show where the material stores a spectrum."""
         here = cls.is_here(context)  # type: ignore[attr-defined]
-        return here and material.stored_material(context) is not None
+        shown = common.active_material(context)
+        return here and shown is not None and bool(shown.rough_spectra.spectrum)
 
 
 class _Difference(_Part):
@@ -76,8 +82,10 @@ class _Difference(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw swatches, numbers and words."""
+        from . import material
+
         layout = _prepared(self)
-        material.draw_difference(layout, context, material.stored_material(context))
+        material.draw_difference(layout, context, common.active_material(context))
 
 
 class _Plots(_Part):
@@ -87,7 +95,9 @@ class _Plots(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw the plots."""
-        material.draw_plots(self.layout, context, material.stored_material(context))  # type: ignore[attr-defined]
+        from . import material
+
+        material.draw_plots(self.layout, context, common.active_material(context))  # type: ignore[attr-defined]
 
 
 class _Measurement:
@@ -103,6 +113,8 @@ class _Measurement:
 
     def draw(self, context: Any) -> None:
         """Draw the buttons and the last measurement."""
+        from . import material
+
         material.draw_measurement(_prepared(self), context)
 
 
@@ -113,7 +125,9 @@ class _Scene(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw the lights found."""
-        scene.draw_scene(_prepared(self), context, material.stored_material(context))
+        from . import scene
+
+        scene.draw_scene(_prepared(self), context, common.active_material(context))
 
 
 class _Source(_Part):
@@ -124,7 +138,9 @@ class _Source(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw file, instrument and notes."""
-        source.draw_source(_prepared(self), context, material.stored_material(context))
+        from . import source
+
+        source.draw_source(_prepared(self), context, common.active_material(context))
 
 
 def _prepared(panel: Any) -> Any:

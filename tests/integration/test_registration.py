@@ -16,22 +16,25 @@ def test_register_brings_no_heavy_module_and_is_quick(blender):
         before = set(sys.modules)
         times = []
         for turn in range(2):
-            start = time.perf_counter()
+            start = time.process_time()
             extension.register()
-            times.append(1000 * (time.perf_counter() - start))
+            times.append(1000 * (time.process_time() - start))
             if turn == 0:
                 added = sorted(set(sys.modules) - before)
             extension.unregister()
         print(json.dumps({"added": added, "first": times[0], "again": times[1]}))
     """)
     tops = {name.partition(".")[0] for name in found["added"]}
-    for heavy in ("colour", "scipy", "matplotlib", "pandas", "OpenImageIO"):
+    for heavy in ("numpy", "colour", "scipy", "matplotlib", "pandas", "OpenImageIO"):
         assert heavy not in tops
     parts = {name.removeprefix("rough_spectra.") for name in found["added"]}
     computing = {"core.cycles", "core.reading", "core.oren_nayar", "addon.colorimetry"}
     assert not computing & parts
+    drawing = {"addon.panels.material", "addon.preview.icons", "addon.preview.theme"}
+    assert not drawing & parts
     print(f"register: {found['first']:.1f} ms with imports, {found['again']:.1f} ms again")
-    # Seen: 10 to 20 ms on an idle machine. This only catches a heavy import.
+    # Processor time, which includes compiling every module: the child keeps no bytecode. With it,
+    # as in Blender, a third of this. Numpy alone would take as much again.
     assert found["first"] < 100
 
 
