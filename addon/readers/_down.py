@@ -125,6 +125,8 @@ def _refuse_others(document: Document, names: list[str]) -> None:
     if any(name and not _NEUTRAL.fullmatch(name) for name in names):
         return
     other = _series.other_quantity_of_name(document.path.stem)
+    if _ILLUMINANT.fullmatch(document.path.stem):
+        other = "emission"
     if other:
         what = OTHER_QUANTITIES.get(other, other)
         raise document.error(
@@ -160,7 +162,8 @@ def _columns(
         raise document.not_reflectance(
             f"column {quote(labels[column])}", others[column] or "of another kind"
         )
-    return found, [labels[i] for i in rest if i not in found and (header[i] or others[i])]
+    left = sorted(set(rest) - set(found))
+    return found, [labels[i] for i in left if header[i] or others[i]]
 
 
 def _rows_above_numbers(

@@ -330,6 +330,10 @@ def test_the_file_name_counts_where_nothing_else_says_what_the_values_are(tmp_pa
     path.write_text("400,0.5\n410,0.5\n420,0.5\n")
     with pytest.raises(InputError, match=r"by it they are transmittance.*call their column"):
         readers.read(path)
+    lamp = tmp_path / "CIE-D65.csv"
+    lamp.write_text("400,82.75\n410,91.49\n420,93.43\n")
+    with pytest.raises(InputError, match="by it they are emission"):
+        readers.read(lamp)
     path.write_text("nm,reflectance\n400,0.5\n410,0.5\n")
     assert readers.read(path)[0].values.tolist() == [0.5, 0.5]
     plastic = tmp_path / "ABS.csv"
