@@ -121,8 +121,8 @@ def memory_allowed(size: int, samples: int) -> int:
 
 
 def _faults_of_message(path: Path, message: str) -> Iterator[str]:
-    # A file that belongs to this one is named itself; it stands in the same folder.
-    if not message.startswith(str(path)) and not message.startswith(f"{path.parent}/"):
+    # A file that belongs to this one is named itself; it stands in the same folder or above.
+    if not message.startswith((str(path), f"{path.parent}/", f"{path.parent.parent}/")):
         yield f"message: it does not begin with the file's name: {message!r}"
     if not message.isprintable():
         yield f"message: it is not one printable line: {message!r}"
@@ -152,7 +152,9 @@ class Strayed(BaseException):
 
 @contextmanager
 def confined(folder: Path) -> Iterator[None]:
-    """Let nothing be opened but files of one folder for reading; no network, no processes.
+    """Let nothing be opened but files of a folder and of the one above; no network, no processes.
+
+    The latter is where a library keeps what its chapters share.
 
     Python's own audit events tell: they also see what C code of the standard library does. Modules
     that are imported on the way may be read.
@@ -183,13 +185,13 @@ def _audit(event: str, arguments: tuple[Any, ...]) -> None:
         if isinstance(path, int) or str(path).endswith(_CODE):
             return
         file = Path(str(path)).resolve()
-        if file.parent != _allowed or set(mode) & set("wxa+"):
+        if file.parent not in (_allowed, _allowed.parent) or set(mode) & set("wxa+"):
             raise Strayed(f"opened {path!r} with {mode!r}")
     elif event in ("os.listdir", "os.scandir"):
         # Imports list the folders of sys.path.
         if "importlib" not in str(sys._getframe(1).f_code.co_filename):
             where = Path(str(arguments[0] or ".")).resolve()
-            if where != _allowed:
+            if where not in (_allowed, _allowed.parent):
                 raise Strayed(f"listed {where}")
     elif event.startswith(_REFUSED) and event not in _LOOKS:
         raise Strayed(f"{event} {arguments!r}")

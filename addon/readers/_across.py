@@ -54,13 +54,13 @@ def read(
     keyed = [i for i in others if i != name and _statements.field_of(header[i])]
     color, light = _statements.color_columns(header)
     if name is None:
-        name = next((i for i in others if i not in keyed and i not in color), None)
+        name = min(set(others) - {*keyed, *color}, default=None)
     first = "" if 0 in bands or _statements.field_of(header[0]) else header[0]
     other = _series.other_quantity(first)
     if other:
         raise document.not_reflectance(f"line {line}, column {quote(header[0])}", other)
     texts = [*([] if name is None else [name]), *keyed, *color]
-    unread = [header[i] for i in others if header[i] and i not in texts]
+    unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]
     block = _table.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
     _table.check_count(document, len(block.lines))
     nm = np.array([_labels.band(header[i]) for i in bands], dtype=np.float64)

@@ -19,6 +19,8 @@ from ._document import Document, quote
 SPACES = " "
 # In the order in which they are preferred: a comma may be a decimal comma, a space part of a name.
 DELIMITERS = {"\t": "tabs", ";": "semicolons", ",": "commas", SPACES: "spaces"}
+_MOST_COLUMNS = 65536  # no spectrometer has so many bands, and no table so many samples
+_NARROW, _MOST_NARROW = 24, 10_000  # bytes a column, and how many columns may have fewer
 _SHORT, _MOST_SHORT = 50, 50_000  # bytes a sample, and how many samples may have fewer
 _AT_ONCE = 2**13  # characters that are split into lines
 EXPECTED = "commas, semicolons, tabs or spaces between the columns"
@@ -192,6 +194,22 @@ def numbers(
         # Copied out of the array, whose memory must not move while numpy looks at it.
         block.values = np.array(flat, dtype=np.float64).reshape(-1, len(columns))
     return block
+
+
+def check_columns(document: Document, line: int, columns: int) -> None:
+    """Refuse a line of very many columns that hardly have rows: each takes 150 bytes of memory.
+
+    Raises
+    ------
+    InputError
+        There are more than 65,536, or more than 10,000 of fewer than 24 bytes each.
+    """
+    most = _MOST_COLUMNS if len(document.data) >= _NARROW * columns else _MOST_NARROW
+    if columns > most:
+        raise document.error(
+            f"line {line}",
+            f"it has {columns} columns, more than the {most} that are read; split it",
+        )
 
 
 def check_count(document: Document, samples: int) -> None:

@@ -23,7 +23,6 @@ NAME = "table with wavelengths (CSV, TSV, semicolons or spaces)"
 PRIORITY = 0
 
 _PEEK = 20  # rows from which the layout follows
-_MOST_COLUMNS = 65536  # no spectrometer has so many bands, and no table so many samples
 _NUMBER = re.compile(r"\d+(?:[.,]\d*)?")
 
 
@@ -68,11 +67,7 @@ def read(document: Document) -> list[Sample]:
     header = [label.strip() for label in top[0].fields]
     while len(header) > 1 and not header[-1]:
         header.pop()  # a delimiter at the end of each line
-    if len(header) > _MOST_COLUMNS:
-        raise document.error(
-            f"line {top[0].line}",
-            f"it has {len(header)} columns, more than the {_MOST_COLUMNS} that are read; split it",
-        )
+    _table.check_columns(document, top[0].line, len(header))
     if _is_across(document, header, top, comma):
         next(table)
         if len(top) > 1 and _labels.band(header[0]) and len(top[1].fields) == len(header) + 1:
