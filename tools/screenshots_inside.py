@@ -57,10 +57,12 @@ def _begin(waiting: list[str]) -> None:
     bpy.app.timers.register(lambda: _set(waiting), first_interval=0.5)
 
 
-def _set(waiting: list[str]) -> None:
+def _set(waiting: list[str]) -> float | None:
+    if bpy.app.is_job_running("RENDER_PREVIEW"):
+        return 0.2  # what Blender renders a preview of must not be changed: it may wait forever
     if not waiting:
         bpy.ops.wm.quit_blender()
-        return
+        return None
     name = waiting.pop(0)
     picture = screenshots_states.PICTURES[name]
     try:
@@ -68,9 +70,10 @@ def _set(waiting: list[str]) -> None:
             picture.show()
     except Exception:
         _give_up()
-        return
+        return None
     last = time.monotonic() + MOST_SECONDS
     bpy.app.timers.register(lambda: _wait(name, last, waiting))
+    return None
 
 
 def _give_up() -> None:

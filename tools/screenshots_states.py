@@ -209,9 +209,10 @@ def reading() -> None:
 @picture("panel")
 def infeasible() -> None:
     """Show a reading that is brighter than white facets of this roughness would give."""
-    _fresh()
+    thing = _fresh()
     path = _write("chalk.csv", "wavelength,Chalk\n" + "\n".join(f"{nm},0.94" for nm in BANDS))
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(65))
+    thing.active_material.rough_spectra.model = "two-bounce"
 
 
 @picture("panel")

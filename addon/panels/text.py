@@ -12,7 +12,7 @@ import blf
 from ..preview import theme
 
 _FONT = 0  # the interface's
-_MARGINS = 78.0  # icon, panel and scroll bar, pixels at UI scale 1
+_MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
 _LEAST = 80.0
 
 
