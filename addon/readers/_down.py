@@ -37,6 +37,7 @@ _TOGETHER = {
     frozenset("lms"): "sensitivities of the eye",
     frozenset("nk"): "refractive indices of a material",
 }
+_PRIMARIES = {"red", "green", "blue"}  # three samples, or what a camera sees
 _MARKS = re.compile(r"[^a-z]|bar|lambda|cie|_?\d+", re.IGNORECASE)
 # Not A and C alone, nor F2: samples are called so.
 _ILLUMINANT = re.compile(
@@ -80,6 +81,8 @@ def read(
     values = block.values[:, 1:].T
     if len(columns) == 3 and _shapes.are_of_the_eye(nm, values):
         raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
+    if {header[i].lower() for i in columns} == _PRIMARIES and _shapes.all_vanish(values):
+        raise document.not_reflectance("", _TOGETHER[frozenset("rgb")])
     samples = []
     for i, column in enumerate(columns):
         label = header[column]

@@ -354,6 +354,18 @@ def test_functions_of_the_eye_are_known_by_their_shape(tmp_path, observer):
     assert len(names) > 1
 
 
+def test_what_a_camera_sees_comes_to_nothing_and_samples_of_its_colors_do_not(tmp_path):
+    nm = np.arange(400, 710, 10.0)
+    lobes = np.exp(-0.5 * ((nm[:, None] - [610, 540, 460]) / 30.0) ** 2)
+    for floor in (0.0, 0.02):
+        rows = [f"{w},{','.join(map(str, row + floor))}" for w, row in zip(nm, lobes, strict=True)]
+        text = "\n".join(["wavelength,red,green,blue", *rows])
+        if floor:
+            assert [s.name for s in read(tmp_path, text)] == ["red", "green", "blue"]
+        else:
+            assert "sensitivities of a camera" in refusal(tmp_path, text)
+
+
 def test_three_vivid_surfaces_are_not_taken_for_the_eye(tmp_path):
     nm = np.arange(400, 710, 10.0)
     bumps = 0.04 + np.exp(-0.5 * ((nm[:, None] - [450, 540, 610]) / 40.0) ** 2)
