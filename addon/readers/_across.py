@@ -75,10 +75,10 @@ def read(
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
         own = {**fields, **light} if color else dict(fields)
-        first = 0 if name is None else 1
-        for key, text in zip(keyed, cells[first:], strict=False):
+        named = 0 if name is None else 1
+        for key, text in zip(keyed, cells[named:], strict=False):
             own.update(_statements.stated(header[key], text))
-        lab = _lab(document, row, header, color, cells[first + len(keyed) :])
+        lab = _lab(document, row, header, color, cells[named + len(keyed) :])
         if lab:
             own["lab"] = lab
         found = _series.bands(
