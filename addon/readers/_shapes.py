@@ -16,7 +16,7 @@ _LEAST_BANDS = 12
 # How far from a mixture, of the largest value. The formula below is the 2° observer's; those of 10°
 # and the cones of 2006 differ from it by up to 0.2. Of 4,300 measured surfaces none comes to 0.23.
 _NEAR = 0.2
-_NOTHING = 0.01  # of the largest value
+_LITTLE, _NOTHING = 0.03, 0.001  # of the largest value
 
 # Amplitude, peak in nm, and widths to the left and the right of it in nm. C. Wyman, P.-P. Sloan and
 # P. Shirley, "Simple analytic approximations to the CIE XYZ color matching functions", Journal of
@@ -50,9 +50,9 @@ def are_of_the_eye(nm: NDArray[np.float64], values: NDArray[np.float64]) -> bool
 
 
 def all_vanish(values: NDArray[np.float64]) -> bool:
-    """Return whether each spectrum comes to nothing somewhere, as sensitivities do.
+    """Return whether the spectra come close to nothing somewhere, and one to nothing at all.
 
-    Not so surfaces: their boundary alone reflects some percent, at all wavelengths.
+    So do sensitivities. Surfaces do not: their boundary reflects some percent at all wavelengths.
 
     Parameters
     ----------
@@ -60,7 +60,8 @@ def all_vanish(values: NDArray[np.float64]) -> bool:
         Shape ``(spectra, bands)``; NaN counts as nothing.
     """
     values = np.nan_to_num(values)
-    return bool((values.min(axis=1) < _NOTHING * values.max(axis=1)).all())
+    least = values.min(axis=1) / np.maximum(values.max(axis=1), 1e-12)
+    return bool((least < _LITTLE).all() and (least < _NOTHING).any())
 
 
 def _lobe(
