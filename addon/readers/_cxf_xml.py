@@ -8,6 +8,7 @@ without their namespace, whose prefix every writer chooses differently.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 _WHOLE = ("Object", "ColorSpecification")
 _PIECE = 2**16  # bytes that are parsed at a time
+_LONG_TAG = re.compile(rb"<[^<>!?][^<>]{65536}")  # its attributes would take a lot of memory
 _BYTES_AN_ELEMENT = 8
 """The shortest in use is ``<L>5</L>``. An element takes 90 bytes of memory."""
 _DEEPEST = 50  # levels; the standard's own elements reach about ten
@@ -35,6 +37,8 @@ def parts(document: Document) -> Iterator[Element]:
     from defusedxml import DefusedXmlException
     from defusedxml.ElementTree import DefusedXMLParser, ParseError
 
+    if _LONG_TAG.search(document.data):
+        raise document.error("", "one of its XML tags is longer than 64 kB; export it again")
     ends = document.data.count(b"</") + document.data.count(b"<\0/")  # also in UTF-16
     elements = document.data.count(b"<") - ends
     if elements > 8 + len(document.data) // _BYTES_AN_ELEMENT:
