@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -99,6 +99,7 @@ def make_light(name: str, words: str, spd: Array, share: float) -> SceneLight:
     return SceneLight(name, words, rounded, round(share, 6))
 
 
+@lru_cache(maxsize=64)
 def from_json(text: str) -> SceneView:
     """Read back what `SceneView.to_json` gave.
 

@@ -1,0 +1,176 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure what the panel costs: first use, drawing among 500 materials, and dragging σ.
+
+    python tools/bench_panel.py
+
+Needs the bpy module. Processor time, which other programs disturb less than wall time; the least
+and the median of many runs. Drawing goes onto a layout that does nothing, so that what is measured
+is ours and not Blender's.
+"""
+
+from __future__ import annotations
+
+import importlib
+import statistics
+import sys
+import time
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+MATERIALS = 500
+DRAWS = 200
+STEPS = 40
+MODELS = ("auto", "lambert", "first-order", "two-bounce", "closure", "reference")
+FIGURES = (("sheet", 280), ("swatches", 96))
+PRESET = "colorchecker/14-green"
+
+
+class Nothing:
+    """A layout that draws nothing, and whose parts are itself."""
+
+    def __getattr__(self, _name: str) -> Callable[..., Nothing]:
+        return lambda *_values, **_options: self
+
+
+def main() -> None:
+    """Print a table."""
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    extension = importlib.import_module("run_command_line").load_extension()
+    import bpy
+
+    print(f"Blender {bpy.app.version_string}; milliseconds of processor time: least (median)")
+    row("register", [timed(extension.register)])
+    thing = lit_plane()
+    first = timed(lambda: assign(thing, "first"))
+    row("first assignment", [first])
+    material = thing.active_material
+    row("first pictures", [timed(lambda: pictures(material, 1))])
+    drawing(thing)
+    for model in MODELS:
+        dragging(material, model)
+    print(bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT"), "to the scene's lights")
+    for model in MODELS:
+        dragging(material, model)
+    icons = importlib.import_module("rough_spectra.addon.preview.icons")
+    icons.clear()
+    extension.unregister()
+
+
+def assign(thing: Any, name: str) -> Any:
+    """Give an object a new material with a spectrum."""
+    import bpy
+
+    material = bpy.data.materials.new(name)
+    thing.active_material = material
+    bpy.ops.rough_spectra.assign_preset("EXEC_DEFAULT", preset=PRESET, sigma=0.5)
+    return material
+
+
+def lit_plane() -> Any:
+    """Make a scene of a plane, two lights of different color, and a camera."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    mesh = bpy.data.meshes.new("Wall")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.materials.append(None)
+    thing = bpy.data.objects.new("Wall", mesh)
+    scene.collection.objects.link(thing)
+    for kind, place, energy, kelvin in (
+        ("AREA", (1.5, -1.0, 2.0), 150.0, 2856.0),
+        ("SUN", (-2.0, 2.0, 3.0), 1.0, 6500.0),
+    ):
+        light = bpy.data.lights.new(kind, kind)
+        light.energy, light.use_temperature, light.temperature = energy, True, kelvin
+        lamp = bpy.data.objects.new(kind, light)
+        lamp.location = place
+        scene.collection.objects.link(lamp)
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location = (0.0, 0.0, 6.0)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    thing.select_set(True)
+    bpy.context.view_layer.objects.active = thing
+    bpy.context.view_layer.update()
+    return thing
+
+
+def drawing(thing: Any) -> None:
+    """Draw all panels of the Material tab, of one material after the other."""
+    import bpy
+    from rough_spectra.addon import assign as assigning
+    from rough_spectra.addon import panels, storage
+
+    request = storage.load(thing.active_material)
+    others = [bpy.data.materials.new(f"{number}") for number in range(MATERIALS - 1)]
+    for other in others:
+        if bpy.app.version < (5, 0, 0):
+            other.use_nodes = True
+    assigning.assign([(other, request) for other in others])
+    area = types.SimpleNamespace(type="PROPERTIES")
+    region = types.SimpleNamespace(width=420)
+    names = ("scene", "view_layer", "preferences", "object", "selected_objects")
+    real = {name: getattr(bpy.context, name) for name in names}
+    tab = [cls for cls in panels.classes if cls.bl_space_type == area.type]
+    page = types.SimpleNamespace(layout=Nothing())
+    for what, shown in (
+        ("one material again and again", others[:1]),
+        ("another each time", others),
+    ):
+        times = []
+        for number in range(DRAWS):
+            material = shown[number % len(shown)]
+            context = types.SimpleNamespace(**real, material=material, region=region, area=area)
+            times.append(timed(lambda c=context: [cls.draw(page, c) for cls in tab if cls.poll(c)]))
+        row(f"draw, {what}", times[1:])
+
+
+def pictures(material: Any, scale: int) -> None:
+    """Ask for the panel's pictures, as drawing does, and make them."""
+    import bpy
+    from rough_spectra.addon.preview import icons
+
+    for figure, side in FIGURES:
+        wish = icons._Wish(material.session_uid, figure, side * scale)
+        icons._pending[wish] = icons._state(material, bpy.context)
+    icons._work()
+
+
+def dragging(material: Any, model: str) -> None:
+    """Drag σ: derive, write the sockets, make the pictures and hand them to Blender."""
+    from rough_spectra.addon.preview import icons
+
+    material.rough_spectra.model = model
+    for scale in (1, 2):
+        icons.clear()
+        pictures(material, scale)
+
+        def drag(sigma: float) -> None:
+            material.rough_spectra.sigma = sigma
+            for picture in icons._pictures.values():
+                picture.drawn = time.monotonic()
+            icons.refresh(material)
+
+        times = [timed(lambda s=0.3 + 0.5 * i / STEPS: drag(s)) for i in range(STEPS)]
+        row(f"drag σ, {model}, scale {scale}", times[1:])
+
+
+def timed(work: Callable[[], object]) -> float:
+    """Processor time in milliseconds."""
+    start = time.process_time()
+    work()
+    return 1e3 * (time.process_time() - start)
+
+
+def row(name: str, times: list[float]) -> None:
+    """Print the cost of one piece of work."""
+    print(f"{name:>36}  {min(times):8.2f}  ({statistics.median(times):.2f})", flush=True)
+
+
+if __name__ == "__main__":
+    main()
