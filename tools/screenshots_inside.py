@@ -8,6 +8,7 @@ drawn later has arrived, and the part of the window that matters is saved.
 
 from __future__ import annotations
 
+import math
 import shlex
 import subprocess
 import sys
@@ -28,6 +29,7 @@ import screenshots_states  # noqa: E402
 ZIP, OUT, SCALE, WIDTH, THEME, GRAB, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 SETTLE_SECONDS = 1.5
 MOST_SECONDS = 120.0
+PREVIEW_SECONDS = 15.0  # Eevee's take minutes on a virtual screen, and may be changed
 CONTRAST = 8  # of 255: what differs more within a row of pixels is not background
 STATUS_PIXELS = 900  # at UI scale 1
 
@@ -57,12 +59,15 @@ def _begin(waiting: list[str]) -> None:
     bpy.app.timers.register(lambda: _set(waiting), first_interval=0.5)
 
 
-def _set(waiting: list[str]) -> float | None:
-    if bpy.app.is_job_running("RENDER_PREVIEW"):
-        return 0.2  # what Blender renders a preview of must not be changed: it may wait forever
+def _set(waiting: list[str], last: float = math.inf) -> None:
+    # What Cycles renders a preview of must not be changed meanwhile: Blender may wait forever.
+    last = min(last, time.monotonic() + PREVIEW_SECONDS)
+    if bpy.app.is_job_running("RENDER_PREVIEW") and time.monotonic() < last:
+        bpy.app.timers.register(lambda: _set(waiting, last), first_interval=0.2)
+        return
     if not waiting:
         bpy.ops.wm.quit_blender()
-        return None
+        return
     name = waiting.pop(0)
     picture = screenshots_states.PICTURES[name]
     try:
@@ -70,10 +75,10 @@ def _set(waiting: list[str]) -> float | None:
             picture.show()
     except Exception:
         _give_up()
-        return None
+        return
     last = time.monotonic() + MOST_SECONDS
     bpy.app.timers.register(lambda: _wait(name, last, waiting))
-    return None
+    return
 
 
 def _give_up() -> None:

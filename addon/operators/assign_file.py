@@ -50,6 +50,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the file."""
+        common.begin_with_sigma(self, context)
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

@@ -116,6 +116,15 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Sh
     return replace(storage.load(material), sample=sample), material.rough_spectra.shader
 
 
+def begin_with_sigma(operator: Any, context: Any) -> None:
+    """Let a dialog begin with the roughness that the material has: another sample keeps it."""
+    from .. import stamp
+
+    material = active_material(context)
+    if material is not None and stamp.has_spectrum(material):
+        operator.sigma = stamp.sigma(material.rough_spectra)
+
+
 def is_material_tree(context: Any) -> bool:
     """Whether the node editor shows the nodes of a material."""
     space = context.space_data

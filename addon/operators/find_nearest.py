@@ -55,6 +55,7 @@ class ROUGHSPECTRA_UL_matches(bpy.types.UIList):
         swatch = row.row()
         swatch.ui_units_x = 1.6
         swatch.prop(item, "swatch", text="")
+        row.separator(factor=0.5)
         split = row.split(factor=0.75)
         split.label(text=f"{item.name}  ({item.sample.partition('/')[0]})", translate=False)
         split.label(text=f"ΔE00 {item.difference:.1f}", translate=False)
@@ -117,6 +118,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Show the matches while a color is picked."""
+        common.begin_with_sigma(self, context)
         with waiting(context):
             _find(self)
         return context.window_manager.invoke_props_dialog(self, width=480, confirm_text="Assign")

@@ -76,6 +76,7 @@ class ROUGHSPECTRA_UL_import(bpy.types.UIList):
             swatch.prop(item, "swatch", text="")
         else:
             swatch.label(text="", icon="BLANK1")
+        row.separator(factor=0.5)
         split = row.split(factor=0.45)
         split.label(text=item.name, translate=False)
         detail = split.row()

@@ -3,9 +3,11 @@
 """The operators as a script or a button calls them, without a window."""
 
 import math
+import types
 
 import bpy
 import pytest
+from rough_spectra.addon.operators import common
 
 from tests.integration.support import checkered_and_glowing, contents, rgb_material, spectrum_csv
 
@@ -121,6 +123,16 @@ def test_polls_of_renew_and_bake_say_what_is_missing():
         OPS.renew("EXEC_DEFAULT")
     with pytest.raises(RuntimeError, match="There is no material to measure"):
         OPS.bake("EXEC_DEFAULT")
+
+
+def test_dialogs_begin_with_the_roughness_that_the_material_has():
+    dialog = types.SimpleNamespace(sigma=0.1)
+    mesh_object("Wall", rgb_material("Wall"))
+    common.begin_with_sigma(dialog, bpy.context)
+    assert dialog.sigma == 0.1
+    OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=math.radians(30))
+    common.begin_with_sigma(dialog, bpy.context)
+    assert dialog.sigma == math.radians(30)
 
 
 def test_file_with_one_sample_needs_no_name(tmp_path):
