@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What runs in a second Blender while the window stays in use."""
 
-import gc
 import os
 import subprocess
 from pathlib import Path
@@ -12,10 +11,23 @@ from driver import area, click, find, middle, move, over, press, scene, window
 from stage import OPS, green_file, ours, state, wall
 
 
+_started = []
+
+
+class Watched(subprocess.Popen):
+    """A process that is remembered, whatever becomes of the one who started it."""
+
+    def __init__(self, *args, **options):
+        super().__init__(*args, **options)
+        _started.append(self)
+
+
+subprocess.Popen = Watched
+
+
 def children():
-    """Give the second Blenders that run, whether anybody still knows of them or not."""
-    known = [each for each in gc.get_objects() if type(each) is subprocess.Popen]
-    return [process for process in (*known, *subprocess._active) if process.poll() is None]
+    """Give the second Blenders that run."""
+    return [process for process in _started if process.poll() is None]
 
 
 def jobs():

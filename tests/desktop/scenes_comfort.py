@@ -14,9 +14,13 @@ SEARCHED = ("measure with virtual", "choose sample", "analyze scene", "renew", "
 def searching(found):
     """Search for operators by name in each editor."""
     yield from green_file("ShaderNodeTree")
+    # Something to analyze.
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    bpy.context.scene.collection.objects.link(camera)
-    bpy.context.scene.camera = camera  # without one there is nothing to analyze
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    for thing in (camera, sun):
+        thing.location.z = 4
+        bpy.context.scene.collection.objects.link(thing)
+    bpy.context.scene.camera = camera
     yield from move(*middle(area("NODE_EDITOR")))
     for words in SEARCHED:
         before = len(bpy.context.window_manager.operators)
