@@ -91,6 +91,8 @@ def _give_up() -> None:
 def _wait(name: str, last: float, waiting: list[str]) -> float | None:
     if not screenshots_states.PICTURES[name].ready() and time.monotonic() < last:
         return 0.2
+    for area in bpy.context.window_manager.windows[0].screen.areas:
+        area.tag_redraw()  # panels that moved stand in their new places after another redraw
     bpy.app.timers.register(lambda: _take(name, waiting), first_interval=SETTLE_SECONDS)
     return None
 
