@@ -10,7 +10,6 @@ import bpy
 from driver import area, click, find, middle, move, over, press, scene, window
 from stage import OPS, green_file, ours, state, wall
 
-
 _started = []
 
 
