@@ -126,10 +126,12 @@ def _cut(path: Path, part: str, window: Any) -> None:
     pixels = OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.UINT8)[..., :3]
     wide = min(window.screen.areas, key=lambda area: area.x)
     if part == "panel":
-        pixels = _panel(_within(pixels, max(window.screen.areas, key=lambda area: area.x), window))
+        tab = max(window.screen.areas, key=lambda area: area.x)
+        pixels = _panel(_within(pixels, tab, window), 48, CONTRAST)
     elif part == "sidebar":
         [region] = [region for region in wide.regions if region.type == "UI"]
-        pixels = _panel(_within(pixels, region, window))
+        # Beside the sidebar's panels nodes show through, and below them a grid.
+        pixels = _panel(_within(pixels, region, window), 110, 3 * CONTRAST)
     elif part == "dialog":
         pixels = _dialog(_within(pixels, wide, window))
     elif part == "status":
@@ -147,10 +149,10 @@ def _within(pixels: Any, part: Any, window: Any) -> Any:
     return pixels[top : top + part.height, part.x : part.x + part.width]
 
 
-def _panel(pixels: Any) -> Any:
+def _panel(pixels: Any, left: int, contrast: int) -> Any:
     """Cut what is below the last panel."""
-    inner = pixels[:-8, 48:-48]
-    busy = np.flatnonzero(np.ptp(inner, axis=1).max(axis=-1) > CONTRAST)
+    inner = pixels[:-8, left:-48]
+    busy = np.flatnonzero(np.ptp(inner, axis=1).max(axis=-1) > contrast)
     return pixels[: min(len(pixels), int(busy.max()) + 12)]
 
 

@@ -13,6 +13,7 @@ from ..preview import theme
 
 _FONT = 0  # the interface's
 _MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
+_TABS = 20.0  # beside the panels of a sidebar
 _LEAST = 80.0
 
 
@@ -35,7 +36,8 @@ def sentence(
         Pixels at UI scale 1 that are taken beside the sentence, such as by a box around it.
     """
     scale = theme.scale(context.preferences)
-    width = max(int(context.region.width / scale - _MARGINS - inset), _LEAST)
+    margins = _MARGINS + inset + (_TABS if context.area.type == "NODE_EDITOR" else 0.0)
+    width = max(int(context.region.width / scale - margins), _LEAST)
     column = layout.column(align=True)
     below = "NONE" if icon == "NONE" else "BLANK1"
     for number, line in enumerate(_lines(text, width, _points(context.preferences), scale)):
