@@ -17,6 +17,7 @@ import sys
 import time
 import types
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -126,8 +127,15 @@ def drawing(thing: Any) -> None:
         for number in range(DRAWS):
             material = shown[number % len(shown)]
             context = types.SimpleNamespace(**real, material=material, region=region, area=area)
-            times.append(timed(lambda c=context: [cls.draw(page, c) for cls in tab if cls.poll(c)]))
+            times.append(timed(partial(drawn, tab, page, context)))
         row(f"draw, {what}", times[1:])
+
+
+def drawn(tab: list[Any], page: Any, context: Any) -> None:
+    """Draw the parts of the panel that are shown."""
+    for part in tab:
+        if part.poll(context):
+            part.draw(page, context)
 
 
 def pictures(material: Any, scale: int) -> None:
@@ -156,7 +164,7 @@ def dragging(material: Any, model: str) -> None:
                 picture.drawn = time.monotonic()
             icons.refresh(material)
 
-        times = [timed(lambda s=0.3 + 0.5 * i / STEPS: drag(s)) for i in range(STEPS)]
+        times = [timed(partial(drag, 0.3 + 0.5 * i / STEPS)) for i in range(STEPS)]
         row(f"drag σ, {model}, scale {scale}", times[1:])
 
 
