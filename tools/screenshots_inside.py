@@ -159,7 +159,7 @@ def _panel(pixels: Any, left: int, contrast: int) -> Any:
 def _dialog(pixels: Any) -> Any:
     """Cut what is around the dialog in the empty text editor."""
     margin = round(40 * float(SCALE))
-    pixels = pixels[margin:-margin, margin:-margin]
+    pixels = pixels[margin:-margin, 4:-margin]  # a wide dialog begins near the left
     shown = np.abs(pixels.astype(int) - pixels[0, 0]).max(axis=-1) > 2
     rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
     return pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]

@@ -15,6 +15,7 @@ _FONT = 0  # the interface's
 _MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
 _TABS = 20.0  # beside the panels of a sidebar
 _LEAST = 80.0
+_GLUED = "ΔE00\N{NO-BREAK SPACE}"
 
 
 def sentence(
@@ -58,7 +59,7 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
     """
     blf.size(_FONT, points * scale)
     lines, line = [], ""
-    for word in text.split():
+    for word in " ".join(text.split()).replace("ΔE00 ", _GLUED).split(" "):
         longer = f"{line} {word}".lstrip()
         if _fits(longer, width * scale):
             line = longer
@@ -71,7 +72,7 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
                 lines.append(line)
                 line = ""
             line += letter
-    return (*lines, line)
+    return tuple(line.replace(_GLUED, "ΔE00 ") for line in (*lines, line))
 
 
 def _fits(text: str, pixels: float) -> bool:
