@@ -65,7 +65,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             sample = _choose(samples, self.sample, self.filepath)
             if self.kind != AS_FILE:
                 sample = replace(sample, kind=self.kind)
-            request = common.new_request(sample, self.sigma)
+            request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))

@@ -53,7 +53,8 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
         from .. import presets
 
         try:
-            request = common.new_request(presets.load(self.preset), self.sigma)
+            sample = presets.load(self.preset)
+            request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))

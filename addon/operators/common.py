@@ -13,7 +13,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
-from ...core.errors import RoughSpectraError
+from ...core.errors import MaterialError, RoughSpectraError
 from ..properties import SHADER_ITEMS
 
 if TYPE_CHECKING:
@@ -111,9 +111,27 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Sh
     """
     from .. import stamp, storage
 
+    fresh = new_request(sample, radians(sample.sigma_degrees or 0.0))
     if material is None or not stamp.has_spectrum(material):
-        return new_request(sample, radians(sample.sigma_degrees or 0.0)), "AUTO"
-    return replace(storage.load(material), sample=sample), material.rough_spectra.shader
+        return fresh, "AUTO"
+    shader = material.rough_spectra.shader
+    try:
+        return replace(storage.load(material), sample=sample), shader
+    except MaterialError:
+        # What is stored is damaged: assigning anew is what mends it.
+        return fresh, shader
+
+
+def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> Request:
+    """Give the request for the materials in scope.
+
+    The active material keeps its light, model and tolerance, as with `replacing_request`; several
+    materials, which may differ, get the user's preferences.
+    """
+    if scope != "ACTIVE":
+        return new_request(sample, sigma)
+    request, _ = replacing_request(active_material(context), sample)
+    return replace(request, sigma=sigma)
 
 
 def begin_with_sigma(operator: Any, context: Any) -> None:
@@ -194,7 +212,7 @@ def assign_from_library(
     sample = library.load(name, library.user_folder())
     if not operator.properties.is_property_set("sigma"):
         operator.sigma = radians(sample.sigma_degrees or 0.0)
-    request = new_request(sample, operator.sigma)
+    request = request_in_scope(context, operator.scope, sample, operator.sigma)
     return sample, assign_in_scope(context, operator.scope, request, operator.shader)
 
 

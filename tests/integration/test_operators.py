@@ -287,3 +287,26 @@ def test_bake_on_a_full_temporary_disk_is_refused_in_a_sentence(blender):
     """)
     assert found.startswith("Error: Temporary files cannot be written")
     assert "Traceback" not in found
+
+
+def test_another_sample_keeps_the_settings_of_the_material(tmp_path):
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=0.3)
+    group = material.rough_spectra
+    group.illuminant, group.model, group.tolerance = "A", "closure", 2.0
+    source = spectrum_csv(tmp_path / "plaster.csv", "plaster")
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(source), sigma=0.4)
+    OPS.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+    assert (group.sample_name, group.illuminant, group.model) == ("Brick", "A", "closure")
+    assert (group.tolerance, group.sigma) == pytest.approx((2.0, 0.4))
+
+
+def test_a_damaged_spectrum_is_mended_by_assigning_again():
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    OPS.assign_preset("EXEC_DEFAULT", preset=GREEN)
+    material.rough_spectra.spectrum = "{damaged"
+    assert OPS.choose_sample("EXEC_DEFAULT", sample="everyday/brick") == {"FINISHED"}
+    assert material.rough_spectra.sample_name == "Brick"
+    OPS.renew("EXEC_DEFAULT")
