@@ -9,8 +9,8 @@ full disk, a kill or a crash leaves the old files as they were.
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,6 +19,10 @@ from ..core.errors import OutputError
 
 _NAME_SHARE = 50
 """Characters of a target's name in its temporary one, which may not exceed 255 bytes."""
+_RANDOM_BYTES = 8
+"""As many that no two processes ever make the same name."""
+_PRIVATE = 0o600
+"""Permissions of a file until it is whole."""
 
 
 class Publication:
@@ -27,6 +31,7 @@ class Publication:
     def __init__(self) -> None:
         self._staged: dict[Path, Path] = {}
         self._kept: list[Path] = []
+        self._parts: list[Path] = []
 
     def stage(self, target: Path) -> Path:
         """Give the path to write to in place of `target`.
@@ -41,16 +46,15 @@ class Publication:
             if target.is_dir():
                 msg = f"{target} is a folder; choose a file name."
                 raise OutputError(msg)
-            handle, name = tempfile.mkstemp(
-                prefix=f".{target.name[:_NAME_SHARE]}.", suffix=".part", dir=target.parent
-            )
+            # Noted before it is there: an interrupt between the two would leave it behind.
+            name = f".{target.name[:_NAME_SHARE]}.{secrets.token_hex(_RANDOM_BYTES)}.part"
+            part = target.with_name(name)
+            self._parts.append(part)
+            os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, _PRIVATE))
         except OSError as error:
             raise _cannot_write(target, error) from error
-        os.close(handle)
-        if target in self._staged:
-            self._staged[target].unlink(missing_ok=True)
-        self._staged[target] = Path(name)
-        return Path(name)
+        self._staged[target] = part
+        return part
 
     def write(self, target: Path, content: bytes) -> None:
         """Stage a whole file.
@@ -97,7 +101,7 @@ class Publication:
         return old
 
     def _discard(self) -> None:
-        for part in (*self._staged.values(), *self._kept):
+        for part in (*self._parts, *self._kept):
             part.unlink(missing_ok=True)
 
 
