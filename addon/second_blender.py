@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -57,11 +58,13 @@ class Job:
         self.total = 0
         self.done = 0
         try:
-            self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
-            job = {"asked_by": os.getpid(), **prepare(self._folder)}
-            self._start(self._folder, worker, job)
+            with ExitStack() as undone:
+                undone.callback(self.close)
+                self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
+                job = {"asked_by": os.getpid(), **prepare(self._folder)}
+                self._start(self._folder, worker, job)
+                undone.pop_all()
         except (OSError, RuntimeError) as error:
-            self.close()
             # Blender says "Error: Success" when the disk is full.
             reason = getattr(error, "strerror", None) or "is the disk full?"
             msg = (
@@ -69,9 +72,6 @@ class Job:
                 "the disk, or let TMPDIR name another one."
             )
             raise OutputError(msg) from error
-        except BaseException:
-            self.close()
-            raise
 
     def poll(self) -> bool:
         """Update `done` and `total`; returns whether the job has ended."""
