@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ._document import Document
+from ._xml_faults import faults_named
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -34,8 +35,7 @@ def parts(document: Document) -> Iterator[Element]:
         The XML is broken, has too many elements, is nested too deep, or declares a document type
         or entities.
     """
-    from defusedxml import DefusedXmlException
-    from defusedxml.ElementTree import DefusedXMLParser, ParseError
+    from defusedxml.ElementTree import DefusedXMLParser
 
     if _LONG_TAG.search(document.data):
         raise document.error("", "one of its XML tags is longer than 64 kB; export it again")
@@ -45,23 +45,12 @@ def parts(document: Document) -> Iterator[Element]:
         raise document.error("", "it has more elements than measurements need; export it again")
     target = _Target(document)
     parser = DefusedXMLParser(target=target, forbid_dtd=True)
-    try:
+    with faults_named(document):
         for start in range(0, len(document.data), _PIECE):
             parser.feed(document.data[start : start + _PIECE])
             yield from target.taken()
         parser.close()
         yield from target.taken()
-    except DefusedXmlException:
-        raise document.error(
-            "", "its XML declares a document type or entities, which are not read; remove them"
-        ) from None
-    except ParseError as error:
-        line, column = error.position
-        raise document.error(
-            f"line {line}, column {column + 1}", "the XML is broken; export it again"
-        ) from None
-    except (LookupError, ValueError):
-        raise document.error("line 1", "the encoding it declares is not known; use UTF-8") from None
 
 
 class _Target:

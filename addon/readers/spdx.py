@@ -23,6 +23,7 @@ import numpy as np
 from ..sample import Sample, check_spectrum
 from . import _bands, _geometry
 from ._document import Document, quote
+from ._xml_faults import faults_named
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -149,14 +150,13 @@ def _parse(document: Document) -> tuple[dict[str, str], list[_Distribution]]:
 
 def _elements(document: Document) -> Iterator[tuple[str, Element]]:
     """Yield each element and its parent's tag: a distribution as it begins, all others whole."""
-    from defusedxml import DefusedXmlException
-    from defusedxml.ElementTree import ParseError, iterparse
+    from defusedxml.ElementTree import iterparse
 
     if _LONG_TAG.search(document.data):
         raise document.error("", "one of its XML tags is longer than 64 kB; export it again")
     path: list[Element] = []
     unknown = 0
-    try:
+    with faults_named(document):
         for event, element in iterparse(
             io.BytesIO(document.data), events=("start", "end"), forbid_dtd=True
         ):
@@ -176,17 +176,6 @@ def _elements(document: Document) -> Iterator[tuple[str, Element]]:
                 if _tag(element) != "SpectralDistribution":
                     yield _tag(path[-1]), element
                 path[-1].clear()  # what is whole is not needed again
-    except DefusedXmlException:
-        raise document.error(
-            "", "its XML declares a document type or entities, which are not read; remove them"
-        ) from None
-    except ParseError as error:
-        line, column = error.position
-        raise document.error(
-            f"line {line}, column {column + 1}", "the XML is broken; export it again"
-        ) from None
-    except (LookupError, ValueError):
-        raise document.error("line 1", "the encoding it declares is not known; use UTF-8") from None
 
 
 def _tag(element: Element) -> str:
