@@ -28,6 +28,10 @@ SCOPE_ITEMS = (
 ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
 
 
+_SWATCH_WIDTH = 1.6
+"""Of a color in a list, in heights of a button."""
+
+
 class AssignOptions:
     """Properties of every operator that assigns a spectrum."""
 
@@ -239,6 +243,17 @@ def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: 
     names = ", ".join(material.name for material, _ in assigned[:3])
     sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
     operator.report({"INFO"}, sentence)
+
+
+def draw_swatch(row: Any, item: Any, has_color: bool = True) -> None:
+    """Draw the color of a list's item, as wide in every list, or leave its place empty."""
+    swatch = row.row()
+    swatch.ui_units_x = _SWATCH_WIDTH
+    if has_color:
+        swatch.prop(item, "swatch", text="")
+    else:
+        swatch.label(text="", icon="BLANK1")
+    row.separator(factor=0.5)
 
 
 def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:

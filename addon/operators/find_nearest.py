@@ -52,10 +52,7 @@ class ROUGHSPECTRA_UL_matches(bpy.types.UIList):
     ) -> None:
         """Draw color, name and difference."""
         row = layout.row(align=True)
-        swatch = row.row()
-        swatch.ui_units_x = 1.6
-        swatch.prop(item, "swatch", text="")
-        row.separator(factor=0.5)
+        common.draw_swatch(row, item)
         split = row.split(factor=0.75)
         split.label(text=f"{item.name}  ({item.sample.partition('/')[0]})", translate=False)
         split.label(text=f"ΔE00 {item.difference:.1f}", translate=False)

@@ -17,6 +17,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from . import common
 from .import_samples import ImportOptions, carry_out
 
 if TYPE_CHECKING:
@@ -70,13 +71,7 @@ class ROUGHSPECTRA_UL_import(bpy.types.UIList):
         """Draw checkbox, color, name, what it is, and whether there is something to know."""
         row = layout.row(align=True)
         row.prop(item, "chosen", text="")
-        swatch = row.row()
-        swatch.ui_units_x = 1.6
-        if item.has_color:
-            swatch.prop(item, "swatch", text="")
-        else:
-            swatch.label(text="", icon="BLANK1")
-        row.separator(factor=0.5)
+        common.draw_swatch(row, item, item.has_color)
         split = row.split(factor=0.45)
         split.label(text=item.name, translate=False)
         detail = split.row()
