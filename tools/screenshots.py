@@ -4,8 +4,9 @@
 
     python3 dev.py screenshots --blender BLENDER [--scale 1|2] [--theme dark|light] [NAME ...]
 
-BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there. The
-extension's zip is installed into a new, empty user folder: nothing of yours is touched.
+BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there, as
+large as the window: 1600 × 1500 pixels, times the scale. The extension's zip is installed into a
+new, empty user folder: nothing of yours is touched.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--scale", type=float, default=1.0, help="UI scale")
     parser.add_argument("--width", type=int, default=440, help="of the panel, pixels at scale 1")
     parser.add_argument("--theme", choices=("dark", "light"), default="dark")
-    parser.add_argument("--size", default="1600x1900", help="of the window, in pixels")
+    parser.add_argument("--size", default="1600x1500", help="of the window, pixels at scale 1")
     parser.add_argument(
         "--grab",
         default="",
@@ -42,10 +43,12 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="pictures; all without")
     options = parser.parse_args(arguments)
     options.output.mkdir(parents=True, exist_ok=True)
+    # Everything grows with the scale, and dialogs have to fit beside the panel.
+    size = (str(round(int(side) * options.scale)) for side in options.size.split("x"))
     with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
         command = [
             *(options.blender, "--gpu-backend", "opengl", "--enable-event-simulate"),
-            *("--window-geometry", "0", "0", *options.size.split("x")),
+            *("--window-geometry", "0", "0", *size),
             *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
             *(str(options.zip.resolve()), str(options.output.resolve())),
             *(str(options.scale), str(options.width), options.theme, options.grab, *options.names),
