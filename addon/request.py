@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+from ..core.errors import DomainError
 from .sample import Sample
 from .scene_view import SceneView
 
@@ -43,6 +45,11 @@ class Request:
         engine: without one, a material is always made for Cycles.
     tolerance
         Largest ΔE00 that "auto" accepts for the sake of a simpler model.
+
+    Raises
+    ------
+    DomainError
+        If σ or the tolerance is no number, as a driver or a script may leave it.
     """
 
     sample: Sample
@@ -53,3 +60,10 @@ class Request:
     scene: SceneView | None = None
     flat: bool = False
     tolerance: float = TOLERANCE
+
+    def __post_init__(self) -> None:
+        """Refuse what would spread through every color."""
+        for label, value in (("σ", self.sigma), ("The tolerance", self.tolerance)):
+            if not math.isfinite(value):
+                msg = f"{label} is not a number; set it again, or mend its driver."
+                raise DomainError(msg)

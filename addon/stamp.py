@@ -209,14 +209,14 @@ def follows(material: Any) -> bool:
 
 def edited_by_hand(material: Any) -> bool:
     """Whether renewing would overwrite what the user set in the shader node, kept or not."""
-    stamp = get_stamp(material)
-    if stamp is None or stamp.working_space != working_space_name():
-        # The change of the working space converted the sockets: what they held is not known.
+    stamp, node = get_stamp(material), nodes.shader_node(material)
+    if stamp is None or stamp.kept or node is None:
         return stamp is not None and bool(stamp.kept)
-    node = nodes.shader_node(material)
-    return bool(stamp.kept) or (
-        node is not None and node.name == stamp.node and _edited(node, stamp)
-    )
+    if nodes.disturbing_sockets(node):
+        return True
+    # A change of the working space converted the sockets: what they held is not known. Another
+    # node holds what somebody set, unless it is the same one by another name.
+    return stamp.working_space == working_space_name() and _edited(node, stamp)
 
 
 def shown(material: Any) -> str:
@@ -360,4 +360,6 @@ def _edited(node: Any, stamp: Stamp) -> bool:
         return True
     written = (*stamp.color, stamp.roughness)
     found = (*color.default_value[:3], roughness.default_value)
-    return max(abs(a - b) for a, b in zip(written, found, strict=True)) > _SOCKET_TOLERANCE
+    # Sockets may hold NaN, which is near to nothing.
+    near = (abs(a - b) <= _SOCKET_TOLERANCE for a, b in zip(written, found, strict=True))
+    return not all(near)

@@ -121,6 +121,57 @@ def test_renewing_all_leaves_edits_and_what_cannot_be(make, make_material):
     assert [kind(m) for m in (edited, kept, broken)] == ["fresh", "fresh", "stale"]
 
 
+def add_gloss(material):
+    nodes.shader_node(material).inputs["Specular IOR Level"].default_value = 0.5
+
+
+def change_shader(material):
+    tree = material.node_tree
+    other = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    tree.links.new(other.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+
+
+@pytest.mark.parametrize("change", [add_gloss, change_shader])
+def test_renewing_all_leaves_gloss_and_other_shaders(make, change):
+    material = make()
+    material.rough_spectra.shader = "PRINCIPLED"
+    assert kind(material) == "fresh"
+    change(material)
+    before = sockets(material)
+    assert OPS.renew(scope="ALL_STALE") == {"CANCELLED"}
+    assert sockets(material) == before
+    assert kind(material) == "stale"
+    OPS.renew()
+    assert kind(material) == "fresh"
+    nodes.shader_node(material).name = "Plaster"
+    assert OPS.renew(scope="ALL_STALE") == {"FINISHED"}
+    assert kind(material) == "fresh"
+
+
+@pytest.mark.parametrize("channel", [0, 1, 2, None])
+def test_a_socket_that_holds_no_number_is_an_edit(make, channel):
+    material = make()
+    node = nodes.shader_node(material)
+    if channel is None:
+        nodes.roughness_socket(node).default_value = math.nan
+    else:
+        nodes.color_socket(node).default_value[channel] = math.nan
+    assert stamp.state(material).reasons == ("color or roughness was edited by hand",)
+
+
+@pytest.mark.parametrize("setting", ["sigma", "tolerance"])
+def test_a_setting_that_is_no_number_is_refused(make, setting):
+    material = make()
+    before = sockets(material)
+    setattr(material.rough_spectra, setting, math.nan)
+    assert sockets(material) == before
+    state = stamp.state(material)
+    assert state.kind == "error"
+    assert "is not a number" in state.reasons[0]
+    setattr(material.rough_spectra, setting, 1.0)
+    assert kind(material) == "fresh"
+
+
 def test_undo_and_redo_at_every_step(make):
     make()
     window = bpy.data.window_managers[0].windows[0]
