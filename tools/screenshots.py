@@ -12,16 +12,14 @@ new, empty user folder: nothing of yours is touched.
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+import desktop
+
 ROOT = Path(__file__).resolve().parents[1]
 INSIDE = ROOT / "tools" / "screenshots_inside.py"
-SECONDS = 600
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -44,26 +42,12 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(arguments)
     options.output.mkdir(parents=True, exist_ok=True)
     # Everything grows with the scale, and dialogs have to fit beside the panel.
-    size = (str(round(int(side) * options.scale)) for side in options.size.split("x"))
-    with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
-        command = [
-            *(options.blender, "--gpu-backend", "opengl", "--enable-event-simulate"),
-            *("--window-geometry", "0", "0", *size),
-            *("--python-exit-code", "1", "--python", str(INSIDE), "--"),
-            *(str(options.zip.resolve()), str(options.output.resolve())),
-            *(str(options.scale), str(options.width), options.theme, options.grab, *options.names),
-        ]
-        try:
-            done = subprocess.run(
-                command,
-                env=os.environ | {"BLENDER_USER_RESOURCES": user},
-                timeout=SECONDS,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
-            print(f"Blender did not end within {SECONDS} s.", file=sys.stderr)
-            return 1
-    return done.returncode
+    width, height = (round(int(side) * options.scale) for side in options.size.split("x"))
+    words = (
+        *(options.zip.resolve(), options.output.resolve()),
+        *(options.scale, options.width, options.theme, options.grab, *options.names),
+    )
+    return desktop.run(options.blender, INSIDE, (width, height), words)
 
 
 if __name__ == "__main__":

@@ -299,21 +299,21 @@ def source() -> None:
     _fresh()
     path = _write("terracotta.csv", TERRACOTTA.read_text(encoding="utf-8"))
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(15))
-    _open_source()
+    open_source()
+    bpy.app.timers.register(_close_source, first_interval=4.0)
 
 
-def _open_source() -> None:
+def open_source() -> None:
     """Show the Source panel open, which a script cannot do: a twin that is so by default."""
     closed = bpy.types.ROUGHSPECTRA_PT_source
     options = {"bl_options": set(), "bl_parent_id": closed.bl_parent_id, "bl_label": "Source"}
     bpy.utils.register_class(type("ROUGHSPECTRA_PT_source_open", closed.__bases__, options))
     closed.poll = classmethod(lambda _cls, _context: False)
-    bpy.app.timers.register(lambda: _close_source(closed), first_interval=4.0)
 
 
-def _close_source(closed: Any) -> None:
+def _close_source() -> None:
     bpy.utils.unregister_class(bpy.types.ROUGHSPECTRA_PT_source_open)
-    del closed.poll
+    del bpy.types.ROUGHSPECTRA_PT_source.poll
 
 
 # Measuring ---------------------------------------------------------------------------------------
