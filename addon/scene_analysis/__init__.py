@@ -158,9 +158,10 @@ def _one_look(
     toward = np.stack([part.toward for part in sampled])[lamp, own]
     distance = np.stack([part.distance for part in sampled])[lamp, own]
     tried = np.flatnonzero((arrives > 0) & ((view * normals).sum(axis=1) > 0))
+    shadowed = tried[np.array([one.shadow for one in lamps])[lamp[tried]]]
     # Ends short of the lamp, whose own surface would be in the way.
-    hidden = found.blocked(start[tried], toward[tried], distance[tried] * (1 - 1e-3))
-    free = tried[~hidden]
+    hidden = found.blocked(start[shadowed], toward[shadowed], distance[shadowed] * (1 - 1e-3))
+    free = np.setdiff1d(tried, shadowed[hidden], assume_unique=True)
     angles = sampling.angles(normals[free], view[free], toward[free])
     return (*angles, free, lamp[free], arrives[free], toward[free])
 

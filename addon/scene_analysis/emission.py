@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
@@ -18,6 +18,11 @@ _DEPTH = 16
 """Nodes in a row that are followed; a tree has no loops, but groups may be deep."""
 _BLACKBODY_RANGE = (800.0, 12000.0)
 """Kelvin within which Cycles' blackbody is one."""
+_OTHER_WAYS = {
+    *("Is Camera Ray", "Is Shadow Ray", "Is Glossy Ray", "Is Singular Ray"),
+    *("Is Transmission Ray", "Is Volume Scatter Ray"),
+}
+"""What Light Path says no to, for light that falls on a diffuse surface."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,25 @@ class Emission:
     temperature: float | None = None
     unread: str = ""
     source: Any = None
+
+
+@dataclass(frozen=True)
+class _At:
+    """Where reading a tree has come to.
+
+    Parameters
+    ----------
+    space
+        The working space.
+    groups
+        Group nodes that were entered, the outermost first.
+    depth
+        How many more nodes are followed.
+    """
+
+    space: WorkingSpace
+    groups: tuple[Any, ...] = ()
+    depth: int = _DEPTH
 
 
 @dataclass(frozen=True)
@@ -83,15 +107,15 @@ def of_tree(tree: Any, kind: str, space: WorkingSpace) -> Emission | None:
     outputs.sort(key=lambda node: (not node.is_active_output, node.target == "EEVEE"))
     if not outputs or not outputs[0].inputs["Surface"].is_linked:
         return None
-    shader = _origin(outputs[0].inputs["Surface"])
-    return None if shader is None else _of_shader(shader.node, space, _DEPTH)
+    return _of_shader(*_end(outputs[0].inputs["Surface"], _At(space)))
 
 
-def _of_shader(node: Any, space: WorkingSpace, depth: int) -> Emission | None:
-    if node.mute or depth == 0:
+def _of_shader(origin: Any, at: _At) -> Emission | None:
+    if not origin.is_output or origin.node.mute or at.depth == 0:
         return None
+    node = origin.node
     if node.bl_idname in {"ShaderNodeAddShader", "ShaderNodeMixShader"}:
-        return _of_sum(node, space, depth)
+        return _of_sum(node, at)
     names = {
         "ShaderNodeEmission": ("Color", "Strength"),
         "ShaderNodeBackground": ("Color", "Strength"),
@@ -99,24 +123,25 @@ def _of_shader(node: Any, space: WorkingSpace, depth: int) -> Emission | None:
     }.get(node.bl_idname)
     if names is None:
         return None
-    strength = _value(node.inputs[names[1]], space)
-    color = _value(node.inputs[names[0]], space)
+    strength = _value(node.inputs[names[1]], at)
+    color = _value(node.inputs[names[0]], at)
     rgb = color.color * float(strength.color.mean())
     if not rgb.max() > 0:
         return None
-    return Emission(rgb, color.temperature, color.unread or strength.unread, color.source)
+    return Emission(rgb, color.temperature, color.unread or _fault(strength), color.source)
 
 
-def _of_sum(node: Any, space: WorkingSpace, depth: int) -> Emission | None:
+def _of_sum(node: Any, at: _At) -> Emission | None:
     sockets = [socket for socket in node.inputs if socket.type == "SHADER"]
-    shares = [1.0, 1.0]
+    shares, fault = [1.0, 1.0], ""
     if node.bl_idname == "ShaderNodeMixShader":
-        second = float(_value(node.inputs[0], space).color.mean())
+        factor = _value(node.inputs[0], at)
+        second = float(np.clip(factor.color.mean(), 0, 1))
         shares = [1 - second, second]
+        fault = _fault(factor)
     parts = []
     for socket, share in zip(sockets, shares, strict=True):
-        origin = _origin(socket)
-        found = None if origin is None else _of_shader(origin.node, space, depth - 1)
+        found = _of_shader(*_end(socket, replace(at, depth=at.depth - 1)))
         if found is not None and share > 0:
             parts.append((found, share))
     if not parts:
@@ -124,32 +149,69 @@ def _of_sum(node: Any, space: WorkingSpace, depth: int) -> Emission | None:
     rgb = sum((found.rgb * share for found, share in parts), np.zeros(3))
     main = max(parts, key=lambda part: float(part[0].rgb.sum() * part[1]))[0]
     temperature = main.temperature if len(parts) == 1 else None
-    return Emission(rgb, temperature, main.unread, main.source)
+    return Emission(rgb, temperature, main.unread or fault, main.source)
 
 
-def _origin(socket: Any) -> Any | None:
-    """Give the output socket that feeds an input, seen through reroutes."""
-    for _ in range(_DEPTH):
+def _end(socket: Any, at: _At) -> tuple[Any, _At]:
+    """Follow an input to where its value comes from, seen through reroutes and groups.
+
+    Returns
+    -------
+    An output socket, or an input whose own value counts; and where that is.
+    """
+    for _ in range(2 * _DEPTH):
         links = [link for link in socket.links if link.is_valid and not link.is_muted]
         if not links:
-            return None
+            break
         origin = links[0].from_socket
-        if origin.node.bl_idname != "NodeReroute":
-            return origin
-        socket = origin.node.inputs[0]
-    return None
+        node = origin.node
+        if node.bl_idname == "NodeReroute":
+            socket = node.inputs[0]
+        elif node.bl_idname == "NodeGroupInput" and at.groups:
+            socket = _by_identifier(at.groups[-1].inputs, origin)
+            at = replace(at, groups=at.groups[:-1])
+        elif (inner := _inside(origin)) is not None:
+            socket = inner
+            at = replace(at, groups=(*at.groups, node))
+        else:
+            return origin, at
+    return socket, at
 
 
-def _value(socket: Any, space: WorkingSpace, depth: int = _DEPTH) -> _Value:
+def _inside(origin: Any) -> Any | None:
+    """Give the socket within a group that feeds one of its outputs; None if it is no group."""
+    node = origin.node
+    if node.bl_idname != "ShaderNodeGroup" or node.mute or node.node_tree is None:
+        return None
+    ends = [end for end in node.node_tree.nodes if end.bl_idname == "NodeGroupOutput"]
+    active = next((end for end in ends if end.is_active_output), None)
+    return None if active is None else _by_identifier(active.inputs, origin)
+
+
+def _by_identifier(sockets: Any, like: Any) -> Any:
+    return next(socket for socket in sockets if socket.identifier == like.identifier)
+
+
+def _value(socket: Any, at: _At) -> _Value:
     """Value of a socket as three numbers."""
-    origin = _origin(socket)
-    if origin is None:
-        return _Value(_three(socket.default_value))
+    origin, at = _end(socket, at)
+    if not origin.is_output:
+        return _Value(_three(origin.default_value))
     node = origin.node
     reader = _READERS.get(node.bl_idname)
-    if depth == 0 or node.mute or reader is None:
-        return _Value(np.ones(3), unread=node.label or node.name)
-    return reader(node, space, depth - 1)
+    if at.depth == 0 or node.mute or reader is None:
+        return _unread(node)
+    return reader(origin, replace(at, depth=at.depth - 1))
+
+
+def _unread(node: Any) -> _Value:
+    return _Value(np.ones(3), unread=node.label or node.name)
+
+
+def _fault(*parts: _Value) -> str:
+    """Name the first node that could not be read where a texture can't be told of either."""
+    named = (part.unread or (part.source.name if part.source else "") for part in parts)
+    return next(filter(None, named), "")
 
 
 def _three(value: Any) -> Array:
@@ -157,52 +219,62 @@ def _three(value: Any) -> Array:
     return np.full(3, float(numbers)) if numbers.ndim == 0 else numbers[:3].copy()
 
 
-def _constant(node: Any, _space: WorkingSpace, _depth: int) -> _Value:
-    return _Value(_three(node.outputs[0].default_value))
+def _constant(origin: Any, _at: _At) -> _Value:
+    return _Value(_three(origin.default_value))
 
 
-def _blackbody(node: Any, space: WorkingSpace, depth: int) -> _Value:
-    kelvin = float(_value(node.inputs["Temperature"], space, depth).color[0])
-    return _Value(blackbody(kelvin, space), float(np.clip(kelvin, *_BLACKBODY_RANGE)))
+def _blackbody(origin: Any, at: _At) -> _Value:
+    found = _value(origin.node.inputs["Temperature"], at)
+    if fault := _fault(found):
+        return _Value(np.ones(3), unread=fault)
+    kelvin = float(found.color[0])
+    return _Value(blackbody(kelvin, at.space), float(np.clip(kelvin, *_BLACKBODY_RANGE)))
 
 
-def _texture(node: Any, _space: WorkingSpace, _depth: int) -> _Value:
-    return _Value(np.ones(3), source=node)
+def _texture(origin: Any, _at: _At) -> _Value:
+    return _Value(np.ones(3), source=origin.node)
 
 
-def _falloff(node: Any, space: WorkingSpace, depth: int) -> _Value:
-    return _value(node.inputs["Strength"], space, depth)
+def _falloff(origin: Any, at: _At) -> _Value:
+    return _value(origin.node.inputs["Strength"], at)
 
 
-def _profile(_node: Any, _space: WorkingSpace, _depth: int) -> _Value:
+def _light_path(origin: Any, _at: _At) -> _Value:
+    return _Value(np.zeros(3)) if origin.name in _OTHER_WAYS else _unread(origin.node)
+
+
+def _profile(_origin: Any, _at: _At) -> _Value:
     # An IES profile has no color: it shapes the beam, and the light keeps its own.
     return _Value(np.ones(3))
 
 
-def _combine(node: Any, space: WorkingSpace, depth: int) -> _Value:
-    if node.mode != "RGB":
-        return _Value(np.ones(3), unread=node.label or node.name)
-    parts = [_value(socket, space, depth) for socket in node.inputs]
-    return _Value(np.array([part.color[0] for part in parts]))
+def _combine(origin: Any, at: _At) -> _Value:
+    if origin.node.mode != "RGB":
+        return _unread(origin.node)
+    parts = [_value(socket, at) for socket in origin.node.inputs]
+    return _Value(np.array([part.color[0] for part in parts]), unread=_fault(*parts))
 
 
-def _math(node: Any, space: WorkingSpace, depth: int) -> _Value:
-    first, second = (_value(socket, space, depth) for socket in list(node.inputs)[:2])
+def _math(origin: Any, at: _At) -> _Value:
+    first, second = (_value(socket, at) for socket in list(origin.node.inputs)[:2])
     combine = {"ADD": np.add, "SUBTRACT": np.subtract, "MULTIPLY": np.multiply}
-    if node.operation not in combine:
-        return _Value(np.ones(3), unread=node.label or node.name)
-    return _Value(np.asarray(combine[node.operation](first.color, second.color)))
+    if origin.node.operation not in combine:
+        return _unread(origin.node)
+    found = combine[origin.node.operation](first.color, second.color)
+    return _Value(np.asarray(found), unread=_fault(first, second))
 
 
-def _mix(node: Any, space: WorkingSpace, depth: int) -> _Value:
+def _mix(origin: Any, at: _At) -> _Value:
+    node = origin.node
     if node.data_type != "RGBA" or node.blend_type not in {"MIX", "MULTIPLY"}:
-        return _Value(np.ones(3), unread=node.label or node.name)
+        return _unread(node)
     enabled = [socket for socket in node.inputs if socket.enabled]
-    share, first, second = (_value(socket, space, depth) for socket in enabled[:3])
+    share, first, second = (_value(socket, at) for socket in enabled[:3])
     part = share.color[0]
     other = second.color * (first.color if node.blend_type == "MULTIPLY" else 1)
     source = first.source or second.source
-    return _Value(first.color * (1 - part) + other * part, None, "", source)
+    fault = _fault(share) or first.unread or second.unread
+    return _Value(first.color * (1 - part) + other * part, None, fault, source)
 
 
 _READERS = {
@@ -213,6 +285,7 @@ _READERS = {
     "ShaderNodeTexImage": _texture,
     "ShaderNodeTexSky": _texture,
     "ShaderNodeLightFalloff": _falloff,
+    "ShaderNodeLightPath": _light_path,
     "ShaderNodeTexIES": _profile,
     "ShaderNodeCombineColor": _combine,
     "ShaderNodeMath": _math,

@@ -16,6 +16,7 @@ from ..working_space import WorkingSpace
 from . import emission, world
 from .lamps import Bulb, Glow, Panel, Source, Sun
 from .surfaces import Surfaces
+from .visibility import Rendered
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ class Lamp:
         Names of the only objects that it lights, or None for all; and of those it doesn't.
     emitter
         Index of the emitting material among `Surfaces.materials`, or -1.
+    shadow
+        Whether what is in its way casts a shadow.
     """
 
     name: str
@@ -45,6 +48,7 @@ class Lamp:
     receivers: frozenset[str] | None = None
     excluded: frozenset[str] = frozenset()
     emitter: int = -1
+    shadow: bool = True
 
     def lights(self, name: str) -> bool:
         """Whether light linking lets it reach the object of that name."""
@@ -56,24 +60,33 @@ def find(
 ) -> tuple[list[Lamp], list[str]]:
     """List all lamps of a scene, and sentences about what could not be read of them."""
     lamps: list[Lamp] = []
-    warnings: list[str] = []
+    rendered = Rendered(depsgraph.view_layer)
+    warnings: list[str] = [rendered.left_out()]
     for instance in depsgraph.object_instances:
         thing = instance.object
-        if thing.type != "LIGHT" or thing.original.hide_render or not instance.show_self:
+        if thing.type != "LIGHT" or not thing.visible_diffuse or not rendered.shows(instance):
             continue
         found = _of_light(thing, np.array(instance.matrix_world), space, warnings)
         if found is not None:
             lamps.append(found)
-    if scene.world is not None:
+    if scene.world is not None and _lights_diffuse(scene.world):
         parts, unread = world.read(scene.world, space)
         lamps += [Lamp(part.name, part.source, part.rgb, part.temperature) for part in parts]
         warnings += unread
     lamps += _glowing(surfaces, space, warnings)
-    return lamps, list(dict.fromkeys(warnings))
+    return lamps, [sentence for sentence in dict.fromkeys(warnings) if sentence]
+
+
+def _lights_diffuse(world: Any) -> bool:
+    """Whether its ray visibility lets a world light diffuse surfaces."""
+    visibility = getattr(world, "cycles_visibility", None)  # there while Cycles is enabled
+    return visibility is None or bool(visibility.diffuse)
 
 
 def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str]) -> Lamp | None:
     light = thing.data
+    if light.type == "AREA" and getattr(getattr(light, "cycles", None), "is_portal", False):
+        return None  # a portal only tells Cycles where the world's light comes in
     rgb = np.array(light.color[:]) * light.energy * 2.0**light.exposure
     neutral = np.ptp(light.color[:]) < 1e-6
     temperature = None
@@ -100,7 +113,9 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
         return None
     receivers, excluded = _linking(thing.original)
     source, scale = _source(light, matrix)
-    return Lamp(thing.original.name, source, rgb * scale, temperature, receivers, excluded)
+    name, shadow = thing.original.name, bool(light.use_shadow)
+    linking = {"receivers": receivers, "excluded": excluded}
+    return Lamp(name, source, rgb * scale, temperature, **linking, shadow=shadow)
 
 
 def _source(light: Any, matrix: Array) -> tuple[Source, float]:
@@ -148,7 +163,8 @@ def _glowing(surfaces: Surfaces, space: WorkingSpace, warnings: list[str]) -> It
         if tree is None:
             continue
         shining = emission.of_tree(tree, "ShaderNodeOutputMaterial", space)
-        if shining is None:
+        triangles = surfaces.shedding(index)
+        if shining is None or not len(triangles):
             continue
         if shining.unread or shining.source is not None:
             node = shining.unread or shining.source.name
@@ -156,5 +172,4 @@ def _glowing(surfaces: Surfaces, space: WorkingSpace, warnings: list[str]) -> It
                 f"Material {material.name!r}: the color of its light comes from node {node!r}, "
                 "which cannot be read without rendering; it counts as white."
             )
-        triangles = np.concatenate([part for _, part in surfaces.triangles_of(index)])
         yield Lamp(material.name, Glow(triangles), shining.rgb, shining.temperature, emitter=index)

@@ -14,6 +14,7 @@ from ...core.arrays import Array
 from . import heavy
 from .heavy import Heavy
 from .lamps import FAR
+from .visibility import Rendered
 
 _OTHER_SURFACES = {"CURVE", "SURFACE", "META", "FONT"}
 _CLEAR_SHADERS = {
@@ -36,7 +37,10 @@ class _Mesh:
 
 @dataclass
 class _Shown:
-    """One appearance of a mesh in the scene."""
+    """One appearance of a mesh in the scene.
+
+    `seen`: by the camera; `blocks`: casts shadows; `sheds`: what it emits lights diffuse surfaces.
+    """
 
     mesh: _Mesh
     matrix: Array
@@ -44,6 +48,7 @@ class _Shown:
     name: str
     seen: bool
     blocks: bool
+    sheds: bool
     start: int = 0
 
 
@@ -104,14 +109,12 @@ class Surfaces:
             widths.append(float(np.linalg.norm(np.ptp(self._points, axis=0))))
         return max(widths, default=1.0)
 
-    def triangles_of(self, index: int) -> list[tuple[int, Array]]:
-        """Give the triangles (n, 3, 3) of a material: one array an appearance, and which it is."""
+    def shedding(self, index: int) -> Array:
+        """Give the triangles (n, 3, 3) of a material that light diffuse surfaces if it emits."""
         mine = np.flatnonzero(self._material_of == index)
         owners = np.searchsorted(self._starts, mine, side="right") - 1
-        return [
-            (int(owner), self._points[self._triangles[mine[owners == owner]]])
-            for owner in np.unique(owners)
-        ]
+        sheds = np.array([shown.sheds for shown in self._shown], bool)
+        return np.asarray(self._points[self._triangles[mine[sheds[owners]]]])
 
     def hit(self, origins: Array, directions: Array) -> Hits:
         """Send rays, each of shape (rays, 3), at what a camera sees."""
@@ -192,13 +195,14 @@ def gather(depsgraph: Any) -> Surfaces:
     seen by the camera is left out where that matters.
     """
     found = Surfaces()
+    rendered = Rendered(depsgraph.view_layer)
     meshes: dict[int, _Mesh | None] = {}
     trees: dict[int, Any] = {}
     for instance in depsgraph.object_instances:
         thing = instance.object
         if thing.type != "MESH" and thing.type not in _OTHER_SURFACES:
             continue
-        if thing.original.hide_render or not instance.show_self:
+        if not rendered.shows(instance):
             continue
         key = thing.data.as_pointer() if thing.type == "MESH" else thing.as_pointer()
         if heavy.is_heavy(thing) and not any(map(_acts_on_light, _materials(thing))):
@@ -220,6 +224,7 @@ def gather(depsgraph: Any) -> Surfaces:
                 thing.original.name,
                 bool(thing.visible_camera),
                 bool(thing.visible_shadow),
+                bool(thing.visible_diffuse),
             )
         )
     _assemble(found)

@@ -193,6 +193,86 @@ def of_mixed():
     put_lamp("SUN", name="Sun", turn=(0, 0.5, 0), energy=0.4, color=(1, 1, 0.8))
 
 
+def of_portal_and_world():
+    put_world().inputs["Color"].default_value = (1, 0.6, 0.3, 1)
+    put_lamp("AREA", color=(0.2, 0.4, 1), energy=20).cycles.is_portal = True
+
+
+def of_lamp_seen_only_in_gloss():
+    of_rgb()
+    put_lamp("AREA", name="Rim", color=(0.2, 0.4, 1), energy=50)
+    bpy.data.objects["Rim"].visible_diffuse = False
+
+
+def of_emitter_seen_only_in_gloss():
+    of_emitter()
+    bpy.context.object.visible_diffuse = False
+    of_rgb()
+
+
+def of_world_seen_only_in_gloss():
+    put_world().inputs["Color"].default_value = (0.3, 0.6, 1, 1)
+    bpy.context.scene.world.cycles_visibility.diffuse = False
+    of_rgb()
+
+
+def of_lamp_without_shadow():
+    put_square(None, 5, (0, 0, 1)).visible_camera = False
+    put_lamp("AREA", color=(1, 0.3, 0.1), energy=20).use_shadow = False
+    put_lamp("AREA", name="Shaded", color=(0.2, 0.4, 1), energy=20)
+
+
+def of_backdrop():
+    """The camera sees one color of the world, and surfaces get another."""
+    shown = put_world()
+    tree = bpy.context.scene.world.node_tree
+    lit, mix, path = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("Background", "MixShader", "LightPath")
+    )
+    lit.inputs["Color"].default_value = (1, 0.6, 0.3, 1)
+    shown.inputs["Color"].default_value = (0, 0.1, 1, 1)
+    tree.links.new(path.outputs["Is Camera Ray"], mix.inputs[0])
+    tree.links.new(lit.outputs[0], mix.inputs[1])
+    tree.links.new(shown.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+
+
+def of_group():
+    """A group with a color of its own, and a strength from outside."""
+    light = put_lamp("POINT", energy=5)
+    tree_of(light, "ShaderNodeOutputLight", "ShaderNodeEmission")
+    group = bpy.data.node_groups.new("Shade", "ShaderNodeTree")
+    group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    group.interface.new_socket("Power", in_out="INPUT", socket_type="NodeSocketFloat")
+    shader = group.nodes.new("ShaderNodeEmission")
+    shader.inputs["Color"].default_value = (0.3, 1, 0.4, 1)
+    start, end = (group.nodes.new(f"NodeGroup{kind}") for kind in ("Input", "Output"))
+    group.links.new(start.outputs[0], shader.inputs["Strength"])
+    group.links.new(shader.outputs[0], end.inputs[0])
+    tree = light.node_tree
+    used = tree.nodes.new("ShaderNodeGroup")
+    used.node_tree = group
+    used.inputs[0].default_value = 4
+    tree.links.new(used.outputs[0], tree.nodes["Light Output"].inputs["Surface"])
+    put_lamp("SUN", color=(1, 0.5, 0.5), energy=0.3)
+
+
+def of_what_renders_show():
+    """A lamp in a collection that is hidden in renders, and one by its empty."""
+    of_rgb()
+    for name in ("Lamps", "Placed"):
+        put_lamp("AREA", name=name, color=(0.2, 0.4, 1), energy=50)
+        collection = bpy.data.collections.new(name)
+        collection.objects.link(bpy.data.objects[name])
+        bpy.context.scene.collection.objects.unlink(bpy.data.objects[name])
+    bpy.context.scene.collection.children.link(bpy.data.collections["Lamps"])
+    bpy.data.collections["Lamps"].hide_render = True
+    empty = bpy.data.objects.new("Empty", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", bpy.data.collections["Placed"]
+    empty.hide_render = True
+    bpy.context.scene.collection.objects.link(empty)
+
+
 def put_sky(kind, elevation, **settings):
     background = put_world()
     tree = bpy.context.scene.world.node_tree
@@ -232,6 +312,10 @@ TOLERANCES = {
     of_even_world: 2e-4,
     of_picture: 4e-3,
     of_mixed: 8e-3,
+    **dict.fromkeys((of_portal_and_world, of_lamp_seen_only_in_gloss, of_backdrop), 2e-4),
+    **dict.fromkeys((of_emitter_seen_only_in_gloss, of_world_seen_only_in_gloss), 2e-4),
+    **dict.fromkeys((of_lamp_without_shadow, of_what_renders_show), 2e-4),
+    of_group: 8e-3,
     of_old_sky: 4e-3,
     of_older_sky: 4e-3,
     of_sky: 4e-3,

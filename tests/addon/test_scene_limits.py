@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an analysis of a scene cannot read, and what it must not write."""
+
+import math
+
+import bpy
+import pytest
+from rough_spectra.addon import assign, presets, scene_analysis, target
+
+
+def analyze():
+    return scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), bpy.context.scene)
+
+
+def add_lamp(name="Bulb"):
+    light = bpy.data.lights.new(name, "POINT")
+    light.energy = 50
+    lamp = bpy.data.objects.new(name, light)
+    lamp.location = (1, 0, 2)
+    bpy.context.scene.collection.objects.link(lamp)
+    return lamp
+
+
+def show(material, size=2.0, height=0.0):
+    bpy.ops.mesh.primitive_plane_add(size=size, location=(0, 0, height))
+    bpy.context.object.data.materials.append(material)
+    request = target.Request(presets.load("light skin"), math.radians(30), "closure")
+    assign.assign([(material, request)])
+    return material
+
+
+@pytest.fixture
+def plate(make_material):
+    """A square under a camera; gives its material, which stores a spectrum."""
+    scene = bpy.context.scene
+    scene.camera = bpy.data.objects.new("View", bpy.data.cameras.new("View"))
+    scene.camera.location = (0.5, 0, 3)
+    scene.collection.objects.link(scene.camera)
+    return show(make_material("Plate"))
+
+
+def test_what_only_renders_show_is_named(plate):
+    add_lamp("Bulb")
+    add_lamp("Lantern").hide_set(True)
+    add_lamp("Gone").hide_render = True
+    bpy.data.objects["Gone"].hide_set(True)
+    [sentence] = analyze().warnings
+    assert sentence.startswith("Hidden in the viewport only, and left out: Lantern;")
+
+
+def test_nodes_that_cannot_be_read_are_named_wherever_they_are(plate):
+    light = add_lamp("Bulb").data
+    if light.node_tree is None:
+        light.use_nodes = True
+    tree = light.node_tree
+    names = ("Mix", "Blackbody", "Math", "Wavelength", "TexNoise")
+    mix, body, less, wave, noise = (tree.nodes.new(f"ShaderNode{name}") for name in names)
+    mix.data_type = "RGBA"
+    color, strength = (tree.nodes["Emission"].inputs[name] for name in ("Color", "Strength"))
+
+    def told():
+        return [warning.split("'")[3] for warning in analyze().warnings]
+
+    def link(output, socket):
+        tree.links.new(output, socket)
+
+    second = next(socket for socket in mix.inputs if socket.enabled and socket.name == "B")
+    link(wave.outputs[0], second)
+    link(next(socket for socket in mix.outputs if socket.enabled), color)
+    assert told() == ["Wavelength"]
+    link(noise.outputs[0], body.inputs[0])
+    link(body.outputs[0], color)
+    assert told() == ["Noise Texture"]
+    tree.links.remove(color.links[0])
+    assert told() == []
+    link(noise.outputs[0], less.inputs[0])
+    link(less.outputs[0], strength)
+    assert told() == ["Noise Texture"]
+    link(tree.nodes.new("ShaderNodeTexImage").outputs[0], strength)
+    assert told() == ["Image Texture"]
