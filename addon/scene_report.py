@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import InputError
+from ..core.errors import InputError, MaterialError
 from . import assign, nodes, stamp, storage, target, working_space
 from .scene_analysis import SceneReport
 from .target import Solution
@@ -59,6 +59,36 @@ def candidates(report: SceneReport, materials: Sequence[Any] | None = None) -> l
             msg = f"{names}: not in the picture; turn the camera to it."
         raise InputError(msg)
     return sorted(found, key=lambda material: str(material.name))
+
+
+def choose(
+    report: SceneReport, materials: Sequence[Any] | None = None, overwrite_edits: bool = False
+) -> tuple[list[Any], list[str]]:
+    """Give the `candidates` that may be written, and a sentence for each that is left as it is.
+
+    Edits by hand are spared unless they are to be overwritten. What cannot be written, such as a
+    linked material, only holds up the others where it was asked for.
+
+    Raises
+    ------
+    RoughSpectraError
+        If none is left.
+    """
+    found = candidates(report, materials)
+    sentences = []
+    if not overwrite_edits:
+        edited = [material for material in found if stamp.edited_by_hand(material)]
+        found = [material for material in found if material not in edited]
+        sentences = [
+            f"{material.name} was edited by hand and is left so; renew it, or overwrite edits."
+            for material in edited
+        ]
+    if materials is None:
+        found, refused = assign.renewable(found)
+        sentences += refused
+    if not found:
+        raise MaterialError(sentences[0])
+    return found, sentences
 
 
 def follow(report: SceneReport, materials: Sequence[Any] | None = None) -> list[Change]:

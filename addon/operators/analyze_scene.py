@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
-from bpy.props import EnumProperty
+from bpy.props import BoolProperty, EnumProperty
 
 from ...core.errors import RoughSpectraError
 from . import common
@@ -32,6 +32,11 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
 
     scope: EnumProperty(name="For", description="Materials that follow the scene", items=_SCOPES)
     through: EnumProperty(name="Through", description="What looks at the scene", items=_EYES)
+    overwrite_edits: BoolProperty(
+        name="Overwrite Edits by Hand",
+        description="Match materials, too, whose color or roughness was edited by hand",
+        default=False,
+    )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
@@ -51,11 +56,12 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
                 materials = common.materials_in_scope(context, "ACTIVE")
             depsgraph = context.evaluated_depsgraph_get()
             report = scene_analysis.analyze(depsgraph, context.scene, self._view(context))
-            changes = scene_report.follow(report, materials)
+            chosen, left = scene_report.choose(report, materials, self.overwrite_edits)
+            changes = scene_report.follow(report, chosen)
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        for sentence in (*report.warnings, scene_report.unlit_sentence(report)):
+        for sentence in (*report.warnings, scene_report.unlit_sentence(report), *left):
             if sentence:
                 self.report({"WARNING"}, sentence)
         common.report_warnings(self, [(c.material, c.solution) for c in changes])

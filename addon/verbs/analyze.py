@@ -25,6 +25,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a material, repeatable; without any, all in view that store a spectrum",
     )
     parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
+    parser.add_argument(
+        "--overwrite-edits",
+        action="store_true",
+        help="match materials, too, whose color or roughness was edited by hand",
+    )
     parser.add_argument("--output", type=Path, metavar="FILE", help="save here, not over the file")
 
 
@@ -46,8 +51,9 @@ def run(options: argparse.Namespace) -> int:
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
         depsgraph = bpy.context.evaluated_depsgraph_get()
         report = scene_analysis.analyze(depsgraph, scene)
-        changes = scene_report.follow(report, named)
-    for sentence in (*report.warnings, scene_report.unlit_sentence(report)):
+        chosen, left = scene_report.choose(report, named, options.overwrite_edits)
+        changes = scene_report.follow(report, chosen)
+    for sentence in (*report.warnings, scene_report.unlit_sentence(report), *left):
         if sentence:
             print(f"warning: {sentence}", file=sys.stderr)
     for change in changes:

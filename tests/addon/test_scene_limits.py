@@ -6,7 +6,7 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, presets, scene_analysis, target
+from rough_spectra.addon import assign, nodes, presets, scene_analysis, stamp, target
 
 
 def analyze():
@@ -79,3 +79,42 @@ def test_nodes_that_cannot_be_read_are_named_wherever_they_are(plate):
     assert told() == ["Noise Texture"]
     link(tree.nodes.new("ShaderNodeTexImage").outputs[0], strength)
     assert told() == ["Image Texture"]
+
+
+def color_of(material):
+    return nodes.color_socket(nodes.shader_node(material)).default_value[:]
+
+
+def test_edits_by_hand_are_not_overwritten_unasked(plate, make_material):
+    add_lamp()
+    other = show(make_material("Other"), 1, 0.2)
+    nodes.color_socket(nodes.shader_node(plate)).default_value = (0.9, 0.1, 0.1, 1)
+    before = color_of(plate)
+    assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
+    assert color_of(plate) == before
+    assert stamp.state(plate).kind == "stale"
+    assert other.rough_spectra.use_scene
+    assert not plate.rough_spectra.use_scene
+    bpy.context.view_layer.objects.active = bpy.data.objects["Plane"]
+    with pytest.raises(RuntimeError, match="Plate was edited by hand"):
+        bpy.ops.rough_spectra.analyze_scene(scope="ACTIVE")
+    assert color_of(plate) == before
+    assert bpy.ops.rough_spectra.analyze_scene(overwrite_edits=True) == {"FINISHED"}
+    assert stamp.state(plate).kind == "fresh"
+
+
+def test_what_cannot_be_written_does_not_hold_up_others(plate, make_material, tmp_path):
+    add_lamp()
+    muted = show(make_material("Muted"), 0.5, 0.2)
+    nodes.shader_node(muted).mute = True
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {show(make_material("Linked"), 0.5, 0.3)})
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.materials = ["Linked"]
+    bpy.context.object.data.materials[0] = wanted.materials[0]
+    before = [color_of(material) for material in (muted, wanted.materials[0])]
+    assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
+    assert plate.rough_spectra.use_scene
+    assert [color_of(material) for material in (muted, wanted.materials[0])] == before
+    with pytest.raises(RuntimeError, match="make it local first"):
+        bpy.ops.rough_spectra.analyze_scene(scope="ACTIVE")
