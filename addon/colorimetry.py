@@ -97,27 +97,26 @@ def held_share(wavelengths: npt.ArrayLike, illuminant: str = "D65", observer: in
     return float((share[outside].sum(axis=0) / share.sum(axis=0)).max())
 
 
+LAB_FROM_ROOTS = np.array(((0.0, 116, 0), (500, -500, 0), (0, 200, -200)))
+"""From roots of X, Y and Z (see `roots`) to L*a*b*, but for the 16 that L* is less."""
+
+
 def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
     """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
     bent = np.where(ratio > _DARK, np.cbrt(ratio), ratio * (841 / 108) + 4 / 29)
-    return _to_lab(bent)
-
-
-def _to_lab(bent: Array) -> Array:
     x, y, z = np.moveaxis(bent, -1, 0)
     return np.stack((116 * y - 16, 500 * (x - y), 200 * (y - z)), axis=-1)
 
 
-def lab_with_slopes(xyz: Array, white_xyz: Array, changes: Array) -> tuple[Array, Array]:
-    """L*a*b* of XYZ (..., 3), and its derivatives (..., 3, n) from those of XYZ, `changes`."""
-    ratio = xyz / white_xyz
-    root = np.cbrt(ratio)
-    bright = ratio > _DARK
-    bent = np.where(bright, root, ratio * (841 / 108) + 4 / 29)
-    slope = np.where(bright, root / (3 * np.where(bright, ratio, 1)), 841 / 108) / white_xyz
-    x, y, z = np.moveaxis(slope[..., np.newaxis] * changes, -2, 0)
-    return _to_lab(bent), np.stack((116 * y, 500 * (x - y), 200 * (y - z)), axis=-2)
+def roots(relative: Array) -> tuple[Array, Array]:
+    """Cube roots of X, Y or Z relative to white, straight near black as in L*a*b*; and slopes."""
+    root = np.cbrt(relative)
+    dark = relative <= _DARK
+    if not dark.any():
+        return root, root / (3 * relative)
+    bent = np.where(dark, relative * (841 / 108) + 4 / 29, root)
+    return bent, np.where(dark, 841 / 108, root / (3 * np.where(dark, 1, relative)))
 
 
 def spectrum_to_lab(

@@ -9,6 +9,7 @@ at 45°/0° is then no longer met by itself: what the material reads there follo
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -87,33 +88,29 @@ def match(
     places = _Places.of(view, space)
     wanted_xyz = places.under_lights(_reflected(albedo, model, sigma, places), bands)
     ratio = places.to_ratio(wanted_xyz)
-    wanted = colorimetry.xyz_to_lab(wanted_xyz, places.whites)
     # Rows of the search: several roughnesses, and last the material without any.
     roughness = np.array([*_ROUGHNESSES, 0.0])
     mean = np.clip(np.einsum("g,gc->c", places.weights, ratio), 1e-4, 1)
     color = np.clip(cycles.color_for_reading(np.tile(mean, (len(roughness), 1)), roughness), 0, 1)
     free = np.ones((len(roughness), 4), bool)
     free[-1, 3] = False
-    found, apart = compromise.fit(
-        places.perceive_with_slopes,
-        wanted,
+    wanted = colorimetry.xyz_to_lab(wanted_xyz, places.whites)
+    found = compromise.fit(
+        places.distance_to(wanted_xyz, wanted),
         places.weights,
-        colorimetry.delta_e,
         np.column_stack((color, roughness)),
         free,
     )
+    apart = colorimetry.delta_e(places.perceive(found), wanted)
     best = int(np.argmin((apart * places.weights).sum(axis=-1)[:-1]))
     targets = [_read_under(light, read, bands, space) for light in view.lights]
-    matches = [
-        Match(
-            found[row, :3],
-            float(found[row, 3]),
-            apart[row, : len(view.geometries)],
-            _at_instrument(found[row], view, read, bands, space),
-        )
-        for row in (best, len(found) - 1)
-    ]
-    return matches[0], matches[1], np.average(targets, axis=0, weights=_shares(view))
+    two = [best, len(found) - 1]
+    at_instrument = _at_instrument(found[two], view, read, bands, space)
+    rough, lambert = (
+        Match(found[row, :3], float(found[row, 3]), apart[row, : len(view.geometries)], missed)
+        for row, missed in zip(two, at_instrument, strict=True)
+    )
+    return rough, lambert, np.average(targets, axis=0, weights=_shares(view))
 
 
 def judge(
@@ -252,9 +249,15 @@ class _Places:
         return cls(angles, view.lights, index, weights, whites, rgb, space.from_xyz, to_xyz)
 
     @cached_property
-    def directions(self) -> cycles_slopes.Directions:
-        """What of Cycles' closure these directions decide."""
-        return cycles_slopes.prepare(*self.angles)
+    def to_relative(self) -> Array:
+        """Turns coefficients of Cycles' closure into XYZ relative to white.
+
+        Shape (9, 3 places): channel and function of the closure; X, Y or Z and place.
+        """
+        # (places, channel, XYZ): the channel under the light, as XYZ, relative to white.
+        mixed = self.rgb[..., np.newaxis] * self.to_xyz / self.whites[:, np.newaxis]
+        functions = cycles_slopes.functions(*self.angles)
+        return np.einsum("gcx,fg->cfxg", mixed, functions).reshape(9, -1)
 
     def under_lights(self, reflected: Array, bands: Array) -> Array:
         """XYZ of spectra (places, bands), each under the light of its place."""
@@ -273,17 +276,37 @@ class _Places:
         seen = cycles.reflectance(color, roughness, *self.angles)
         return colorimetry.xyz_to_lab((seen * self.rgb) @ self.to_xyz, self.whites)
 
-    def perceive_with_slopes(self, parameters: Array) -> tuple[Array, Array]:
-        """Lab of materials (materials, 4) in all places, and its derivatives by the four."""
-        seen, by_color, by_roughness = cycles_slopes.reflectance(
-            parameters[:, :3], parameters[:, 3], self.directions
-        )
-        changes = np.empty((*seen.shape, 4))
-        mix = self.rgb[:, np.newaxis] * self.to_xyz.T
-        changes[..., :3] = mix * by_color[:, :, np.newaxis]
-        changes[..., 3] = (by_roughness * self.rgb) @ self.to_xyz
-        xyz = (seen * self.rgb) @ self.to_xyz
-        return colorimetry.lab_with_slopes(xyz, self.whites, changes)
+    def distance_to(self, xyz: Array, lab: Array) -> Callable[[Array], tuple[Array, Array]]:
+        """Give what `compromise.fit` searches: how far materials are from wanted colors.
+
+        Parameters
+        ----------
+        xyz, lab
+            The same colors in all places, each of shape (places, 3).
+        """
+        metric = compromise.whitener(lab, colorimetry.delta_e) @ colorimetry.LAB_FROM_ROOTS
+        # One for X, Y and Z each, (3, places): the place comes last, where numpy is fast.
+        of_x, of_y, of_z = np.ascontiguousarray(metric.transpose(2, 1, 0))
+        roots, _ = colorimetry.roots(np.ascontiguousarray((xyz / self.whites).T))
+
+        def distance(parameters: Array) -> tuple[Array, Array]:
+            values, by_color, by_roughness = cycles_slopes.coefficients(
+                parameters[:, :3], parameters[:, 3]
+            )
+            count = len(parameters)
+            parts = np.zeros((count, 5, 3, 3))
+            parts[:, 0], parts[:, 4] = values, by_roughness
+            for channel in range(3):
+                parts[:, 1 + channel, channel] = by_color[:, channel]
+            relative = (parts.reshape(-1, 9) @ self.to_relative).reshape(count, 5, 3, -1)
+            bent, slope = colorimetry.roots(relative[:, 0])
+            relative[:, 0] = bent - roots
+            relative[:, 1:] *= slope[:, np.newaxis]
+            x, y, z = (relative[:, :, i : i + 1] for i in range(3))
+            found = of_x * x + of_y * y + of_z * z
+            return found[:, 0], found[:, 1:]
+
+        return distance
 
 
 def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
@@ -301,17 +324,24 @@ def _read_under(light: SceneLight, read: Array, bands: Array, space: WorkingSpac
 
 
 def _at_instrument(
-    shader: Array, view: SceneView, read: Array, bands: Array, space: WorkingSpace
+    shaders: Array, view: SceneView, read: Array, bands: Array, space: WorkingSpace
 ) -> Array:
-    seen = cycles.reflectance(shader[:3], shader[3], *reading.INSTRUMENT_ANGLES["45a:0"])
-    labs = [
-        (
-            to_lab(seen, light, space),
-            colorimetry.xyz_to_lab(read @ light.weights(bands), light.white),
+    """ΔE00 at 45°/0° of shaders (shaders, 4) under each of the lights, (shaders, lights)."""
+    angles = reading.INSTRUMENT_ANGLES["45a:0"]
+    seen = cycles.reflectance(shaders[:, :3], shaders[:, 3], *angles)[:, np.newaxis]
+    rgb, whites, wanted = (
+        np.stack(rows)
+        for rows in zip(
+            *(
+                (light_rgb(light, space), light.white, read @ light.weights(bands))
+                for light in view.lights
+            ),
+            strict=True,
         )
-        for light in view.lights
-    ]
-    return np.array([float(colorimetry.delta_e(*pair)) for pair in labs])
+    )
+    xyz = (seen * rgb) @ np.linalg.inv(space.from_xyz).T
+    labs = (colorimetry.xyz_to_lab(color, whites) for color in (xyz, wanted))
+    return colorimetry.delta_e(*labs)
 
 
 def _shares(view: SceneView) -> Array:

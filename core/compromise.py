@@ -5,7 +5,9 @@
 A sum of differences, not of their squares: most places then come out right and the few that
 contradict them stay wrong, as a median does. Such a sum has a kink wherever a place is met, so the
 search weights squares anew in each step (iteratively reweighted least squares; Gauss-Newton with
-Levenberg's damping, projected onto the bounds).
+Levenberg's damping, projected onto the bounds). Near the end each step takes the same part of what
+is left, so steps get longer as long as they gain (Salakhutdinov and Roweis, "Adaptive Overrelaxed
+Bound Optimization Methods", 2003).
 """
 
 from __future__ import annotations
@@ -17,6 +19,14 @@ import numpy as np
 from .arrays import Array
 
 _STEPS = 24
+_SIFTED = 3
+"""Steps after which only the best of the starts goes on that are free in the same parameters. Any
+fewer, and the best then is not always the best in the end."""
+_LONGER = 1.3
+"""How much longer each step is than the last one, if that gained; if not, it has its own length."""
+_LONGEST = 4.0
+_DAMPING = 1e-5
+"""Of the first step, as a share of the trace; a tenth after each that gains, eight times if not."""
 _METRIC_PROBE = 0.02
 """Step in Lab within which a color difference is a quadratic form."""
 _KINK = 0.01
@@ -26,26 +36,18 @@ _SETTLED = 1e-4
 
 
 def fit(
-    perceive: Callable[[Array], tuple[Array, Array]],
-    wanted: Array,
-    weights: Array,
-    difference: Callable[[Array, Array], Array],
-    starts: Array,
-    free: Array,
-) -> tuple[Array, Array]:
+    distance: Callable[[Array], tuple[Array, Array]], weights: Array, starts: Array, free: Array
+) -> Array:
     """Search from several starts at once.
 
     Parameters
     ----------
-    perceive
-        Lab in all places of parameters within 0 and 1, and its derivatives by them:
-        (starts, n) -> (starts, places, 3) and (starts, places, 3, n).
-    wanted
-        Lab that the places should show, shape (places, 3).
+    distance
+        How far all places are from what is wanted, in a space where color differences are plain
+        distances (see `whitener`), for parameters within 0 and 1, and its derivatives by them:
+        (starts, n) -> (starts, 3, places) and (starts, n, 3, places).
     weights
         Of the places, shape (places,).
-    difference
-        Color difference of two arrays of Lab, (..., 3) and (..., 3) -> (...).
     starts
         Parameters to start from, shape (starts, n).
     free
@@ -53,50 +55,54 @@ def fit(
 
     Returns
     -------
-    found, differences
-        Parameters, shape (starts, n), and what remains in each place, shape (starts, places).
+    Parameters, shape (starts, n).
     """
-    whitener = _whitener(wanted, difference)
     found = np.array(starts, np.float64)
-    apart, slopes = _linear(perceive, found, wanted, whitener)
-    cost, damping = _cost(apart, weights), np.full(len(found), 1e-3)
+    cost, gradient, bend = _squares(*distance(found), weights)
+    damping, length = np.full(len(found), _DAMPING), np.ones(len(found))
     searching = np.arange(len(found))
-    for _ in range(_STEPS):
-        at = found[searching]
-        gradient, bend = _normal(apart[searching], slopes[searching], weights)
-        step = _step(at, gradient, bend, damping[searching], free[searching])
-        new_apart, new_slopes = _linear(perceive, at + step, wanted, whitener)
-        new_cost = _cost(new_apart, weights)
+    for number in range(1, _STEPS + 1):
+        at, pull, curve = found[searching], gradient[searching], bend[searching]
+        step = _step(at, pull, curve, damping[searching], free[searching])
+        relaxed = length[searching]
+        to = np.clip(at + step * relaxed[:, np.newaxis], 0, 1)
+        new_cost, new_gradient, new_bend = _squares(*distance(to), weights)
         gained = cost[searching] - new_cost
         better = gained > 0
         kept = searching[better]
-        found[kept], cost[kept] = (at + step)[better], new_cost[better]
-        apart[kept], slopes[kept] = new_apart[better], new_slopes[better]
-        damping[searching] *= np.where(better, 1 / 5, 8)
-        # Where a step gains nothing, what it had promised tells whether there is more to find.
-        promised = -np.einsum("bn,bn->b", gradient + (bend @ step[..., None])[..., 0] / 2, step)
-        ended = np.where(better, gained, promised) < _SETTLED
-        searching = searching[~ended & (damping[searching] <= 1e3)]
+        found[kept], cost[kept] = to[better], new_cost[better]
+        gradient[kept], bend[kept] = new_gradient[better], new_bend[better]
+        # Where a step gains nothing, what it promised tells whether there is more to find; one that
+        # was longer is tried again at its own length first.
+        promised = -((pull + (curve @ step[..., np.newaxis])[..., 0] / 2) * step).sum(axis=1)
+        promised = np.where(better, gained, np.where(relaxed > 1, np.inf, promised))
+        damping[searching] *= np.where(better, 0.1, np.where(relaxed > 1, 1, 8))
+        length[searching] = np.where(better, np.minimum(relaxed * _LONGER, _LONGEST), 1)
+        going = (promised >= _SETTLED) & (damping[searching] <= 1e3)
+        if number == _SIFTED:
+            going &= _best_of_their_kind(cost, free)[searching]
+        searching = searching[going]
         if not searching.size:
             break
-    return found, difference(perceive(found)[0], wanted)
+    return found
 
 
-def _linear(
-    perceive: Callable[[Array], tuple[Array, Array]], at: Array, wanted: Array, whitener: Array
-) -> tuple[Array, Array]:
-    """Whitened distance from what is wanted (starts, places, 3), and its slopes (…, 3, n)."""
-    seen, slopes = perceive(at)
-    return (whitener @ (seen - wanted)[..., np.newaxis])[..., 0], whitener @ slopes
+def _best_of_their_kind(cost: Array, free: Array) -> Array:
+    """Whether each start is the best of those that are free in the same parameters."""
+    alike = (free[:, np.newaxis] == free).all(axis=-1)
+    return np.asarray(cost <= np.where(alike, cost, np.inf).min(axis=1))
 
 
-def _normal(apart: Array, slopes: Array, weights: Array) -> tuple[Array, Array]:
-    """Gradient (starts, n) and curvature (starts, n, n) of the squares, weighted anew."""
-    root = np.sqrt(weights / np.sqrt((apart * apart).sum(axis=-1) + _KINK**2))[..., np.newaxis]
-    rows = (slopes * root[..., np.newaxis]).reshape(len(apart), -1, slopes.shape[-1])
-    columns = np.swapaxes(rows, 1, 2)
-    pulled = (apart * root).reshape(len(apart), -1, 1)
-    return (columns @ pulled)[..., 0], columns @ rows
+def _squares(apart: Array, slopes: Array, weights: Array) -> tuple[Array, Array, Array]:
+    """Sum of differences (starts,), and the squares that touch it there.
+
+    Their gradient (starts, n) and curvature (starts, n, n).
+    """
+    starts, n = slopes.shape[:2]
+    lengths = np.sqrt((apart * apart).sum(axis=1) + _KINK**2)
+    rows = (slopes * (weights / lengths)[:, np.newaxis, np.newaxis]).reshape(starts, n, -1)
+    gradient = (rows @ apart.reshape(starts, -1, 1))[..., 0]
+    return lengths @ weights, gradient, rows @ np.swapaxes(slopes.reshape(starts, n, -1), 1, 2)
 
 
 def _step(at: Array, gradient: Array, bend: Array, damping: Array, free: Array) -> Array:
@@ -112,8 +118,20 @@ def _step(at: Array, gradient: Array, bend: Array, damping: Array, free: Array) 
     return np.asarray(np.clip(at + step, 0, 1) - at)
 
 
-def _whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
-    """Matrices (places, 3, 3) after which the difference is a plain distance."""
+def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
+    """Matrices after which a color difference is a plain distance, close to some colors.
+
+    Parameters
+    ----------
+    at
+        The colors, (places, 3).
+    difference
+        Of two arrays of colors, (..., 3) and (..., 3) -> (...).
+
+    Returns
+    -------
+    Shape (places, 3, 3), from colors to the space of distances.
+    """
     squares, axes = np.linalg.eigh(_metric(at, difference))
     return np.asarray(np.sqrt(np.maximum(squares, 0))[..., np.newaxis] * np.swapaxes(axes, 1, 2))
 
@@ -130,7 +148,3 @@ def _metric(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
         cross = by_pair[i, j] if i == j else (by_pair[i, j] - by_pair[i, i] - by_pair[j, j]) / 2
         metric[:, i, j] = metric[:, j, i] = cross
     return metric
-
-
-def _cost(apart: Array, weights: Array) -> Array:
-    return np.asarray((weights * np.sqrt((apart * apart).sum(axis=-1) + _KINK**2)).sum(axis=-1))

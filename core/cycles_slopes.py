@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cycles' Diffuse closure with its derivatives, for searches that return to the same directions.
 
-The same numbers as `cycles.reflectance`, without its checks: a search stays within the domain.
+The closure is a sum of three functions of the directions alone, each times a number that color and
+roughness decide: a search computes the functions once. The same numbers as `cycles.reflectance`,
+without its checks: a search stays within the domain.
 """
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,25 +15,26 @@ from .arrays import Array
 from .cycles import ALBEDO_SPAN, MEAN_SPAN, albedo_shape
 
 
-class Directions(NamedTuple):
-    """What of the closure only the directions decide, each of shape (directions, 1)."""
+def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
+    """Give 1, the tilt of the facets and the light that single scattering lost.
 
-    tilt: Array
-    lost: Array
+    Parameters
+    ----------
+    theta_i, theta_r, delta_phi
+        Radians, shape (directions,).
 
-
-def prepare(theta_i: Array, theta_r: Array, delta_phi: Array) -> Directions:
-    """Compute what of the closure only the directions decide; angles in radians, (directions,)."""
+    Returns
+    -------
+    Shape (3, directions).
+    """
     tilt = np.sin(theta_i) * np.sin(theta_r) * np.cos(delta_phi)
     tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(theta_i), np.cos(theta_r)), tilt)
     lost = (ALBEDO_SPAN - albedo_shape(theta_i)) * (ALBEDO_SPAN - albedo_shape(theta_r))
-    return Directions(tilt[:, np.newaxis], lost[:, np.newaxis])
+    return np.stack((np.ones_like(tilt), tilt, lost / MEAN_SPAN**2))
 
 
-def reflectance(
-    color: Array, roughness: Array, directions: Directions
-) -> tuple[Array, Array, Array]:
-    """Reflectance factor, and its derivatives by color and by roughness.
+def coefficients(color: Array, roughness: Array) -> tuple[Array, Array, Array]:
+    """Give what the three functions are multiplied with, and its derivatives.
 
     Parameters
     ----------
@@ -44,25 +45,28 @@ def reflectance(
 
     Returns
     -------
-    reflected, by_color, by_roughness
-        Each of shape (materials, directions, 3). A channel follows only its own color.
+    values, by_color, by_roughness
+        Each of shape (materials, 3, 3): channel, then function; `values @ functions(…)` is the
+        reflectance factor. A channel follows only its own color.
     """
-    c, s = color[:, np.newaxis], roughness[:, np.newaxis, np.newaxis]
+    s = roughness[:, np.newaxis]
     a = 1 / (np.pi + s * ALBEDO_SPAN)
     # a' = -a² k with k the albedo span, so (s a)' = π a².
-    single = np.pi * a * (1 + s * directions.tilt)
-    single_slope = np.pi * a * a * (np.pi * directions.tilt - ALBEDO_SPAN)
-    ratio, ratio_slope = s * a * MEAN_SPAN, np.pi * a * a * MEAN_SPAN
-    lost = directions.lost / MEAN_SPAN**2
-    multiple, multiple_slope = (
-        lost * ratio * (1 - ratio),
-        lost * ratio_slope * (1 - 2 * ratio),
+    rise = np.pi * a * a
+    ratio = s * a * MEAN_SPAN
+    left = ratio - ratio * ratio
+    rest = 1 / (1 - color * ratio)
+    square = color * color * rest
+    values, by_color, by_roughness = np.empty((3, *color.shape, 3))
+    by_color[..., 0] = np.pi * a
+    by_color[..., 1] = np.pi * s * a
+    # With b the color times ratio: (c³ / (1 - b))' = c² (3 - 2b) / (1 - b)².
+    by_color[..., 2] = square * (2 + rest) * left
+    np.multiply(by_color, color[..., np.newaxis], out=values)
+    values[..., 2] = color * square * left
+    by_roughness[..., 0] = -ALBEDO_SPAN * rise * color
+    by_roughness[..., 1] = np.pi * rise * color
+    by_roughness[..., 2] = (
+        color * square * (MEAN_SPAN * rise) * (1 - 2 * ratio + left * color * rest)
     )
-    rest = 1 / (1 - c * ratio)
-    square = c * c * rest
-    reflected = c * (single + square * multiple)
-    by_color = single + square * multiple * (3 - 2 * c * ratio) * rest
-    by_roughness = c * (
-        single_slope + square * (multiple_slope + multiple * c * ratio_slope * rest)
-    )
-    return reflected, by_color, by_roughness
+    return values, by_color, by_roughness

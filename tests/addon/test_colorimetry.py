@@ -278,3 +278,15 @@ def test_patch_14_of_the_2007_report(colorchecker, observer, apart, same_luminan
 
     assert round(distance(rough_xyz), 2) == apart
     assert round(distance(rough_xyz * smooth_xyz[1] / rough_xyz[1]), 1) == same_luminance
+
+
+def test_roots_lead_to_lab_and_have_its_slopes():
+    relative = np.array((1e-4, 0.003, 0.008, 0.01, 0.2, 0.9, 1.3))
+    bent, slope = colorimetry.roots(relative)
+    gray = np.repeat(relative[:, np.newaxis], 3, axis=1) * (0.9, 1, 1.1)
+    lab = colorimetry.LAB_FROM_ROOTS @ colorimetry.roots(gray)[0][..., np.newaxis]
+    assert lab[..., 0] - (16, 0, 0) == pytest.approx(colorimetry.xyz_to_lab(gray, np.ones(3)))
+    step = 1e-7
+    rise = colorimetry.roots(relative + step)[0] - colorimetry.roots(relative - step)[0]
+    assert slope == pytest.approx(rise / (2 * step), rel=1e-5)
+    assert bent[-3:] == pytest.approx(np.cbrt(relative[-3:]))
