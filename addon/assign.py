@@ -5,11 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from ..core.errors import MaterialError, RoughSpectraError
-from . import nodes, stamp, storage, target, working_space
+from . import nodes, storage, target, working_space
 from .scene_view import SceneView
 from .target import Request, Solution
 
@@ -68,12 +67,7 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
     MaterialError, DomainError
         As in `renew`; nothing was changed then.
     """
-    flat = stamp.engine_is_flat()
-    stored = [_stored(material, material) for material in views]
-    requests = [
-        (place, replace(request, scene=view, flat=flat))
-        for (place, request), view in zip(stored, views.values(), strict=True)
-    ]
+    requests = [_stored(material, material, view) for material, view in views.items()]
     space, solutions = _solve(requests)
     for (place, request), solution in zip(requests, solutions, strict=True):
         node = _write(place, solution)
@@ -82,13 +76,18 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
     return solutions
 
 
-def renewable(materials: Iterable[Any]) -> tuple[list[Any], list[str]]:
-    """Tell the materials that can be renewed from those that can't, and why: a sentence each."""
+def renewable(
+    materials: Iterable[Any], views: Mapping[Any, SceneView] | None = None
+) -> tuple[list[Any], list[str]]:
+    """Tell the materials that can be renewed from those that can't, and why: a sentence each.
+
+    With views, those that can follow these instead of what they store.
+    """
     able, sentences = [], []
     for material in materials:
         try:
-            _stored(material, material)
-        except MaterialError as error:
+            _stored(material, material, views[material] if views else None)
+        except RoughSpectraError as error:
             sentences.append(str(error))
         else:
             able.append(material)
@@ -123,8 +122,10 @@ def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
     return solutions
 
 
-def _stored(material: Any, source: Any) -> tuple[nodes.Place, Request]:
-    return nodes.find(material, source.rough_spectra.shader), storage.load(source)
+def _stored(
+    material: Any, source: Any, view: SceneView | None = None
+) -> tuple[nodes.Place, Request]:
+    return nodes.find(material, source.rough_spectra.shader), storage.load(source, view)
 
 
 def _solve(work: Sequence[tuple[nodes.Place, Request]]) -> tuple[str, list[Solution]]:

@@ -84,7 +84,7 @@ def choose(
             for material in edited
         ]
     if materials is None:
-        found, refused = assign.renewable(found)
+        found, refused = assign.renewable(found, report.views)
         sentences += refused
     if not found:
         raise MaterialError(sentences[0])
@@ -137,7 +137,7 @@ def _mean_now(report: SceneReport, material: Any) -> float | None:
     view = report.views[material]
     color = np.array(nodes.color_socket(node).default_value[:3])
     roughness = float(np.clip(nodes.roughness_socket(node).default_value, 0, 1))
-    request, space = storage.load(material), working_space.current()
+    request, space = storage.load(material, view), working_space.current()
     apart = target.differences(request, view, color, roughness, space)
     return float(np.average(apart, weights=view.weights))
 

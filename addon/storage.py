@@ -16,6 +16,7 @@ from ..core.errors import InputError, MaterialError
 from . import live, scene_view
 from .properties import SCHEMA
 from .sample import Sample
+from .scene_view import SceneView
 from .stamp import (
     DERIVATION,
     elsewhere,
@@ -67,8 +68,15 @@ def store(material: Any, request: Request, shader: str) -> None:
             group.use_scene, group.scene_view = True, request.scene.to_json()
 
 
-def load(material: Any) -> Request:
+def load(material: Any, view: SceneView | None = None) -> Request:
     """Read back what `store` wrote.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`.
+    view
+        Lights and directions instead of those that are stored, which may then be damaged.
 
     Raises
     ------
@@ -95,7 +103,7 @@ def load(material: Any) -> Request:
             source=group.source,
             **(plain | pairs),
         )
-    except (InputError, ValueError, KeyError, TypeError) as error:
+    except (InputError, ValueError, KeyError, TypeError, AttributeError) as error:
         msg = (
             f"Material {material.name!r}: its stored spectrum cannot be read ({error}); assign "
             "the sample again."
@@ -108,6 +116,8 @@ def load(material: Any) -> Request:
         illuminant=group.illuminant,
         observer=int(group.observer),
         tolerance=tolerance(group),
+        scene=view,
+        flat=view is not None and engine_is_flat(),
     )
     return in_scene(material, request)
 

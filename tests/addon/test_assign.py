@@ -249,7 +249,7 @@ def change(material, what):
     [
         ("color", "color or roughness was edited by hand"),
         ("roughness", "color or roughness was edited by hand"),
-        ("color linked", "color or roughness was edited by hand"),
+        ("color linked", "Base Color comes from another node"),
         ("specular", "Specular IOR Level is in use"),
         ("metallic", "Metallic is in use"),
         ("mute", "'Principled BSDF' is muted"),
@@ -384,6 +384,15 @@ def test_damaged_storage_is_one_sentence(make_material, colorchecker, request_fo
     material = make_material("Damaged")
     assign.assign([(material, request_for(colorchecker[0]))])
     material.rough_spectra.spectrum = spectrum
+    with pytest.raises(MaterialError, match="'Damaged': its stored spectrum cannot be read"):
+        storage.load(material)
+
+
+@pytest.mark.parametrize("details", ["[1]", "7", '{"notes": 5}', "{"])
+def test_damaged_details_are_one_sentence(make_material, colorchecker, request_for, details):
+    material = make_material("Damaged")
+    assign.assign([(material, request_for(colorchecker[0]))])
+    material.rough_spectra.details = details
     with pytest.raises(MaterialError, match="'Damaged': its stored spectrum cannot be read"):
         storage.load(material)
 

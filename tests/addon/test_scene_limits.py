@@ -118,3 +118,12 @@ def test_what_cannot_be_written_does_not_hold_up_others(plate, make_material, tm
     assert [color_of(material) for material in (muted, wanted.materials[0])] == before
     with pytest.raises(RuntimeError, match="make it local first"):
         bpy.ops.rough_spectra.analyze_scene(scope="ACTIVE")
+
+
+def test_a_damaged_analysis_is_mended_by_analyzing_again(plate):
+    add_lamp()
+    plate.rough_spectra.scene_view = "{}"
+    plate.rough_spectra.use_scene = True
+    assert stamp.state(plate).reasons[0].endswith("analyze it again.")
+    assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
+    assert stamp.state(plate).kind == "fresh"
