@@ -174,7 +174,7 @@ def test_compromise_is_the_least_of_a_fine_search():
 def test_compromise_in_color_and_roughness_is_the_least_near_and_far(colorchecker, sigma):
     """Steps of every size and anywhere in the domain, in two lights, find nothing better.
 
-    But for what a quadratic form misses of differences of several ΔE00: 0.05 of about 3.
+    But for what a quadratic form misses of differences of several ΔE00: two in a hundred.
     """
     view = view_of(light_of((1, 0.5, 0.2), "Warm", 0.6), light_of((0.4, 0.6, 1), "Cold", 0.4))
     space = working_space.current()
@@ -188,7 +188,7 @@ def test_compromise_in_color_and_roughness_is_the_least_near_and_far(colorchecke
         for tried in np.clip(found + random.normal(size=(240, 4)) * sizes, 0, 1):
             shader = (tried[:3], float(tried[3]))
             apart = scene_match.judge(view, shader, rho, "closure", sigma, bands, space)
-            assert best <= np.average(apart, weights=view.weights) + 0.05
+            assert best <= 1.02 * np.average(apart, weights=view.weights) + 0.005
 
 
 def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
