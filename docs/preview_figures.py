@@ -79,7 +79,7 @@ def on(background, canvas):
     import numpy as np
 
     gap = GAP * SCALE
-    padded = np.pad(canvas, ((gap, gap), (gap, gap), (0, 0)))
+    padded = np.pad(canvas, ((gap, gap), (gap, gap), (0, 0))) / np.float32(255)
     return padded[..., :3] + (1 - padded[..., 3:]) * np.float32(background)
 
 

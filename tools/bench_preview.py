@@ -4,19 +4,22 @@
 
     python tools/bench_preview.py
 
-Needs the bpy module. The least of many runs in wall time, and the median of the thread's own time,
-which other programs disturb less. Milliseconds.
+Needs the bpy module. σ differs from run to run, as when it is dragged: what does not depend on it
+may be kept, the rest has to be drawn. The least of many runs and the median, in the thread's own
+time, which other programs disturb less than wall time. Milliseconds.
 """
 
 from __future__ import annotations
 
 import importlib
+import itertools
 import statistics
 import sys
 import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 REPEATS = 100
 PATCH = Path(__file__).resolve().parents[1] / "presets" / "colorchecker" / "14-green.json"
@@ -32,16 +35,27 @@ def main() -> None:
     extension.register()
     import bpy
     import numpy as np
-    from rough_spectra.addon import assign, readers, target, working_space
+    from rough_spectra.addon import assign, live, nodes, readers, target, working_space
     from rough_spectra.addon.preview import compose, data, icons, theme
 
     material = bpy.data.materials.new("Bench")
     [sample] = readers.read(PATCH)
     assign.assign([(material, target.Request(sample, float(np.radians(28))))])
     space = working_space.current()
-    found = data.collect(material, space)
+    degrees = itertools.cycle(np.linspace(15, 60, 91).tolist())
+
+    def drag() -> data.Data:
+        """Set another σ, and the roughness in the node as if it followed."""
+        sigma = float(np.radians(next(degrees)))
+        with live.paused():
+            material.rough_spectra.sigma = sigma
+        nodes.roughness_socket(nodes.shader_node(material)).default_value = sigma / 2
+        return data.collect(material, space)
+
     preview = icons._previews().new("bench")
-    print(f"Blender {bpy.app.version_string}, numpy {np.__version__}, {REPEATS} runs: least (CPU)")
+    print(
+        f"Blender {bpy.app.version_string}, numpy {np.__version__}, {REPEATS} runs: least (median)"
+    )
     row("numbers of all figures", lambda: data.collect(material, space))
     for model in ("two-bounce", "reference"):
         request = target.Request(sample, 0.5, model=model)
@@ -53,12 +67,16 @@ def main() -> None:
         print(f"scale {scale}: sheet of {SHEET * scale}, swatches of {SWATCHES * scale} pixels")
         for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
             size = side * scale
-            canvas = compose.picture(figure, found, size, look)
-            row(figure, partial(compose.picture, figure, found, size, look))
-            row("… to Blender", partial(icons._upload, preview, canvas))
+            shown = itertools.cycle([drag() for _ in range(91)])
+
+            def draw(f: str = figure, s: int = size, k: theme.Look = look, d: Any = shown) -> Any:
+                return compose.picture(f, next(d), s, k)
+
+            row(figure, draw)
+            row("… to Blender", partial(icons._upload, preview, draw()))
 
         def everything(k: theme.Look = look, s: int = scale) -> None:
-            numbers = data.collect(material, space)
+            numbers = drag()
             for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
                 icons._upload(preview, compose.picture(figure, numbers, side * s, k))
 
@@ -69,13 +87,12 @@ def main() -> None:
 
 def row(name: str, work: Callable[[], object]) -> None:
     """Print the cost of one piece of work."""
-    walls, cpus = [], []
+    times = []
     for _ in range(REPEATS):
-        wall, cpu = time.perf_counter(), time.thread_time()
+        start = time.thread_time()
         work()
-        cpus.append(time.thread_time() - cpu)
-        walls.append(time.perf_counter() - wall)
-    print(f"{name:>26}  {1e3 * min(walls):7.2f}  ({1e3 * statistics.median(cpus):.2f})")
+        times.append(1e3 * (time.thread_time() - start))
+    print(f"{name:>26}  {min(times):7.2f}  ({statistics.median(times):.2f})")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from ...core.arrays import Array
 from . import figures, raster
-from .plot import Size
 
 if TYPE_CHECKING:
     from .data import Data
@@ -34,38 +33,49 @@ def picture(figure: str, found: Data, side: int, look: Look) -> Array:
     side
         Pixels.
     """
-    size = (side, side)
-    if figure == "swatches":
-        outside = (found.target.outside, found.blender.outside)
-        return figures.swatch_pair(found.target.color, found.blender.color, size, look, outside)
-    if figure == "polar":
-        curves = (found.view, found.target_curve, found.blender_curve)
-        return figures.angles_polar(*curves, size, look, found.engine)
-    if figure == "sheet":
-        return _sheet(found, side, look)
-    return {"spectrum": _spectrum, "angles": _angles}[figure](found, size, look)
+    canvas = raster.blank(side, side)
+    _DRAWN[figure](canvas, found, look)
+    return canvas
 
 
-def _sheet(found: Data, side: int, look: Look) -> Array:
+def _swatches(canvas: Array, found: Data, look: Look) -> None:
+    outside = (found.target.outside, found.blender.outside)
+    figures.swatch_pair(canvas, found.target.color, found.blender.color, look, outside)
+
+
+def _sheet(canvas: Array, found: Data, look: Look) -> None:
+    side = len(canvas)
     strip, gap = round(_STRIP * look.scale), round(_GAP * look.scale)
     plots = [_spectrum, _angles]
     high = (side - strip - 2 * gap) // 2
     if high < _LOWEST * look.scale:
         # No room for both: the one that changes with σ.
         plots, high = [_angles], side - strip - gap
-    canvas = raster.blank(side, side)
-    canvas[:strip] = figures.sigma_range(found.sigma, found.sigma_max, (side, strip), look)
+    figures.sigma_range(canvas[:strip], found.sigma, found.sigma_max, look)
     row = strip + gap
     for plot in plots:
-        canvas[row : row + high] = plot(found, (side, high), look)
+        plot(canvas[row : row + high], found, look)
         row += high + gap
-    return canvas
 
 
-def _spectrum(found: Data, size: Size, look: Look) -> Array:
-    return figures.spectrum(found.wavelengths, found.albedo, found.reading, found.bars, size, look)
+def _spectrum(canvas: Array, found: Data, look: Look) -> None:
+    figures.spectrum(canvas, found.wavelengths, found.albedo, found.reading, found.bars, look)
 
 
-def _angles(found: Data, size: Size, look: Look) -> Array:
+def _angles(canvas: Array, found: Data, look: Look) -> None:
     curves = (found.view, found.target_curve, found.blender_curve)
-    return figures.angles(*curves, found.lambert, size, look, found.engine)
+    figures.angles(canvas, *curves, found.lambert, look, found.engine)
+
+
+def _polar(canvas: Array, found: Data, look: Look) -> None:
+    curves = (found.view, found.target_curve, found.blender_curve)
+    figures.angles_polar(canvas, *curves, look, found.engine)
+
+
+_DRAWN = {
+    "swatches": _swatches,
+    "sheet": _sheet,
+    "spectrum": _spectrum,
+    "angles": _angles,
+    "polar": _polar,
+}

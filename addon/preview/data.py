@@ -23,6 +23,19 @@ from .shown import in_directions, under_main_light
 VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
 """Degrees in the plane of incidence, negative on the side of the light."""
 
+_VIEW = np.radians(np.abs(VIEW_ANGLES))
+_DIRECTIONS = (
+    np.full(_VIEW.shape, np.radians(LIGHT_ANGLE)),
+    _VIEW,
+    np.where(VIEW_ANGLES < 0, 0.0, np.pi),
+)
+"""Polar angles of light and view, and the azimuth between them, radians."""
+_ALL_DIRECTIONS = tuple(
+    np.append(angles, at)
+    for angles, at in zip(_DIRECTIONS, reading.INSTRUMENT_ANGLES[VIRTUAL], strict=True)
+)
+"""The instrument's comes last."""
+
 _OUTSIDE = 0.002
 """How far display-encoded values may leave 0 to 1 before a color counts as outside of the gamut:
 half of what the screen resolves."""
@@ -145,29 +158,26 @@ def of_request(
 ) -> Data:
     """Compute the same from a request with a settled model, and what is in the shader node."""
     sample, light = request.sample, request.illuminant
-    weights = space.rgb_weights(sample.wavelengths, light)
+    bands, matrix = sample.wavelengths, space.from_xyz.astype(np.float64)
+    weights, luminance = _weights(bands.tobytes(), matrix.tobytes(), light)
     seen, rho = spectra_of(request)
     # Sockets may hold anything; what the closure does to a color above 1 is not defined.
     color = np.clip(color, 0, 1)
     roughness = min(max(roughness, 0.0), 1.0)
-    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
-    luminance = colorimetry.weights(sample.wavelengths, light)[:, 1]
-    view = np.radians(np.abs(VIEW_ANGLES))
-    azimuth = np.where(VIEW_ANGLES < 0, 0.0, np.pi)
-    angles = (np.full(view.shape, np.radians(LIGHT_ANGLE)), view, azimuth)
-    shown = cycles.reflectance(color, np.full(view.shape, roughness), *angles)
+    shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
+    shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument
     if request.scene is not None:
-        target, blender = under_main_light(request.scene, seen, sample.wavelengths, blender, space)
+        target, blender = under_main_light(request.scene, seen, bands, blender, space)
     return Data(
         target=patch(target, space),
         blender=patch(blender, space),
-        wavelengths=sample.wavelengths,
+        wavelengths=bands,
         albedo=rho,
         reading=seen,
         bars=rgb_bars(at_instrument, space, light),
         view=VIEW_ANGLES,
-        target_curve=np.maximum(in_directions(request, rho, angles) @ luminance, 0),
+        target_curve=np.maximum(in_directions(request, rho, _DIRECTIONS) @ luminance, 0),
         blender_curve=space.to_xyz(shown, light)[:, 1],
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
@@ -178,14 +188,27 @@ def of_request(
 
 def patch(rgb: Array, space: WorkingSpace) -> Patch:
     """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
-    linear = _TO_SRGB @ np.linalg.solve(space.from_xyz, rgb)
-    # The matrix above is rounded to four places; white has to be white.
-    linear = linear / (_TO_SRGB @ space.white)
+    linear = _to_screen(space.from_xyz.astype(np.float64).tobytes()) @ rgb
     low, high = np.abs(linear), np.maximum(linear, 0)
     encoded = np.where(low <= 0.0031308, 12.92 * linear, 1.055 * high ** (1 / 2.4) - 0.055)
     shown = np.clip(encoded, 0, 1)
     red, green, blue = shown.tolist()
     return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
+
+
+@lru_cache(maxsize=16)
+def _to_screen(from_xyz: bytes) -> Array:
+    """Matrix from scene-linear RGB to linear sRGB."""
+    matrix = _TO_SRGB @ np.linalg.inv(np.frombuffer(from_xyz).reshape(3, 3))
+    # `_TO_SRGB` is rounded to four places; white has to be white.
+    return np.asarray(matrix / matrix.sum(axis=1, keepdims=True))
+
+
+@lru_cache(maxsize=16)
+def _weights(bands: bytes, from_xyz: bytes, illuminant: str) -> tuple[Array, Array]:
+    """Weights of scene-linear RGB, (bands, 3), and of luminance, (bands,)."""
+    space, nm = WorkingSpace("", np.frombuffer(from_xyz).reshape(3, 3)), np.frombuffer(bands)
+    return space.rgb_weights(nm, illuminant), colorimetry.weights(nm, illuminant)[:, 1]
 
 
 def rgb_bars(

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures: from numbers to pixels. Knows no Blender.
 
-Every function returns a canvas (see `raster`) of the size asked for, (width, height) in pixels.
-Nothing is told by color alone: curves differ in dash and thickness and are named beside a sample.
+Every figure fills the canvas (see `raster`) that it is given; what stays the same while σ is
+dragged is drawn once and copied. Nothing is told by color alone: curves differ in dash and
+thickness and are named beside a sample.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...core.arrays import Array
-from . import plot, raster, text
+from . import lines, plot, raster, text
 from .plot import Axes, Key, Size
 from .raster import Color
 from .theme import Look, contrast, readable
@@ -35,12 +36,12 @@ LARGEST_SIGMA = 90.0
 
 
 def swatch_pair(
+    canvas: Array,
     target: Color,
     blender: Color,
-    size: Size,
     look: Look,
     outside: tuple[bool, bool] = (False, False),
-) -> Array:
+) -> None:
     """Show two colors that touch, the target on the left, with their names where there is room.
 
     Parameters
@@ -50,12 +51,10 @@ def swatch_pair(
     outside
         Whether each color lies outside of what the screen can show: its outer corner is marked.
     """
-    width, height = size
-    canvas = raster.blank(height, width)
-    names = ("Target", "Blender")
-    room = max(text.width(name, look.font) for name in names) <= width / 2 - 2
-    caption = plot.legend_height(look) if room and height > 3 * look.font else 0
-    bottom, half = height - caption, width // 2
+    height, width = canvas.shape[:2]
+    caption = _caption((width, height), look)
+    bottom, half = height - len(caption), width // 2
+    canvas[bottom:] = caption
     for color, box, is_outside, side in (
         (target, (0, 0, half, bottom), outside[0], 1),
         (blender, (half, 0, width, bottom), outside[1], -1),
@@ -63,11 +62,21 @@ def swatch_pair(
         raster.rectangle(canvas, box, color)
         if is_outside:
             _mark_corner(canvas, 0 if side > 0 else width, side, color, look)
-    if caption:
+
+
+@lru_cache(maxsize=16)
+def _caption(size: Size, look: Look) -> Array:
+    """Name the two colors, in rows below them; none where there is no room."""
+    width, height = size
+    names = ("Target", "Blender")
+    room = max(text.width(name, look.font) for name in names) <= width / 2 - 2
+    rows = plot.legend_height(look) if room and height > 3 * look.font else 0
+    canvas = raster.blank(height, width)
+    if rows:
         base = height - 0.25 * look.font
         for name, color, x in zip(names, (look.target, look.blender), (0.25, 0.75), strict=True):
             text.draw(canvas, name, x * width, base, look.font, color, align=0.5)
-    return canvas
+    return canvas[height - rows :].copy()
 
 
 def _mark_corner(canvas: Array, x: int, side: int, color: Color, look: Look) -> None:
@@ -86,12 +95,11 @@ def swatch(color: Color, size: int, look: Look) -> Array:
 
 def swatches(colors: npt.ArrayLike, size: int, look: Look) -> Array:
     """Show many colors, (colors, 3), each as in `swatch`: shape (colors, size, size, 4)."""
-    wanted = np.asarray(colors, np.float32).reshape(-1, 3)
+    wanted = raster.encoded(colors).reshape(-1, 3)
     canvas = raster.blank(size, size)
     raster.frame(canvas, (0, 0, size, size), look.grid, max(1, round(look.scale)))
-    share = 1 - canvas[..., 3:]
-    opaque = np.concatenate((wanted, np.ones((len(wanted), 1), np.float32)), axis=1)
-    return np.asarray(canvas + share * opaque[:, np.newaxis, np.newaxis])
+    opaque = np.concatenate((wanted, np.full((len(wanted), 1), 255, np.uint8)), axis=1)
+    return np.where(canvas[..., 3:], canvas, opaque[:, np.newaxis, np.newaxis])
 
 
 def spectrum_axes(size: Size, look: Look, peak: float) -> Axes:
@@ -105,13 +113,13 @@ def spectrum_axes(size: Size, look: Look, peak: float) -> Axes:
 
 
 def spectrum(
+    canvas: Array,
     wavelengths: Array,
     albedo: Array,
     reading: Array,
     bars: Sequence[tuple[float, float, float]],
-    size: Size,
     look: Look,
-) -> Array:
+) -> None:
     """Draw albedo and reading over wavelength, and the three numbers that Blender keeps.
 
     Parameters
@@ -125,8 +133,9 @@ def spectrum(
     """
     shown = (wavelengths > VISIBLE_NM[0] - 50) & (wavelengths < VISIBLE_NM[1] + 50)
     peak = max(*(float(c[shown].max(initial=0)) for c in (albedo, reading)), *(b[2] for b in bars))
+    size = canvas.shape[1], canvas.shape[0]
     axes = spectrum_axes(size, look, peak)
-    canvas = _spectrum_ground(axes, size, look).copy(order="K")
+    canvas[:] = _spectrum_ground(axes, size, look)
     keys = _spectrum_keys(look)
     half = keys[2].width * look.scale / 2
     for start, end, value in bars:
@@ -135,7 +144,6 @@ def spectrum(
     nm = _thinned(wavelengths[shown], axes)
     for values, key in ((albedo, keys[1]), (reading, keys[0])):
         plot.draw_curve(canvas, axes, nm, np.interp(nm, wavelengths, values), key, look)
-    return canvas
 
 
 def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
@@ -192,8 +200,7 @@ def _visible_band(canvas: Array, axes: Axes, top: int, height: int) -> None:
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     fade = np.clip(np.maximum.reduce((x, y, z)) / 0.1, 0, 1)
     part = canvas[top : top + height, axes.left : axes.right]
-    part[..., :3] = (encoded * fade).T
-    part[..., 3] = fade
+    part[:] = raster.encoded(np.vstack((encoded * fade, fade)).T)
 
 
 def angles_axes(size: Size, look: Look, peak: float) -> Axes:
@@ -207,14 +214,14 @@ def angles_axes(size: Size, look: Look, peak: float) -> Axes:
 
 
 def angles(
+    canvas: Array,
     view: Array,
     target: Array,
     blender: Array,
     lambert: float,
-    size: Size,
     look: Look,
     engine: str = "Cycles",
-) -> Array:
+) -> None:
     """Draw the reflectance factor over the view angle, with light from 45° on the left.
 
     Parameters
@@ -228,8 +235,9 @@ def angles(
     engine
         What draws for Blender, as the legend names it.
     """
+    size = canvas.shape[1], canvas.shape[0]
     axes = angles_axes(size, look, max(float(target.max()), float(blender.max()), lambert))
-    canvas = _angles_ground(axes, size, look, engine).copy(order="K")
+    canvas[:] = _angles_ground(axes, size, look, engine)
     for_target, for_blender, for_lambert = _angle_keys(look, engine)
     [[_, y]] = axes.place([0], [max(lambert, 0.0)])
     half = for_lambert.width * look.scale / 2
@@ -238,7 +246,6 @@ def angles(
     raster.dashes(canvas, box, (stroke * look.scale, gap * look.scale), for_lambert.color)
     plot.draw_curve(canvas, axes, view, target, for_target, look)
     plot.draw_curve(canvas, axes, view, blender, for_blender, look)
-    return canvas
 
 
 def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
@@ -267,31 +274,31 @@ def _angles_ground(axes: Axes, size: Size, look: Look, engine: str) -> Array:
 def _sun(canvas: Array, x: float, y: float, look: Look) -> None:
     """Mark where the light stands: a disc with rays and its name."""
     unit = look.scale
-    raster.polyline(canvas, [(x, y)], look.faint, 4 * unit)
+    lines.polyline(canvas, [(x, y)], look.faint, 4 * unit)
     for turn in np.arange(8) * np.pi / 4:
         way = np.array((np.cos(turn), np.sin(turn)))
         ray = np.array((x, y)) + np.outer((3.4 * unit, 4.8 * unit), way)
-        raster.polyline(canvas, ray, look.faint, unit)
+        lines.polyline(canvas, ray, look.faint, unit)
     base = y + text.height(look.font) / 2
     text.draw(canvas, "light", x + 8 * unit, base, look.font, look.faint)
 
 
 def angles_polar(
+    canvas: Array,
     view: Array,
     target: Array,
     blender: Array,
-    size: Size,
     look: Look,
     engine: str = "Cycles",
-) -> Array:
+) -> None:
     """Draw the same as `angles` around the point that is looked at: distance is reflectance."""
+    size = canvas.shape[1], canvas.shape[0]
     top = plot.ceiling(max(float(target.max()), float(blender.max())))
-    canvas = _polar_ground(size, look, engine).copy(order="K")
+    canvas[:] = _polar_ground(size, look, engine)
     for values, key in zip((target, blender), _angle_keys(look, engine), strict=False):
         dash = [part * look.scale for part in key.dash]
         points = polar_place(size, look, view, values / top)
-        raster.polyline(canvas, points, key.color, key.width * look.scale, dash)
-    return canvas
+        lines.polyline(canvas, points, key.color, key.width * look.scale, dash)
 
 
 def polar_place(size: Size, look: Look, degrees: npt.ArrayLike, share: npt.ArrayLike) -> Array:
@@ -312,17 +319,17 @@ def _polar_ground(size: Size, look: Look, engine: str) -> Array:
     around = np.linspace(-90, 90, 61)
     for share in (0.5, 1.0):
         arc = polar_place(size, look, around, np.full(61, share))
-        raster.polyline(canvas, arc, look.grid, thin)
+        lines.polyline(canvas, arc, look.grid, thin)
     for degrees in (-90, -60, -30, 0, 30, 60, 90):
         spoke = polar_place(size, look, [degrees] * 2, [0, 1])
-        raster.polyline(canvas, spoke, look.grid, thin)
+        lines.polyline(canvas, spoke, look.grid, thin)
     [[x, y]] = polar_place(size, look, [-LIGHT_ANGLE], [1])
     _sun(canvas, float(x) + 6 * look.scale, float(y) + 6 * look.scale, look)
     plot.draw_legend(canvas, _angle_keys(look, engine)[:2], 1, look)
     return canvas
 
 
-def sigma_range(sigma: float, sigma_max: float | None, size: Size, look: Look) -> Array:
+def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look) -> None:
     """Draw which roughness fits the reading, from 0 to 90°, and the one that is set.
 
     What does not fit is hatched. A third of the height is the mark of the current value, a third
@@ -333,33 +340,50 @@ def sigma_range(sigma: float, sigma_max: float | None, size: Size, look: Look) -
     sigma, sigma_max
         Degrees; None where every σ fits.
     """
-    width, height = size
-    canvas = raster.blank(height, width)
-    inset = round(4 * look.scale)
-    left, right = inset, width - inset
+    size = canvas.shape[1], canvas.shape[0]
     limit = LARGEST_SIGMA if sigma_max is None else min(max(sigma_max, 0.0), LARGEST_SIGMA)
-    said = f"fits up to {limit:.1f}°" if limit < LARGEST_SIGMA else "every σ fits"
-    half = text.width(said, look.font) / 2
-    named = height >= 2.6 * look.font and 2 * half + 4 <= width
-    room = plot.legend_height(look) if named else 0
-    top = (height - room) * 0.5
-    box = (left, round(top), right, height - room - 1)
+    canvas[:] = _range_ground(limit, size, look)
+    _, top, _, bottom = _range_box(_limit_said(limit), size, look)
+    fits = sigma <= limit + 1e-6
+    x, reach = _range_place(sigma, size, look), 4 * look.scale
+    ink = look.text if fits else readable(look.blender, look.background)
+    raster.pointer(canvas, (x, top - 1), 0, reach, ink)
+    raster.rectangle(canvas, (x - look.scale / 2, top - 1, x + look.scale / 2, bottom), ink)
 
-    def at(degrees: float) -> float:
-        return left + (right - left) * min(max(degrees, 0.0), LARGEST_SIGMA) / LARGEST_SIGMA
 
+def _limit_said(limit: float) -> str:
+    return f"fits up to {limit:.1f}°" if limit < LARGEST_SIGMA else "every σ fits"
+
+
+def _range_box(said: str, size: Size, look: Look) -> tuple[int, int, int, int]:
+    """Place the bar; it leaves room below for what is said, if that fits."""
+    width, height = size
+    named = height >= 2.6 * look.font and text.width(said, look.font) + 4 <= width
+    bottom = height - (plot.legend_height(look) if named else 0)
+    inset = round(4 * look.scale)
+    return inset, round(bottom * 0.5), width - inset, bottom - 1
+
+
+def _range_place(degrees: float, size: Size, look: Look) -> float:
+    """Place a σ along the bar."""
+    left, _, right, _ = _range_box("", size, look)
+    return left + (right - left) * min(max(degrees, 0.0), LARGEST_SIGMA) / LARGEST_SIGMA
+
+
+@lru_cache(maxsize=16)
+def _range_ground(limit: float, size: Size, look: Look) -> Array:
+    canvas = raster.blank(size[1], size[0])
+    said = _limit_said(limit)
+    box = left, top, right, bottom = _range_box(said, size, look)
+    end = _range_place(limit, size, look)
     raster.rectangle(canvas, box, look.grid)
     if limit < LARGEST_SIGMA:
-        _hatch(canvas, (int(at(limit)), box[1], right, box[3]), look)
-    raster.rectangle(canvas, (left, box[1], at(limit), box[3]), look.target)
-    fits = sigma <= limit + 1e-6
-    x, reach = at(sigma), 4 * look.scale
-    ink = look.text if fits else readable(look.blender, look.background)
-    raster.polygon(canvas, [[(x - reach, 0), (x + reach, 0), (x, box[1] - 1)]], ink)
-    raster.rectangle(canvas, (x - look.scale / 2, box[1] - 1, x + look.scale / 2, box[3]), ink)
-    if named:
-        middle = min(max(at(limit), half + 2), width - half - 2)
-        base = height - 0.3 * look.font
+        _hatch(canvas, (int(end), top, right, bottom), look)
+    raster.rectangle(canvas, (left, top, end, bottom), look.target)
+    if bottom + 1 < size[1]:
+        half = text.width(said, look.font) / 2
+        middle = min(max(end, half + 2), size[0] - half - 2)
+        base = size[1] - 0.3 * look.font
         text.draw(canvas, said, middle, base, look.font, look.faint, align=0.5)
     return canvas
 

@@ -291,18 +291,11 @@ def _store(wish: _Wish, state: int, canvas: Any) -> None:
 
 
 def _upload(preview: Any, canvas: Any, *, small: bool = False) -> None:
-    """Give pixels to Blender: from the lowest row up, four bytes each, alpha last."""
+    """Give a canvas to Blender, which counts rows from the lowest up."""
     import numpy as np
 
     height, width = canvas.shape[:2]
-    packed = np.empty((height, width, 4), np.uint8)
-    plane = np.empty((height, width), np.float32)
-    for channel in range(4):
-        # Whole planes at once, in place: a canvas has its channels one after the other.
-        np.multiply(canvas[::-1, :, channel], np.float32(255), out=plane)
-        plane += np.float32(0.5)
-        packed[..., channel] = plane
-    flat = packed.reshape(-1).view(np.int32)
+    flat = np.ascontiguousarray(canvas[::-1]).reshape(-1).view(np.int32)
     preview.image_size = (width, height)
     preview.image_pixels.foreach_set(flat)
     if small:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...core.arrays import Array
-from . import raster, text
+from . import lines, raster, text
 from .theme import Look
 
 Size = tuple[int, int]
@@ -47,9 +47,7 @@ class Axes:
         across = (np.asarray(x, float) - self.x[0]) / (self.x[1] - self.x[0])
         up = (np.asarray(y, float) - self.y[0]) / (self.y[1] - self.y[0])
         wide, high = self.right - self.left, self.bottom - self.top
-        return np.stack(
-            np.broadcast_arrays(self.left + across * wide, self.bottom - up * high), axis=-1
-        )
+        return np.array((self.left + across * wide, self.bottom - up * high)).T
 
 
 @dataclass(frozen=True)
@@ -156,7 +154,7 @@ def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> 
         reach = key.width * look.scale / 2
         line = [(x + reach, middle), (x + length - reach, middle)]
         dash = [part * look.scale for part in key.dash]
-        raster.polyline(canvas, line, key.color, key.width * look.scale, dash)
+        lines.polyline(canvas, line, key.color, key.width * look.scale, dash)
         text.draw(canvas, name, x + length + space, base, look.font, key.color)
         x += width + gap
 
@@ -168,4 +166,4 @@ def draw_curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Lo
     within = (axes.left, max(axes.top - spare, 0), axes.right, axes.bottom + spare)
     dash = [part * look.scale for part in key.dash]
     points = axes.place(x, np.clip(y, *axes.y))
-    raster.polyline(canvas, points, key.color, key.width * look.scale, dash, within)
+    lines.polyline(canvas, points, key.color, key.width * look.scale, dash, within)

@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Antialiased lines and areas on an array of pixels.
+"""Antialiased areas on an array of pixels.
 
-A canvas is a float32 array (height, width, 4) of display-encoded red, green and blue times alpha,
-and alpha, its first row on top. That is what Blender blends pictures with. Coordinates are in
-pixels, x to the right and y down; pixel i covers i to i + 1. A pixel's share of a shape is an area:
-exact for rectangles and polygons. That of a line comes from its distance and sums up to its area
-within 4 %, for lines of one pixel within 13 %, on exact diagonals.
+A canvas is a uint8 array (height, width, 4) of display-encoded red, green and blue times alpha, and
+alpha, its first row on top: what Blender blends pictures with. Its bytes lie without gaps, so that
+whole rows of a canvas are a canvas, too. Every shape laid over another rounds once, by half a
+level. Coordinates are in pixels, x to the right and y down; pixel i covers i to i + 1. A pixel's
+share of a shape is its area there, exactly. `lines` draws lines.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -22,17 +23,15 @@ Color = tuple[float, float, float]
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom."""
 
-_LONGEST = 12.0
-"""Lines are drawn in pieces of this many pixels: the box around one grows as its square."""
-
 
 def blank(height: int, width: int) -> Array:
-    """Give a transparent canvas.
+    """Give a transparent canvas."""
+    return np.zeros((height, width, 4), np.uint8)
 
-    In memory the four channels lie one after the other: `paint` then works along rows of pixels
-    instead of four numbers at a time, ten times as fast.
-    """
-    return np.moveaxis(np.zeros((4, height, width), np.float32), 0, -1)
+
+def encoded(colors: npt.ArrayLike) -> Array:
+    """Give shares from 0 to 1 as bytes of a canvas, of the same shape."""
+    return np.asarray(np.asarray(colors, np.float32) * np.float32(255) + np.float32(0.5), np.uint8)
 
 
 def paint(
@@ -44,30 +43,61 @@ def paint(
     """
     height, width = canvas.shape[:2]
     x0, y0 = max(left, 0), max(top, 0)
-    x1, y1 = min(left + coverage.shape[1], width), min(top + coverage.shape[0], height)
-    if x0 >= x1 or y0 >= y1:
-        return
-    share = coverage[y0 - top : y1 - top, x0 - left : x1 - left] * np.float32(alpha)
-    rest = 1 - share
-    for channel, value in enumerate((*color, 1.0)):
-        part = canvas[y0:y1, x0:x1, channel]
-        part *= rest
-        part += share * np.float32(value)
+    inside = coverage[y0 - top : max(height - top, 0), x0 - left : max(width - left, 0)]
+    row, column = np.nonzero(inside)
+    lay(canvas, (row + y0) * width + column + x0, inside[row, column], color, alpha)
+
+
+def lay(canvas: Array, index: Array, share: Array, color: Color, alpha: float) -> None:
+    """Lay a color over pixels, counted row by row, each covered by its share, float32."""
+    pixels = _pixels(canvas)
+    if alpha < 1:
+        share = share * np.float32(alpha)
+    full = share >= 1
+    pixels[index[np.flatnonzero(full)]] = _opaque(color)
+    part = np.flatnonzero(~full)
+    index, share = index[part], share[part].repeat(4)
+    below = pixels[index].view(np.uint8).astype(np.float32)
+    mixed = np.tile(np.array((*color, 1.0), np.float32) * np.float32(255), index.size)
+    mixed -= below
+    mixed *= share
+    mixed += below
+    mixed += np.float32(0.5)
+    pixels[index] = mixed.astype(np.uint8).view(np.uint32)
+
+
+def _pixels(canvas: Array) -> Array:
+    """Give the pixels one after the other, four bytes in one number; writing there draws."""
+    return canvas.view(np.uint32).reshape(-1)
+
+
+def _opaque(color: Color) -> Array:
+    return np.array([int(255 * c + 0.5) for c in (*color, 1.0)], np.uint8).view(np.uint32)
 
 
 def rectangle(canvas: Array, box: Box, color: Color, alpha: float = 1) -> None:
     """Fill a rectangle; edges between pixels cover their share of them."""
     left, top, right, bottom = box
-    x0, y0 = int(np.floor(left)), int(np.floor(top))
-    across = _interval(left - x0, right - x0)
-    down = _interval(top - y0, bottom - y0)
+    if left >= right or top >= bottom:
+        return
+    x0, across = _interval(left, right)
+    y0, down = _interval(top, bottom)
+    if alpha == 1 and across.min() == down.min() == 1:
+        rows, columns = (
+            slice(max(at, 0), max(at + n, 0)) for at, n in ((y0, down.size), (x0, across.size))
+        )
+        canvas.view(np.uint32)[rows, columns, 0] = _opaque(color)
+        return
     paint(canvas, down[:, np.newaxis] * across, x0, y0, color, alpha)
 
 
-def _interval(start: float, stop: float) -> Array:
-    at = np.arange(max(int(np.ceil(stop)), 1), dtype=np.float32)
-    covered = np.clip(np.minimum(at + 1, stop) - np.maximum(at, start), 0, 1)
-    return np.asarray(covered, np.float32)
+def _interval(start: float, stop: float) -> tuple[int, Array]:
+    """Give the first pixel of an interval, and the shares of its pixels."""
+    first, last = math.floor(start), math.ceil(stop)
+    covered = np.ones(last - first, np.float32)
+    covered[0] -= start - first
+    covered[-1] -= last - stop
+    return first, covered
 
 
 def dashes(
@@ -75,15 +105,32 @@ def dashes(
 ) -> None:
     """Fill a rectangle in strokes along x, as long as `dash` says, with gaps between them."""
     left, top, right, bottom = box
-    x0, y0 = int(np.floor(left)), int(np.floor(top))
-    stroke, period = dash[0], sum(dash)
-    at = np.arange(x0, int(np.ceil(right)) + 1) - left
+    x0, stroke, period = math.floor(left), dash[0], sum(dash)
+    y0, down = _interval(top, bottom)
     # Strokes up to each edge between pixels; the difference is each pixel's share.
+    at = np.minimum(np.maximum(np.arange(x0, math.ceil(right) + 1) - left, 0), right - left)
     turns = np.floor(at / period)
-    filled = np.clip(turns * stroke + np.minimum(at - turns * period, stroke), 0, None)
-    inside = np.clip(at, 0, right - left)
-    across = np.asarray(np.diff(filled) * (np.diff(inside) > 0), np.float32)
-    paint(canvas, _interval(top - y0, bottom - y0)[:, np.newaxis] * across, x0, y0, color, alpha)
+    filled = turns * stroke + np.minimum(at - turns * period, stroke)
+    across = (filled[1:] - filled[:-1]).astype(np.float32)
+    paint(canvas, down[:, np.newaxis] * across, x0, y0, color, alpha)
+
+
+def pointer(canvas: Array, tip: tuple[float, int], top: int, reach: float, color: Color) -> None:
+    """Fill a triangle that points down to its tip, from whole rows up to as far as `reach`.
+
+    What `polygon` draws, in a tenth of the time.
+    """
+    x, bottom = tip
+    x0 = math.floor(x - reach)
+    edge = np.arange(x0, math.ceil(x + reach) + 1) - x
+    half = np.linspace(reach, 0, bottom - top + 1)[:, np.newaxis]
+    # How far each row is filled from the middle to an edge between pixels: the mean of the lesser
+    # of the edge's and the side's distance, of which the latter falls evenly along the row.
+    near = np.minimum(np.abs(edge), half)
+    sums = near * (half - near / 2)
+    filled = (sums[:-1] - sums[1:]) * ((bottom - top) / reach) * np.sign(edge)
+    coverage = filled[:, 1:] - filled[:, :-1]
+    paint(canvas, coverage.astype(np.float32), x0, top, color)
 
 
 def frame(canvas: Array, box: Box, color: Color, width: float = 1, alpha: float = 1) -> None:
@@ -161,109 +208,3 @@ def _cut(start: Array, end: Array, axis: int) -> tuple[Array, Array]:
     near, far = (np.clip(np.nan_to_num(t, nan=n), 0, 1) for t, n in ((near, 0.0), (far, 1.0)))
     along = (end - start)[edge]
     return start[edge] + near[:, np.newaxis] * along, start[edge] + far[:, np.newaxis] * along
-
-
-def polyline(
-    canvas: Array,
-    points: npt.ArrayLike,
-    color: Color,
-    width: float = 1.5,
-    dash: Sequence[float] = (),
-    within: Box | None = None,
-    alpha: float = 1,
-) -> None:
-    """Draw a line through points, (points, 2), with round joins and ends.
-
-    Parameters
-    ----------
-    width
-        Pixels.
-    dash
-        Lengths of strokes and gaps in turn, pixels, ends of strokes included; empty for a solid
-        line. A single point is a disc.
-    within
-        Box of whole pixels outside of which nothing is drawn.
-    """
-    line = np.asarray(points, np.float64).reshape(-1, 2)
-    if dash:
-        start, end = _dashes(line, dash, width)
-    elif len(line) == 1:
-        start = end = line
-    else:
-        start, end = line[:-1], line[1:]
-    if not len(start):
-        return
-    start, end = _short(start, end)
-    height, across = canvas.shape[:2]
-    box = within or (0, 0, across, height)
-    reach = width / 2 + 0.5
-    low = np.clip(np.floor(np.minimum(start, end) - reach), box[:2], box[2:]).astype(np.int32)
-    high = np.clip(np.ceil(np.maximum(start, end) + reach), box[:2], box[2:]).astype(np.int32)
-    (x0, y0), (x1, y1) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
-    if x0 >= x1 or y0 >= y1:
-        return
-    piece, x, y = _pixels(low - (x0, y0), high - (x0, y0))
-    away = _distance(x, y, start - (x0 + 0.5, y0 + 0.5), end - start, piece)
-    share = np.clip(np.float32(reach) - away, 0, min(width, 1.0))
-    coverage = np.zeros((y1 - y0, x1 - x0), np.float32)
-    np.maximum.at(coverage.reshape(-1), y * (x1 - x0) + x, share)
-    paint(canvas, coverage, x0, y0, color, alpha)
-
-
-def _pixels(low: Array, high: Array) -> tuple[Array, Array, Array]:
-    """List the pixels of many boxes, (boxes, 2) each: number of the box, column and row."""
-    columns, rows = (high - low).T
-    count = columns * rows
-    piece = np.repeat(np.arange(len(low), dtype=np.int32), count)
-    first = np.cumsum(count, dtype=np.int32) - count
-    number = np.arange(piece.size, dtype=np.int32) - first.astype(np.int32)[piece]
-    row, column = np.divmod(number, columns.astype(np.int32)[piece])
-    corner = low.astype(np.int32)
-    return piece, column + corner[:, 0][piece], row + corner[:, 1][piece]
-
-
-def _distance(x: Array, y: Array, start: Array, along: Array, piece: Array) -> Array:
-    """Distance of points from their piece of the line; single precision, for speed."""
-    sx, sy, ax, ay = np.concatenate((start, along), axis=1).astype(np.float32).T
-    inverse = 1 / np.maximum(ax * ax + ay * ay, np.float32(1e-12))
-    dx, dy = x - sx[piece], y - sy[piece]
-    ax, ay = ax[piece], ay[piece]
-    t = np.clip((dx * ax + dy * ay) * inverse[piece], 0, 1)
-    dx -= t * ax
-    dy -= t * ay
-    return np.asarray(np.sqrt(dx * dx + dy * dy), np.float32)
-
-
-def _short(start: Array, end: Array) -> tuple[Array, Array]:
-    """Cut pieces so that none is longer than `_LONGEST`."""
-    parts = np.maximum(np.ceil(np.hypot(*(end - start).T) / _LONGEST), 1).astype(np.intp)
-    if parts.max(initial=1) == 1:
-        return start, end
-    piece = np.repeat(np.arange(len(start)), parts)
-    step = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
-    share = 1 / parts[piece, np.newaxis]
-    along = (end - start)[piece] * share
-    begin = start[piece] + along * step[:, np.newaxis]
-    return begin, begin + along
-
-
-def _dashes(line: Array, dash: Sequence[float], width: float) -> tuple[Array, Array]:
-    """Pieces of the strokes of a dashed line; round ends lengthen a stroke by the line's width."""
-    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
-    length = float(at[-1])
-    period = sum(dash)
-    turns = np.arange(int(length // period) + 1)[:, np.newaxis] * period
-    offsets = np.concatenate(([0.0], np.cumsum(dash)))
-    starts = (turns + offsets[:-1:2]).ravel() + width / 2
-    ends = np.maximum((turns + offsets[1::2]).ravel() - width / 2, starts)
-    inside = starts < length
-    starts, ends = starts[inside], np.minimum(ends[inside], length)
-    knots = np.unique(np.concatenate((at, starts, ends)))
-    drawn = np.searchsorted(starts, knots[:-1], side="right") > np.searchsorted(
-        ends, knots[:-1], side="right"
-    )
-    dots = starts[ends <= starts]
-    x, y = (np.interp(knots, at, line[:, i]) for i in (0, 1))
-    path = np.stack((x, y), axis=1)
-    points = np.stack([np.interp(dots, at, line[:, i]) for i in (0, 1)], axis=1)
-    return np.concatenate((path[:-1][drawn], points)), np.concatenate((path[1:][drawn], points))

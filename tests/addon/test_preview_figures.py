@@ -7,7 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from rough_spectra.addon import assign, colorimetry, spectra, target, working_space
-from rough_spectra.addon.preview import compose, data, figures, plot, text, theme, words
+from rough_spectra.addon.preview import (
+    compose,
+    data,
+    figures,
+    plot,
+    raster,
+    text,
+    theme,
+    words,
+)
 from rough_spectra.core import reading
 
 DARK = theme.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
@@ -25,6 +34,14 @@ def scaled(look, scale):
     return replace(look, scale=float(scale))
 
 
+def drawn(figure, size, *numbers):
+    """Shares of a figure on a canvas that was used before: it has to fill all of it."""
+    canvas = raster.blank(size[1], size[0])
+    canvas[:] = (1, 2, 3, 255)
+    figure(canvas, *numbers)
+    return canvas / np.float32(255)
+
+
 def row_of(canvas, color, column, within):
     """Middle of what is drawn in a color in one column, pixels; NaN where nothing is."""
     seen = canvas[within[1] : within[3], column]
@@ -40,7 +57,7 @@ def test_the_reading_runs_through_its_values(look, scale):
     look, size = scaled(look, scale), (SIZE[0] * scale, SIZE[1] * scale)
     nm = np.arange(380.0, 731, 10)
     curve = 0.3 + 0.25 * np.sin(nm / 60)
-    canvas = figures.spectrum(nm, np.full(nm.size, 0.05), curve, [], size, look)
+    canvas = drawn(figures.spectrum, size, nm, np.full(nm.size, 0.05), curve, [], look)
     axes = figures.spectrum_axes(size, look, curve.max())
     columns = np.arange(axes.left + 3, axes.right - 3)
     wanted = axes.place(
@@ -62,7 +79,7 @@ def test_the_reading_runs_through_its_values(look, scale):
 def test_both_curves_over_angle_run_through_their_values(look):
     wanted = 0.5 + 0.3 * np.cos(np.radians(data.VIEW_ANGLES))
     blender = 0.25 + 0.1 * np.cos(np.radians(data.VIEW_ANGLES + 20))
-    canvas = figures.angles(data.VIEW_ANGLES, wanted, blender, 0.1, SIZE, look)
+    canvas = drawn(figures.angles, SIZE, data.VIEW_ANGLES, wanted, blender, 0.1, look)
     axes = figures.angles_axes(SIZE, look, wanted.max())
     columns = np.arange(axes.left + 3, axes.right - 3)
     degrees = np.interp(columns + 0.5, (axes.left, axes.right), axes.x)
@@ -75,7 +92,7 @@ def test_both_curves_over_angle_run_through_their_values(look):
 
 def test_the_polar_plot_has_its_curve_at_the_right_distance():
     level = np.full(data.VIEW_ANGLES.size, 0.5)
-    canvas = figures.angles_polar(data.VIEW_ANGLES, level, level * 0, (200, 120), DARK)
+    canvas = drawn(figures.angles_polar, (200, 120), data.VIEW_ANGLES, level, level * 0, DARK)
     for degrees in (-60, 0, 45):
         [[x, y]] = figures.polar_place((200, 120), DARK, [degrees], [0.5 / plot.ceiling(0.5)])
         pixel = canvas[int(y), int(x)]
@@ -87,7 +104,8 @@ def test_the_polar_plot_has_its_curve_at_the_right_distance():
 def test_bars_stand_at_their_values(look):
     bars = [(400.0, 490.0, 0.2), (490.0, 570.0, 0.5), (570.0, 690.0, 0.35)]
     nothing = np.zeros(36)
-    canvas = figures.spectrum(np.linspace(380, 730, 36), nothing, nothing, bars, SIZE, look)
+    nm = np.linspace(380, 730, 36)
+    canvas = drawn(figures.spectrum, SIZE, nm, nothing, nothing, bars, look)
     axes = figures.spectrum_axes(SIZE, look, 0.5)
     for start, end, value in bars:
         [[x, y]] = axes.place([(start + end) / 2], [value])
@@ -98,14 +116,30 @@ def test_bars_stand_at_their_values(look):
 
 def test_swatches_have_exactly_their_colors():
     one, other = (0.25, 0.5, 0.75), (0.24, 0.5, 0.75)
-    canvas = figures.swatch_pair(one, other, (80, 80), DARK)
-    middle = canvas[20]
-    np.testing.assert_array_equal(middle[:40], np.float32([(*one, 1)] * 40))
-    np.testing.assert_array_equal(middle[40:], np.float32([(*other, 1)] * 40))
-    marked = figures.swatch_pair(one, other, (80, 80), DARK, (False, True))
+    canvas = drawn(figures.swatch_pair, (80, 80), one, other, DARK)
+    middle = np.rint(canvas[20] * 255)
+    # To the nearest of the 256 levels that a screen has.
+    np.testing.assert_array_equal(middle[:40], [(64, 128, 191, 255)] * 40)
+    np.testing.assert_array_equal(middle[40:], [(61, 128, 191, 255)] * 40)
+    marked = drawn(figures.swatch_pair, (80, 80), one, other, DARK, (False, True))
     changed = np.nonzero((marked != canvas).any(axis=-1))
     assert changed[0].max() < 10
     assert changed[1].min() > 69
+
+
+@LOOKS
+def test_a_figure_is_the_same_after_others_were_drawn(look, green):
+    """What is kept from one picture to the next is never drawn on."""
+    space, color = working_space.current(), np.array((0.1, 0.3, 0.1))
+    low, high = (
+        data.of_request(target.Request(green, sigma, model="closure"), color, sigma / 2, space)
+        for sigma in (0.3, 0.9)
+    )
+    for figure in ("swatches", "sheet", "polar"):
+        first = compose.picture(figure, low, 200, look)
+        other = compose.picture(figure, high, 200, look)
+        assert figure == "swatches" or (first != other).any()
+        np.testing.assert_array_equal(compose.picture(figure, low, 200, look), first)
 
 
 def test_many_swatches_are_as_one():
@@ -113,12 +147,12 @@ def test_many_swatches_are_as_one():
     many = figures.swatches(colors, 16, LIGHT)
     for color, icon in zip(colors, many, strict=True):
         np.testing.assert_array_equal(icon, figures.swatch(color, 16, LIGHT))
-        np.testing.assert_allclose(icon[8, 8], (*color, 1), atol=1e-6)
+        np.testing.assert_allclose(icon[8, 8] / 255, (*color, 1), atol=0.501 / 255)
 
 
 @LOOKS
 def test_the_range_of_sigma_ends_where_it_should(look):
-    canvas = figures.sigma_range(10, 30.0, (380, 30), look)
+    canvas = drawn(figures.sigma_range, (380, 30), 10, 30.0, look)
     row = canvas[11]
     is_bar = np.abs(row[:, :3] - look.target).max(axis=1) < 0.02
     left, right = 4, 376
@@ -126,7 +160,7 @@ def test_the_range_of_sigma_ends_where_it_should(look):
     mark = left + (right - left) * 10 / 90
     top = canvas[0, :, 3]
     assert (np.arange(380) + 0.5) @ top / top.sum() == pytest.approx(mark, abs=0.5)
-    everywhere = figures.sigma_range(10, None, (380, 30), look)[11]
+    everywhere = drawn(figures.sigma_range, (380, 30), 10, None, look)[11]
     assert (everywhere[left:right, 3] == 1).all()
 
 
@@ -135,11 +169,11 @@ def test_the_range_of_sigma_ends_where_it_should(look):
 @pytest.mark.parametrize("width", [60, 120, 280])
 def test_letters_stay_inside_the_picture(look, sigma, width):
     """No ink on the outermost columns next to text: nothing is cut."""
-    canvas = figures.sigma_range(sigma, 88.0, (width, 30), look)
+    canvas = drawn(figures.sigma_range, (width, 30), sigma, 88.0, look)
     assert not canvas[19:, 0, 3].any()
     assert not canvas[19:, -1, 3].any()
     nm = np.linspace(380, 730, 36)
-    spectrum = figures.spectrum(nm, nm / 1000, nm / 1200, [], (width, 90), look)
+    spectrum = drawn(figures.spectrum, (width, 90), nm, nm / 1000, nm / 1200, [], look)
     legend = spectrum[: plot.legend_height(look)]
     assert not legend[:, -1, 3].any()
 
@@ -275,11 +309,10 @@ def test_every_figure_is_drawn_at_every_size(look, side, green):
     for figure in ("swatches", "sheet", "spectrum", "angles", "polar"):
         canvas = compose.picture(figure, found, side, look)
         assert canvas.shape == (side, side, 4)
-        assert np.isfinite(canvas).all()
-        assert canvas.min() >= 0
+        assert canvas.dtype == np.uint8
         # Premultiplied: no color is brighter than its alpha.
-        assert (canvas[..., :3] <= canvas[..., 3:] + 1e-5).all()
-        assert canvas[..., 3].max() > 0.9
+        assert (canvas[..., :3] <= canvas[..., 3:]).all()
+        assert canvas[..., 3].max() > 0.9 * 255
 
 
 def test_words_follow_the_thresholds():
@@ -295,11 +328,11 @@ def test_words_follow_the_thresholds():
 
 
 def test_ticks_that_would_touch_are_thinned_evenly():
-    canvas = np.zeros((20, 90, 4), np.float32)
+    canvas = raster.blank(20, 90)
     axes = plot.Axes(0, 0, 89, 5, (-80, 80), (0, 1))
     ticks = [(t, f"{t}°") for t in (-60, -30, 0, 30, 60)]
     plot.name_below(canvas, axes, ticks, 16, DARK)
-    inked = canvas[..., 3].max(axis=0) > 0.1
+    inked = canvas[..., 3].max(axis=0) > 0.1 * 255
     assert inked[:30].any()
     assert inked[60:].any()
     for value in (-30, 30):

@@ -2,24 +2,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lines, areas and letters cover the pixels that geometry says they cover."""
 
+import itertools
+
 import numpy as np
 import pytest
-from rough_spectra.addon.preview import glyphs, raster, text
+from rough_spectra.addon.preview import glyphs, lines, raster, text
 
 RED = (1.0, 0.0, 0.0)
+LEVEL = 0.501 / 255
+"""What one rounding to bytes may cost."""
 
 
 def alpha(draw, height=40, width=60):
+    """Share of each pixel that is covered, to half a level."""
     canvas = raster.blank(height, width)
     draw(canvas)
-    return canvas[..., 3]
+    return canvas[..., 3] / 255
 
 
 def test_a_rectangle_covers_its_area_and_nothing_beside_it():
     box = (3.25, 4.5, 20.75, 9.125)
     covered = alpha(lambda c: raster.rectangle(c, box, RED))
-    assert covered.sum() == pytest.approx((20.75 - 3.25) * (9.125 - 4.5), rel=1e-6)
-    assert covered[4, 3] == pytest.approx(0.5 * 0.75)
+    wanted = np.zeros((40, 60))
+    wanted[4:10, 3:21] = np.outer([0.5, 1, 1, 1, 1, 0.125], [0.75, *[1] * 16, 0.75])
+    assert np.abs(covered - wanted).max() <= LEVEL
+    assert covered.sum() == pytest.approx((20.75 - 3.25) * (9.125 - 4.5), rel=2e-3)
     assert covered[5:9, 4:20].min() == 1
     outside = covered.copy()
     outside[4:10, 3:21] = 0
@@ -38,9 +45,11 @@ def test_a_rectangle_covers_its_area_and_nothing_beside_it():
 def test_a_polygon_covers_its_area(corners):
     x, y = np.array(corners).T
     shoelace = abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2
-    assert alpha(lambda c: raster.polygon(c, [corners], RED)).sum() == pytest.approx(
-        shoelace, rel=1e-6
-    )
+    closed = np.array(corners, float)
+    covered = raster.area(closed, np.roll(closed, -1, axis=0), (40, 60))
+    assert covered.sum() == pytest.approx(shoelace, rel=1e-6)
+    drawn = alpha(lambda c: raster.polygon(c, [corners], RED))
+    assert np.abs(drawn - covered).max() <= LEVEL
 
 
 def test_pixels_of_a_polygon_agree_with_counting_points():
@@ -66,11 +75,52 @@ def test_a_polygon_has_holes():
     assert covered[20, 20] == 0
 
 
+@pytest.mark.parametrize("tip", [(20.0, 11), (20.3, 11), (33.98, 7), (1.2, 14)])
+def test_a_pointer_is_the_polygon_with_its_corners(tip):
+    (x, bottom), reach = tip, 4.25
+    corners = [(x - reach, 2), (x + reach, 2), (x, bottom)]
+    wanted = raster.blank(40, 60)
+    raster.polygon(wanted, [corners], RED)
+    found = raster.blank(40, 60)
+    raster.pointer(found, tip, 2, reach, RED)
+    assert np.abs(found.astype(int) - wanted).max() <= 1
+    assert found.any()
+
+
+def test_rows_of_a_canvas_are_a_canvas():
+    whole, apart = raster.blank(40, 60), raster.blank(20, 60)
+    for canvas in (whole[10:30], apart):
+        lines.polyline(canvas, [(3, 25), (50, -5)], RED, 3)
+        raster.rectangle(canvas, (5, -5, 15, 15), RED)
+        raster.rectangle(canvas, (25.5, 4.5, 35, 30), RED, 0.5)
+        text.draw(canvas, "σ", 40, 12, 20, RED)
+    np.testing.assert_array_equal(whole[10:30], apart)
+    assert not whole[:10].any()
+    assert not whole[30:].any()
+
+
+@pytest.mark.parametrize("width", [1.0, 1.6, 3.0])
+def test_pixels_of_a_line_have_their_distance_from_it(width):
+    """Down to half a pixel beyond its edge; the nearest piece counts, looked for among all here."""
+    corners = [(4.2, 30.1), (11.7, 5.3), (30, 5.3), (30.4, 36), (38, 29), (55, 33)]
+    # A point twice, and one that rounding left beside itself.
+    line = np.array([corners[0], *corners, (55 + 1e-13, 33)])
+    covered = alpha(lambda c: lines.polyline(c, line, RED, width))
+    middle = np.stack(np.meshgrid(np.arange(60) + 0.5, np.arange(40) + 0.5), axis=-1)
+    away = np.full((40, 60), np.inf)
+    for start, end in itertools.pairwise(line):
+        along = end - start
+        share = np.clip((middle - start) @ along / max(along @ along, 1e-12), 0, 1)
+        nearest = start + share[..., np.newaxis] * along
+        away = np.minimum(away, np.linalg.norm(middle - nearest, axis=-1))
+    assert np.abs(covered - np.clip(width / 2 + 0.5 - away, 0, 1)).max() <= LEVEL
+
+
 @pytest.mark.parametrize("width", [1.0, 1.6, 3.0])
 @pytest.mark.parametrize("end", [(50.0, 10.5), (50.0, 30.2), (10.5, 35.0), (33.0, 33.0)])
 def test_a_line_covers_its_length_times_width(width, end):
     start = (10.5, 10.5)
-    covered = alpha(lambda c: raster.polyline(c, [start, end], RED, width))
+    covered = alpha(lambda c: lines.polyline(c, [start, end], RED, width))
     expected = np.hypot(*np.subtract(end, start)) * width + np.pi * width**2 / 4
     # As `raster` says; the thinnest lines are off the most on diagonals.
     assert covered.sum() == pytest.approx(expected, rel=0.04 if width > 1 else 0.13)
@@ -82,7 +132,7 @@ def test_a_line_covers_its_length_times_width(width, end):
 
 
 def test_a_line_is_centered_on_its_points_and_has_soft_edges():
-    covered = alpha(lambda c: raster.polyline(c, [(5, 12.3), (55, 20.3)], RED, 1.6))
+    covered = alpha(lambda c: lines.polyline(c, [(5, 12.3), (55, 20.3)], RED, 1.6))
     columns = np.arange(10, 50)
     rows = (covered[:, columns] * (np.arange(40)[:, np.newaxis] + 0.5)).sum(axis=0)
     middle = rows / covered[:, columns].sum(axis=0)
@@ -93,7 +143,7 @@ def test_a_line_is_centered_on_its_points_and_has_soft_edges():
 
 def test_dashes_cover_their_share_and_leave_gaps():
     line = np.stack((np.linspace(5.0, 245.0, 41), np.full(41, 12.0)), axis=1)
-    covered = alpha(lambda c: raster.polyline(c, line, RED, 2, dash=(6, 4)), 24, 250)
+    covered = alpha(lambda c: lines.polyline(c, line, RED, 2, dash=(6, 4)), 24, 250)
     # Round ends take π/4 of the square at either end of a stroke.
     stroke = (6 - 2) * 2 + np.pi
     assert covered.sum() == pytest.approx(24 * stroke, rel=0.02)
@@ -102,11 +152,15 @@ def test_dashes_cover_their_share_and_leave_gaps():
 
 def test_nothing_is_drawn_outside_the_canvas_or_the_box():
     canvas = raster.blank(20, 30)
-    raster.polyline(canvas, [(-50, -20), (80, 40)], RED, 3)
+    lines.polyline(canvas, [(-50, -20), (80, 40)], RED, 3)
     raster.rectangle(canvas, (-5, 15, 200, 400), RED)
     raster.polygon(canvas, [[(-10, -10), (12, -10), (-10, 12)]], RED)
-    assert np.isfinite(canvas).all()
-    boxed = alpha(lambda c: raster.polyline(c, [(0, 0), (60, 40)], RED, 3, within=(20, 10, 40, 30)))
+    raster.pointer(canvas, (28.5, 25), -3, 9.5, RED)
+    for box in ((-9, -9, -2, -2), (40, 3, 50, 8), (3, 25, 8, 30), (9, 9, 9, 12), (9.5, 9, 8.5, 12)):
+        before = canvas.copy()
+        raster.rectangle(canvas, box, (0, 1, 0))
+        np.testing.assert_array_equal(canvas, before)
+    boxed = alpha(lambda c: lines.polyline(c, [(0, 0), (60, 40)], RED, 3, within=(20, 10, 40, 30)))
     assert boxed[10:30, 20:40].any()
     boxed[10:30, 20:40] = 0
     assert not boxed.any()
@@ -115,9 +169,9 @@ def test_nothing_is_drawn_outside_the_canvas_or_the_box():
 def test_colors_are_laid_over_each_other_as_premultiplied():
     canvas = raster.blank(4, 4)
     raster.rectangle(canvas, (0, 0, 4, 4), (1, 0, 0), 0.5)
-    np.testing.assert_allclose(canvas[0, 0], (0.5, 0, 0, 0.5))
+    np.testing.assert_allclose(canvas[0, 0] / 255, (0.5, 0, 0, 0.5), atol=LEVEL)
     raster.rectangle(canvas, (0, 0, 4, 4), (0, 1, 0), 0.5)
-    np.testing.assert_allclose(canvas[0, 0], (0.25, 0.5, 0, 0.75))
+    np.testing.assert_allclose(canvas[0, 0] / 255, (0.25, 0.5, 0, 0.75), atol=2 * LEVEL)
 
 
 @pytest.mark.parametrize("size", [9.0, 10.4, 21.0, 40.0])
@@ -127,7 +181,7 @@ def test_every_letter_is_drawn_inside_its_place(size):
             continue
         canvas = raster.blank(90, 90)
         text.draw(canvas, character, 20, 50, size, RED)
-        rows, columns = np.nonzero(canvas[..., 3] > 0.02)
+        rows, columns = np.nonzero(canvas[..., 3] > 0.02 * 255)
         assert rows.size, character
         assert columns.min() >= 20 - 0.15 * size - 1, character
         assert columns.max() <= 20 + text.width(character, size) + 0.15 * size + 1, character
@@ -139,7 +193,7 @@ def test_letters_have_their_proportions():
     """Known of the font: capitals are 0.727 em high, digits equally wide, I is a bar."""
     canvas = raster.blank(200, 400)
     text.draw(canvas, "H", 50, 150, 100, RED)
-    rows, _ = np.nonzero(canvas[..., 3] > 0.5)
+    rows, _ = np.nonzero(canvas[..., 3] > 0.5 * 255)
     assert rows.max() - rows.min() + 1 == pytest.approx(72.7, abs=1)
     assert len({text.width(digit, 10) for digit in "0123456789−"}) == 1
     o = raster.blank(200, 400)
@@ -152,7 +206,7 @@ def test_text_is_aligned_and_unknown_letters_show():
     for align in (0, 0.5, 1):
         canvas = raster.blank(30, 200)
         text.draw(canvas, "400 nm", 100, 20, 12, RED, align)
-        columns = np.nonzero(canvas[..., 3].max(axis=0) > 0.1)[0]
+        columns = np.nonzero(canvas[..., 3].max(axis=0) > 0.1 * 255)[0]
         spans.append((columns.min() + columns.max() + 1) / 2 - 100)
     half = text.width("400 nm", 12) / 2
     np.testing.assert_allclose(spans, (half, 0, -half), atol=1.5)
@@ -162,8 +216,8 @@ def test_text_is_aligned_and_unknown_letters_show():
 def test_a_dashed_level_covers_its_strokes():
     box = (4.0, 10.25, 54.0, 11.75)
     covered = alpha(lambda c: raster.dashes(c, box, (2.5, 2.5), RED))
-    assert covered.sum() == pytest.approx(10 * 2.5 * 1.5, rel=1e-5)
-    assert covered[11, 4:6].min() == pytest.approx(0.75)
+    assert covered.sum() == pytest.approx(10 * 2.5 * 1.5, rel=2e-3)
+    np.testing.assert_allclose(covered[11, 4:9], (0.75, 0.75, 0.375, 0, 0), atol=LEVEL)
     assert covered[10, 7:9].max() == 0
     covered[10:12, 4:54] = 0
     assert not covered.any()
