@@ -290,15 +290,9 @@ class _Places:
         roots, _ = colorimetry.roots(np.ascontiguousarray((xyz / self.whites).T))
 
         def distance(parameters: Array) -> tuple[Array, Array]:
-            values, by_color, by_roughness = cycles_slopes.coefficients(
-                parameters[:, :3], parameters[:, 3]
-            )
-            count = len(parameters)
-            parts = np.zeros((count, 5, 3, 3))
-            parts[:, 0], parts[:, 4] = values, by_roughness
-            for channel in range(3):
-                parts[:, 1 + channel, channel] = by_color[:, channel]
-            relative = (parts.reshape(-1, 9) @ self.to_relative).reshape(count, 5, 3, -1)
+            parts = cycles_slopes.coefficients(parameters[:, :3], parameters[:, 3])
+            relative = parts.reshape(-1, 9) @ self.to_relative
+            relative = relative.reshape(len(parameters), 5, 3, -1)
             bent, slope = colorimetry.roots(relative[:, 0])
             relative[:, 0] = bent - roots
             relative[:, 1:] *= slope[:, np.newaxis]

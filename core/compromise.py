@@ -74,6 +74,7 @@ def fit(
         gradient[kept], bend[kept] = new_gradient[better], new_bend[better]
         # Where a step gains nothing, what it promised tells whether there is more to find; one that
         # was longer is tried again at its own length first.
+        step = to - at
         promised = -((pull + (curve @ step[..., np.newaxis])[..., 0] / 2) * step).sum(axis=1)
         promised = np.where(better, gained, np.where(relaxed > 1, np.inf, promised))
         damping[searching] *= np.where(better, 0.1, np.where(relaxed > 1, 1, 8))
@@ -106,16 +107,14 @@ def _squares(apart: Array, slopes: Array, weights: Array) -> tuple[Array, Array,
 
 
 def _step(at: Array, gradient: Array, bend: Array, damping: Array, free: Array) -> Array:
-    """Step to the least of the squares, damped, within the bounds."""
+    """Step to the least of the squares, damped, of what is free to move."""
     one = np.eye(at.shape[1])
-    damped = bend + one * (damping * np.trace(bend, axis1=1, axis2=2))[:, None, None]
     # What already lies at its bound and would leave it stays there.
-    outward = ((at <= 0) & (gradient > 0)) | ((at >= 1) & (gradient < 0))
-    moving = free & ~outward
-    both = moving[:, :, np.newaxis] & moving[:, np.newaxis, :]
-    pull = np.where(moving, -gradient, 0)[..., np.newaxis]
-    step = np.linalg.solve(np.where(both, damped, one), pull)[..., 0]
-    return np.asarray(np.clip(at + step, 0, 1) - at)
+    moving = free & np.where(gradient > 0, at > 0, at < 1)
+    both = moving[:, :, np.newaxis] & moving[:, np.newaxis]
+    most = damping * np.trace(bend, axis1=1, axis2=2)
+    bowl = np.where(both, bend, 0) + one * np.where(moving, most[:, np.newaxis], 1)[:, np.newaxis]
+    return np.asarray(np.linalg.solve(bowl, (moving * -gradient)[..., np.newaxis])[..., 0])
 
 
 def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:

@@ -33,7 +33,7 @@ def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     return np.stack((np.ones_like(tilt), tilt, lost / MEAN_SPAN**2))
 
 
-def coefficients(color: Array, roughness: Array) -> tuple[Array, Array, Array]:
+def coefficients(color: Array, roughness: Array) -> Array:
     """Give what the three functions are multiplied with, and its derivatives.
 
     Parameters
@@ -45,28 +45,31 @@ def coefficients(color: Array, roughness: Array) -> tuple[Array, Array, Array]:
 
     Returns
     -------
-    values, by_color, by_roughness
-        Each of shape (materials, 3, 3): channel, then function; `values @ functions(…)` is the
-        reflectance factor. A channel follows only its own color.
+    Shape (materials, 5, 3, 3): the value, its derivatives by red, green, blue and roughness; then
+    channel; then function. `found[:, 0] @ functions(…)` is the reflectance factor.
     """
     s = roughness[:, np.newaxis]
     a = 1 / (np.pi + s * ALBEDO_SPAN)
     # a' = -a² k with k the albedo span, so (s a)' = π a².
     rise = np.pi * a * a
-    ratio = s * a * MEAN_SPAN
+    ratio = MEAN_SPAN * s * a
     left = ratio - ratio * ratio
     rest = 1 / (1 - color * ratio)
     square = color * color * rest
-    values, by_color, by_roughness = np.empty((3, *color.shape, 3))
+    found = np.zeros((len(color), 5, 3, 3))
+    by_color = np.empty((*color.shape, 3))
     by_color[..., 0] = np.pi * a
     by_color[..., 1] = np.pi * s * a
     # With b the color times ratio: (c³ / (1 - b))' = c² (3 - 2b) / (1 - b)².
     by_color[..., 2] = square * (2 + rest) * left
-    np.multiply(by_color, color[..., np.newaxis], out=values)
-    values[..., 2] = color * square * left
-    by_roughness[..., 0] = -ALBEDO_SPAN * rise * color
-    by_roughness[..., 1] = np.pi * rise * color
-    by_roughness[..., 2] = (
-        color * square * (MEAN_SPAN * rise) * (1 - 2 * ratio + left * color * rest)
-    )
-    return values, by_color, by_roughness
+    found[:, (1, 2, 3), (0, 1, 2)] = by_color
+    cube = color * square
+    value = color[..., np.newaxis] * by_color
+    value[..., 2] = cube * left
+    found[:, 0] = value
+    turn = rise * color
+    by_roughness = found[:, 4]
+    by_roughness[..., 0] = -ALBEDO_SPAN * turn
+    by_roughness[..., 1] = np.pi * turn
+    by_roughness[..., 2] = MEAN_SPAN * rise * cube * (1 - 2 * ratio + left * color * rest)
+    return found

@@ -19,12 +19,16 @@ def test_values_and_slopes_are_those_of_the_closure():
         return cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *angles)
 
     functions = cycles_slopes.functions(*angles)
-    seen, by_color, by_roughness = (
-        np.swapaxes(part @ functions, 1, 2) for part in cycles_slopes.coefficients(color, roughness)
-    )
+    # The closure's value and its derivatives: materials, directions, channels.
+    seen, *by_channel, by_roughness = (
+        np.swapaxes(cycles_slopes.coefficients(color, roughness) @ functions, 2, 3)
+    ).swapaxes(0, 1)
     assert seen == pytest.approx(plain(color, roughness), abs=1e-14)
     steeper = plain(color + STEP, roughness) - plain(color - STEP, roughness)
-    assert by_color == pytest.approx(steeper / (2 * STEP), abs=1e-8)
+    for channel, slope in enumerate(by_channel):
+        others = np.arange(3) != channel
+        assert slope[..., channel] == pytest.approx(steeper[..., channel] / (2 * STEP), abs=1e-8)
+        assert not slope[..., others].any()
     rougher = plain(color, roughness + STEP) - plain(color, roughness - STEP)
     assert by_roughness == pytest.approx(rougher / (2 * STEP), abs=1e-8)
 
@@ -34,4 +38,4 @@ def test_ends_of_the_domain_are_finite():
     ends = np.array([0.0, 1.0])
     color = np.repeat(ends[:, np.newaxis], 3, axis=1)
     assert np.isfinite(cycles_slopes.functions(*angles)).all()
-    assert all(np.isfinite(part).all() for part in cycles_slopes.coefficients(color, ends))
+    assert np.isfinite(cycles_slopes.coefficients(color, ends)).all()
