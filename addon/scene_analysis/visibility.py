@@ -10,6 +10,8 @@ from typing import Any
 _COUNTED = {"LIGHT", "MESH", "CURVE", "SURFACE", "META", "FONT"}
 _NAMED = 5
 """Objects named in a sentence; of more only the number is told."""
+_NESTED = 8
+"""Instances within instances that Blender follows."""
 
 
 class Rendered:
@@ -24,6 +26,7 @@ class Rendered:
     def __init__(self, layer: Any) -> None:
         self._layer = layer
         self._objects = {thing for thing in _of(layer.layer_collection) if not thing.hide_render}
+        self._hidden: dict[Any, set[Any]] = {}
 
     def shows(self, instance: Any) -> bool:
         """Whether a render shows a `bpy.types.DepsgraphObjectInstance`."""
@@ -31,12 +34,22 @@ class Rendered:
             return False
         thing = instance.object.original
         if not instance.is_instance:
-            return thing in self._objects
-        source = instance.parent.original
-        if thing.hide_render or source.hide_render:
+            return thing in self._objects and not _stands_for_instances(thing)
+        source = instance.parent.original  # the outermost, of instances within instances
+        if source not in self._objects:
             return False
-        whole = source.instance_collection if source.instance_type == "COLLECTION" else None
-        return whole is None or not whole.hide_render
+        if source.instance_type == "COLLECTION" and source.instance_collection is not None:
+            return thing not in self._hidden_in(source.instance_collection)
+        # Geometry nodes show instances of an object that is hidden itself.
+        return not thing.hide_render or any(change.type == "NODES" for change in source.modifiers)
+
+    def _hidden_in(self, collection: Any) -> set[Any]:
+        if collection not in self._hidden:
+            shown: set[Any] = set()
+            hidden: set[Any] = set()
+            _sort(collection, shown, hidden, False, _NESTED)
+            self._hidden[collection] = hidden - shown
+        return self._hidden[collection]
 
     def left_out(self) -> str:
         """Name what a render shows and viewports don't: it is not evaluated; empty if nothing."""
@@ -63,3 +76,21 @@ def _of(layer_collection: Any) -> Iterator[Any]:
         yield from layer_collection.collection.objects
     for child in layer_collection.children:
         yield from _of(child)
+
+
+def _stands_for_instances(thing: Any) -> bool:
+    """Whether only its instances are shown, on the vertices or faces of its parent."""
+    return thing.parent is not None and thing.parent.instance_type in {"VERTS", "FACES"}
+
+
+def _sort(collection: Any, shown: set[Any], hidden: set[Any], hide: bool, depth: int) -> None:
+    """Tell the objects of an instanced collection that a render shows from those it doesn't."""
+    hide = hide or collection.hide_render
+    for thing in collection.objects:
+        unseen = hide or thing.hide_render
+        (hidden if unseen else shown).add(thing)
+        inner = thing.instance_collection if thing.instance_type == "COLLECTION" else None
+        if inner is not None and depth:
+            _sort(inner, shown, hidden, unseen, depth - 1)
+    for child in collection.children:
+        _sort(child, shown, hidden, hide, depth)

@@ -49,6 +49,81 @@ def test_what_only_renders_show_is_named(plate):
     assert sentence.startswith("Hidden in the viewport only, and left out: Lantern;")
 
 
+def instancer(collection):
+    thing = bpy.data.objects.new(collection.name, None)
+    thing.instance_type, thing.instance_collection = "COLLECTION", collection
+    return thing
+
+
+def in_collection(thing, collection):
+    bpy.context.scene.collection.objects.unlink(thing)
+    collection.objects.link(thing)
+
+
+def hidden_by_itself(thing, inner, middle, outer):
+    thing.hide_render = True
+
+
+def hidden_by_its_collection(thing, inner, middle, outer):
+    inner.hide_render = True
+
+
+def hidden_by_a_collection_around(thing, inner, middle, outer):
+    middle.hide_render = True
+
+
+def hidden_with_the_instancer(thing, inner, middle, outer):
+    outer.hide_render = True
+
+
+@pytest.mark.parametrize(
+    "hide",
+    [
+        *(hidden_by_itself, hidden_by_its_collection),
+        *(hidden_by_a_collection_around, hidden_with_the_instancer),
+    ],
+)
+def test_instances_hidden_in_renders_do_not_count(plate, make_material, hide):
+    """A lamp in a collection, in an instanced one, in another instanced one."""
+    lamp = add_lamp()
+    inner, middle, top = (bpy.data.collections.new(name) for name in ("Inner", "Middle", "Top"))
+    in_collection(lamp, inner)
+    middle.children.link(inner)
+    top.objects.link(instancer(middle))
+    outer = instancer(top)
+    bpy.context.scene.collection.objects.link(outer)
+    assert plate in analyze().views
+    hide(lamp, inner, middle, outer)
+    assert plate not in analyze().views
+
+
+def test_geometry_nodes_show_instances_of_what_is_hidden_itself(plate):
+    """As renders do; without them, instances of a hidden child are hidden, too."""
+    add_lamp()
+    [shown] = [thing for thing in bpy.data.objects if thing.type == "MESH"]
+    bpy.ops.mesh.primitive_plane_add(size=1)
+    source = bpy.context.object
+    shown.hide_render, shown.parent, source.instance_type = True, source, "VERTS"
+    bpy.context.view_layer.update()
+    assert plate not in analyze().pixels
+    shown.hide_render = False
+    assert plate in analyze().pixels
+    shown.hide_render, shown.parent, source.instance_type = True, None, "NONE"
+    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    kinds = ("NodeGroupInput", "NodeGroupOutput", "GeometryNodeInstanceOnPoints")
+    start, end, spread = (tree.nodes.new(kind) for kind in kinds)
+    info = tree.nodes.new("GeometryNodeObjectInfo")
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = shown, True
+    tree.links.new(start.outputs[0], spread.inputs["Points"])
+    tree.links.new(info.outputs["Geometry"], spread.inputs["Instance"])
+    tree.links.new(spread.outputs[0], end.inputs[0])
+    source.modifiers.new("Scatter", "NODES").node_group = tree
+    bpy.context.view_layer.update()
+    assert plate in analyze().pixels
+
+
 def test_nodes_that_cannot_be_read_are_named_wherever_they_are(plate):
     light = add_lamp("Bulb").data
     if light.node_tree is None:
