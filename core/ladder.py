@@ -44,7 +44,7 @@ _CHUNK = 1 << 16
 """Values of spectra (materials · geometries · bands) held at once: 0.5 MB an array."""
 
 Difference = Callable[[Array, Array, Array], Array]
-"""Color difference of XYZ (..., 3) and XYZ (..., 3) under the white XYZ (3,): shape (...)."""
+"""Color difference of XYZ (..., 3) and XYZ (..., 3) under white XYZ, which broadcasts: (...)."""
 
 
 def reflectance(
@@ -194,11 +194,11 @@ def _predict(
             wanted * (1 + margin),
         )
     )
-    worst = np.zeros((len(_APPROXIMATE), *missed.shape))
-    for index, matrix in enumerate(lights):
-        of_light = np.s_[..., 3 * index : 3 * index + 3]
-        found = difference(seen[of_light], wanted[of_light], matrix.sum(axis=0))
-        worst = np.maximum(worst, found[:-1] + found[-1])
+    # (rungs, materials, geometries, lights)
+    whites = weights.sum(axis=0).reshape(-1, 3)
+    seen, wanted = (xyz.reshape(*xyz.shape[:-1], *whites.shape) for xyz in (seen, wanted))
+    found = difference(seen, wanted, whites)
+    worst = (found[:-1] + found[-1]).max(axis=-1)
     return np.where(np.isfinite(missed), worst, np.inf)
 
 

@@ -36,6 +36,9 @@ LARGEST_ANGLE = np.radians(table.POLAR[-1])
 _CUBIC = 4
 """Nodes of a local cubic."""
 
+_REMEMBERED = 256
+"""Directions up to which the terms of a scene are kept: 40 kB at most."""
+
 _SAFETY = 1.3
 """The bound over the largest error that was found. In as many other directions, drawn the same way,
 none was more than 1.29 times as large."""
@@ -71,7 +74,7 @@ def reflectance(
     """
     rho = spectrum(albedo, "the albedo").astype(np.float64, copy=False)
     spread = np.broadcast_to(slope_deviation(sigma, rho.dtype), rho.shape[:1])
-    shares = _geometry_terms(*_folded(theta_i, theta_r, delta_phi))
+    shares = _terms(theta_i, theta_r, delta_phi)
     # Outside 0 to 1 the reference goes on as r(1) ρ and r'(0) ρ; so does this.
     place = 1 - np.sqrt(1 - np.clip(rho, 0, 1))
     index, weight = _local(table.SIGMA, np.degrees(spread))
@@ -115,6 +118,24 @@ def _folded(
     ratio = smaller / np.maximum(larger, np.finfo(dtype).tiny)
     azimuth = np.arccos(np.cos(np.asarray(delta_phi, dtype)))
     return larger, ratio, azimuth
+
+
+def _terms(theta_i: npt.ArrayLike, theta_r: npt.ArrayLike, delta_phi: npt.ArrayLike) -> Array:
+    """G_k of geometries (...,), shape (..., terms); a few at a time are remembered.
+
+    While σ is dragged, the same directions come again and again.
+    """
+    angles = [np.asarray(angle, np.float64) for angle in (theta_i, theta_r, delta_phi)]
+    if max(angle.size for angle in angles) > _REMEMBERED:
+        return _geometry_terms(*_folded(*angles))
+    return _remembered_terms(*((angle.tobytes(), angle.shape) for angle in angles))
+
+
+@lru_cache(maxsize=64)
+def _remembered_terms(*angles: tuple[bytes, tuple[int, ...]]) -> Array:
+    found = _geometry_terms(*_folded(*(np.frombuffer(b).reshape(shape) for b, shape in angles)))
+    found.setflags(write=False)
+    return found
 
 
 def _geometry_terms(larger: Array, ratio: Array, azimuth: Array) -> Array:
