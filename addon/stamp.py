@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Any, Literal
 
@@ -287,6 +287,8 @@ def elsewhere(material: Any) -> str:
 
 
 _NONE = State("none")
+_FIELDS = {field.name for field in fields(Stamp)}
+_NUMBERS = ("roughness", "delta_e_instrument", "delta_e_mean", "delta_e_95")
 _FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
 
@@ -306,7 +308,11 @@ def _parsed(text: str) -> Stamp | None:
     """Parse a stamp once: a panel asks for it at every draw."""
     try:
         data = json.loads(text)
-        data |= {key: tuple(data[key]) for key in ("color", "warnings")}
+        # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.
+        data = {key: data[key] for key in data if key in _FIELDS}
+        red, green, blue = map(float, data["color"])
+        data |= {"color": (red, green, blue), "warnings": tuple(map(str, data["warnings"]))}
+        data |= {key: float(data[key]) for key in _NUMBERS}
         lights = data.get("delta_e_lights", ())
         data["delta_e_lights"] = tuple((str(name), float(apart)) for name, apart in lights)
         data["settings"] = tuple((str(k), str(v)) for k, v in data.get("settings", {}).items())

@@ -346,6 +346,24 @@ def test_what_another_version_derived_is_told(make):
     assert kind(material) == "fresh"
 
 
+def test_what_a_newer_version_notes_besides_does_not_matter(make):
+    material = make()
+    group = material.rough_spectra
+    group.stamp = json.dumps(json.loads(group.stamp) | {"weather": "fair"})
+    assert kind(material) == "fresh"
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [{"color": "red"}, {"color": [1]}, {"roughness": "x"}, {"delta_e_mean": None}, {"warnings": 1}],
+)
+def test_a_damaged_stamp_counts_as_none(make, damage):
+    material = make()
+    group = material.rough_spectra
+    group.stamp = json.dumps(json.loads(group.stamp) | damage)
+    assert stamp.state(material).reasons == ("nothing was derived from the spectrum yet",)
+
+
 def test_what_a_newer_version_stored_is_not_touched(make):
     material = make()
     group = material.rough_spectra
