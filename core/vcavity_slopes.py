@@ -13,7 +13,7 @@ distribution. So any σ, however small, costs one row of weights.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from functools import lru_cache
 
 import numpy as np
 
@@ -31,12 +31,19 @@ _WEIGHT_NODES = 24
 """Gauss nodes a panel for the weights; 24 integrate the distribution over 9σ to 1e-10."""
 
 
+_BLOCK = 256
+"""Roughnesses at a time: 4 MB an array."""
+
+_gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
+"""Nodes and weights of Gauss's quadrature; numpy computes them anew each time."""
+
+
 def nodes(per_panel: int) -> Array:
     """Slopes at which grooves are solved, radians, shape (1 + panels · per_panel,).
 
     The first is 0: a level surface, whose answer is known, so that nothing but ρ is left as σ → 0.
     """
-    points, _ = np.polynomial.legendre.leggauss(per_panel)
+    points, _ = _gauss(per_panel)
     low, high = PANEL_EDGES[:-1, np.newaxis], PANEL_EDGES[1:, np.newaxis]
     return np.concatenate(([0], (low + (points + 1) / 2 * (high - low)).ravel()))
 
@@ -46,28 +53,36 @@ def weights(sigma: Array, per_panel: int) -> Array:
 
     The weights of one σ add up to 1. At σ = 0 they are those of a level surface.
     """
+    if sigma.size > _BLOCK:
+        blocks = np.split(sigma, range(_BLOCK, sigma.size, _BLOCK))
+        return np.concatenate([weights(block, per_panel) for block in blocks])
     slopes = nodes(per_panel)
-    quadrature, quadrature_weights = np.polynomial.legendre.leggauss(_WEIGHT_NODES)
-    spread = np.maximum(sigma, np.finfo(np.float64).tiny)[:, np.newaxis]
-    out = np.zeros((sigma.size, slopes.size))
-    for panel, (low, high) in enumerate(pairwise(PANEL_EDGES)):
-        top = np.clip(_REACH * spread, low, high)
-        slope = low + (quadrature + 1) / 2 * (top - low)
-        # Every length is in units of σ: products of small σ underflow below 1e-154.
-        with np.errstate(over="ignore"):
-            share = np.exp(-0.5 * (slope / spread) ** 2)
-        share *= np.sin(slope) / spread * ((top - low) / spread) * quadrature_weights
-        first = 1 + panel * per_panel if panel else 0
-        used = slice(first, 1 + (panel + 1) * per_panel)
-        out[:, used] += np.einsum("nq,nqs->ns", share, _lagrange(slope, slopes[used]))
+    quadrature, quadrature_weights = _gauss(_WEIGHT_NODES)
+    spread = np.maximum(sigma, np.finfo(np.float64).tiny)[:, np.newaxis, np.newaxis]
+    # Axes: σ, panel, node of the quadrature.
+    low, high = PANEL_EDGES[:-1, np.newaxis], PANEL_EDGES[1:, np.newaxis]
+    top = np.clip(_REACH * spread, low, high)
+    slope = low + (quadrature + 1) / 2 * (top - low)
+    # Every length is in units of σ: products of small σ underflow below 1e-154.
+    with np.errstate(over="ignore"):
+        share = np.exp(-0.5 * (slope / spread) ** 2)
+    share *= np.sin(slope) / spread * ((top - low) / spread) * quadrature_weights
+    # The first panel also has the level surface for a node.
+    level, inner = slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
+    first = np.einsum("nq,nqs->ns", share[:, 0], _lagrange(slope[:, 0], level))
+    others = np.einsum("npq,npqs->nps", share[:, 1:], _lagrange(slope[:, 1:], inner))
+    out = np.concatenate((first, others.reshape(sigma.size, -1)), axis=1)
     return np.asarray(out / np.sum(out, axis=1, keepdims=True))
 
 
 def _lagrange(slope: Array, at: Array) -> Array:
-    """Lagrange polynomials of the nodes `at`, evaluated at `slope`: shape (*slope.shape, nodes)."""
-    result = np.ones((*slope.shape, at.size))
-    for node in range(at.size):
-        for other in range(at.size):
-            if other != node:
-                result[..., node] *= (slope - at[other]) / (at[node] - at[other])
-    return result
+    """Lagrange polynomials of the nodes `at`, (..., nodes), evaluated at `slope`, (..., places).
+
+    Shape (..., places, nodes). Each is a product of the nodes before it and of those after it.
+    """
+    away = slope[..., np.newaxis] - at[..., np.newaxis, :]
+    before, after = np.ones_like(away), np.ones_like(away)
+    np.cumprod(away[..., :-1], axis=-1, out=before[..., 1:])
+    np.cumprod(away[..., :0:-1], axis=-1, out=after[..., -2::-1])
+    gaps = at[..., :, np.newaxis] - at[..., np.newaxis, :] + np.eye(at.shape[-1])
+    return np.asarray(before * after / gaps.prod(axis=-1)[..., np.newaxis, :])
