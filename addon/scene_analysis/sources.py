@@ -114,8 +114,7 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
     receivers, excluded = _linking(thing.original)
     source, scale = _source(light, matrix)
     name, shadow = thing.original.name, bool(light.use_shadow)
-    linking = {"receivers": receivers, "excluded": excluded}
-    return Lamp(name, source, rgb * scale, temperature, **linking, shadow=shadow)
+    return Lamp(name, source, rgb * scale, temperature, receivers, excluded, shadow=shadow)
 
 
 def _source(light: Any, matrix: Array) -> tuple[Source, float]:
