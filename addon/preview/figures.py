@@ -9,6 +9,7 @@ thickness and are named beside a sample.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -107,7 +108,7 @@ def spectrum_axes(size: Size, look: Look, peak: float) -> Axes:
     width, height = size
     top = plot.ceiling(peak)
     left = 1 if plot.is_small(size, look) else plot.margin((0, top / 2, top), look)
-    below = int(np.ceil((_BAND + 5) * look.scale + text.height(look.font)))
+    below = math.ceil((_BAND + 5) * look.scale + text.height(look.font))
     head = plot.legend_height(look) + round(2 * look.scale)
     return Axes(left, head, width - 1, height - below, VISIBLE_NM, (0.0, top))
 
@@ -208,7 +209,7 @@ def angles_axes(size: Size, look: Look, peak: float) -> Axes:
     width, height = size
     top = plot.ceiling(peak)
     left = 1 if plot.is_small(size, look) else plot.margin((0, top / 2, top), look)
-    below = int(np.ceil(5 * look.scale + text.height(look.font)))
+    below = math.ceil(5 * look.scale + text.height(look.font))
     head = plot.legend_height(look) + round(2 * look.scale)
     return Axes(left, head, width - 1, height - below, (-STEEPEST, STEEPEST), (0.0, top))
 

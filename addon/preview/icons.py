@@ -214,6 +214,7 @@ def _state(material: Any, context: Any) -> int:
             group.stamp,
             group.spectrum,
             (group.kind, group.instrument, group.illuminant, group.model, group.sigma),
+            stamp.has_scene(group) and group.scene_view,
             written,
             context.scene.render.engine,
             stamp.working_space_name(),

@@ -112,13 +112,15 @@ def _near(start: Array, end: Array, width: float, box: Box, across: int) -> tupl
     # Of each pixel the way from the start of the piece, along it and across.
     spans = np.array((beside * ux + down * uy, down * ux - beside * uy, ux, uy, length), np.float32)
     ahead, aside, ux, uy, length = spans.repeat(columns, axis=1)
-    step = _count(np.zeros_like(columns), columns).astype(np.float32)
+    leftmost = row * across + column
+    index = _count(leftmost, columns)
+    step = (index - leftmost.repeat(columns)).astype(np.float32)
     ahead += step * ux
     aside -= step * uy
     ahead -= np.minimum(np.maximum(ahead, 0), length)
     away = np.sqrt(ahead * ahead + aside * aside)
     share = np.minimum(np.maximum(np.float32(reach) - away, 0), np.float32(min(width, 1.0)))
-    return _count(row * across + column, columns), share
+    return index, share
 
 
 def _whole(low: Array, high: Array, least: float, most: float) -> tuple[Array, Array]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -85,7 +86,7 @@ def label(value: float) -> str:
 def margin(axis: Sequence[float], look: Look) -> int:
     """Room for the numbers beside an axis, pixels."""
     widest = max(text.width(label(value), look.font) for value in axis)
-    return int(np.ceil(widest + 5 * look.scale))
+    return math.ceil(widest + 5 * look.scale)
 
 
 def draw_grid(
@@ -128,7 +129,7 @@ def name_below(
 
 def legend_height(look: Look) -> int:
     """Rows of a legend, pixels."""
-    return int(np.ceil(1.5 * look.font))
+    return math.ceil(1.5 * look.font)
 
 
 def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> None:
@@ -162,7 +163,7 @@ def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> 
 def draw_curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Look) -> None:
     """Draw a line as its entry in the legend shows, cut at the sides of the plot."""
     # Half a line may cross the border, so that a curve along it does not thin out.
-    spare = int(np.ceil(key.width * look.scale / 2)) + 1
+    spare = math.ceil(key.width * look.scale / 2) + 1
     within = (axes.left, max(axes.top - spare, 0), axes.right, axes.bottom + spare)
     dash = [part * look.scale for part in key.dash]
     points = axes.place(x, np.clip(y, *axes.y))

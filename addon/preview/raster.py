@@ -44,8 +44,10 @@ def paint(
     height, width = canvas.shape[:2]
     x0, y0 = max(left, 0), max(top, 0)
     inside = coverage[y0 - top : max(height - top, 0), x0 - left : max(width - left, 0)]
-    row, column = np.nonzero(inside)
-    lay(canvas, (row + y0) * width + column + x0, inside[row, column], color, alpha)
+    covered = np.flatnonzero(inside)
+    row = covered // max(inside.shape[1], 1)
+    index = covered + row * (width - inside.shape[1]) + (y0 * width + x0)
+    lay(canvas, index, inside.reshape(-1)[covered], color, alpha)
 
 
 def lay(canvas: Array, index: Array, share: Array, color: Color, alpha: float) -> None:
@@ -56,9 +58,13 @@ def lay(canvas: Array, index: Array, share: Array, color: Color, alpha: float) -
     full = share >= 1
     pixels[index[np.flatnonzero(full)]] = _opaque(color)
     part = np.flatnonzero(~full)
+    if not part.size:
+        return
     index, share = index[part], share[part].repeat(4)
     below = pixels[index].view(np.uint8).astype(np.float32)
-    mixed = np.tile(np.array((*color, 1.0), np.float32) * np.float32(255), index.size)
+    ink = np.empty((part.size, 4), np.float32)
+    ink[:] = [255 * c for c in (*color, 1.0)]
+    mixed = ink.reshape(-1)
     mixed -= below
     mixed *= share
     mixed += below

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, target
+from rough_spectra.addon import assign, light_spectrum, scene_view, target
 from rough_spectra.addon.preview import icons, theme
 
 
@@ -61,6 +61,24 @@ def test_nothing_is_made_twice_until_something_changes(material):
     half = after.shape[1] // 2
     assert (after[5, 15 : half - 15] == before[5, 15 : half - 15]).all()
     assert (after[5, half + 15 : -15] != before[5, half + 15 : -15]).any()
+
+
+def test_leaving_the_scene_shows_though_the_node_is_edited(material):
+    """Then nothing is derived again and the stamp stays, but the target's color is another."""
+    reddish = np.linspace(0, 1, light_spectrum.GRID.size)
+    lights = (scene_view.make_light("Fire", "red", reddish, 1.0),)
+    group = material.rough_spectra
+    group.scene_view = scene_view.SceneView("Scene", lights, ((0.5, 0.5, 1.0, 0, 1.0),)).to_json()
+    group.use_scene = True
+    node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
+    node.inputs["Color"].default_value = (0.9, 0.1, 0.1, 1)
+    ask(material, "swatches")
+    icons._work()
+    before = pixels("swatches")
+    group.use_scene = False
+    ask(material, "swatches")
+    icons._work()
+    assert (pixels("swatches") != before).any()
 
 
 def test_refresh_makes_visible_pictures_at_once(material):
