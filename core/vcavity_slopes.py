@@ -71,7 +71,7 @@ def weights(sigma: Array, per_panel: int) -> Array:
     level, inner = slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
     first = np.einsum("nq,nqs->ns", share[:, 0], _lagrange(slope[:, 0], level))
     others = np.einsum("npq,npqs->nps", share[:, 1:], _lagrange(slope[:, 1:], inner))
-    out = np.concatenate((first, others.reshape(sigma.size, -1)), axis=1)
+    out = np.concatenate((first, others.reshape(sigma.size, inner.size)), axis=1)
     return np.asarray(out / np.sum(out, axis=1, keepdims=True))
 
 
