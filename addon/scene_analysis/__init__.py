@@ -205,6 +205,11 @@ def _views(
     xyz = np.array([_arriving(i, lamp, samples, weights, space) for i, lamp in enumerate(lamps)])
     groups = sampling.group_colors(xyz, power)
     colors = [_color(groups == light, xyz, power, lamps) for light in range(groups.max() + 1)]
+    names = [name for name, _, _ in colors]
+    for light, (name, words, spd) in enumerate(colors):
+        # A lamp and the world may have the same name; by their names lights are told apart.
+        earlier = names[:light].count(name)
+        colors[light] = (f"{name} ({earlier + 1})" if earlier else name, words, spd)
     views, unlit = {}, []
     of_material = material_of_place[samples.hit]
     for index in seen:

@@ -202,3 +202,13 @@ def test_a_damaged_analysis_is_mended_by_analyzing_again(plate):
     assert stamp.state(plate).reasons[0].endswith("analyze it again.")
     assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
     assert stamp.state(plate).kind == "fresh"
+
+
+def test_lights_of_one_name_are_told_apart(plate):
+    add_lamp("Sky").data.color = (1, 0.5, 0.2)
+    world = bpy.context.scene.world = bpy.data.worlds.new("Sky")
+    if world.node_tree is None:
+        world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 1, 1)
+    lights = analyze().views[plate].lights
+    assert {light.name for light in lights} == {"Sky", "Sky (2)"}
