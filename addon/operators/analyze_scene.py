@@ -61,7 +61,8 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
         except RoughSpectraError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        for sentence in (*report.warnings, scene_report.unlit_sentence(report), *left):
+        unlit = scene_report.unlit_sentence(report)
+        for sentence in (self._instead(context), *report.warnings, unlit, *left):
             if sentence:
                 self.report({"WARNING"}, sentence)
         common.report_warnings(self, [(c.material, c.solution) for c in changes])
@@ -75,6 +76,12 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
         sentence = sentence.format(count=len(changes), time=report.seconds, mean=after)
         self.report({"INFO"}, sentence)
         return {"FINISHED"}
+
+    def _instead(self, context: Any) -> str:
+        """Say when something else than asked for looked at the scene."""
+        if self.through == "CAMERA" and context.scene.camera is None:
+            return str(rpt_("The scene has no camera; what the 3D viewport shows was analyzed"))
+        return ""
 
     def _view(self, context: Any) -> Any | None:
         viewport = _viewport(context)
