@@ -34,6 +34,7 @@ _PURE_DIFFUSE = {
     "Thin Film Thickness": 0.0,
 }
 """Principled sockets that have to keep these values for the surface to be the Diffuse closure."""
+_NEUTRAL = ((_SPECULAR_SOCKET, 0.0), *_PURE_DIFFUSE.items())
 _NODE_DISTANCE = 300.0
 
 
@@ -122,6 +123,12 @@ def roughness_socket(node: Any) -> Any:
     return node.inputs[_ROUGHNESS_SOCKETS[node.bl_idname]]
 
 
+def linked_sockets(node: Any) -> list[str]:
+    """Name those of color and roughness that another node sets, so that their values don't show."""
+    found = (color_socket(node), roughness_socket(node))
+    return [str(socket.name) for socket in found if socket.is_linked]
+
+
 def disturbing_sockets(node: Any) -> list[str]:
     """Name the sockets in use that make a Principled BSDF more than the Diffuse closure.
 
@@ -129,11 +136,10 @@ def disturbing_sockets(node: Any) -> list[str]:
     """
     if node.bl_idname != "ShaderNodeBsdfPrincipled":
         return []
-    neutral = {_SPECULAR_SOCKET: 0.0} | _PURE_DIFFUSE
+    inputs = node.inputs
+    found = [(name, inputs[name], value) for name, value in _NEUTRAL]
     return [
-        name
-        for name, value in neutral.items()
-        if node.inputs[name].is_linked or node.inputs[name].default_value != value
+        name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
 
 

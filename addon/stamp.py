@@ -171,9 +171,12 @@ def state(material: Any) -> State:
     return State("fresh", (), found)
 
 
-def numbers_hold(material: Any) -> bool:
-    """Whether the stamp's ΔE00 are those of what the scene's engine shows of the material now."""
-    if state(material).kind != "fresh":
+def numbers_hold(material: Any, known: State | None = None) -> bool:
+    """Whether the stamp's ΔE00 are those of what the scene's engine shows of the material now.
+
+    `known` is its state, for who has just asked for it.
+    """
+    if (known or state(material)).kind != "fresh":
         return False
     return has_scene(material.rough_spectra) or not engine_is_flat()
 
@@ -350,6 +353,8 @@ def _changed_surface(material: Any, stamp: Stamp, working_space: str) -> list[st
     node = nodes.shader_node(material)
     if node is None or node.name != stamp.node:
         reasons.append(f"the surface no longer comes from {stamp.node!r}")
+    elif linked := nodes.linked_sockets(node):
+        reasons += [f"{name} comes from another node" for name in linked]
     elif stamp.working_space == working_space and _edited(node, stamp):
         # A change of the working space converts sockets: whether they were edited can't be told.
         reasons.append("color or roughness was edited by hand")

@@ -145,7 +145,7 @@ def pictures(material: Any, scale: int) -> None:
 
     for figure, side in FIGURES:
         wish = icons._Wish(material.session_uid, figure, side * scale)
-        icons._pending[wish] = icons._state(material, bpy.context)
+        icons._pending[wish] = icons.digest(material, bpy.context)
     icons._work()
 
 

@@ -21,7 +21,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import screenshots_states as states  # noqa: E402
+import screenshots_states as states
 
 [ZIP] = sys.argv[sys.argv.index("--") + 1 :]
 MATERIALS = 500
@@ -39,6 +39,9 @@ def start() -> None:
     bpy.ops.extensions.package_install_files(
         filepath=ZIP, repo="user_default", enable_on_install=True, overwrite=True
     )
+    # The lists render previews, of materials that must not be changed meanwhile: hide them.
+    for name in ("EEVEE_MATERIAL_PT_context_material", "CYCLES_PT_context_material"):
+        getattr(bpy.types, name).poll = classmethod(lambda _cls, _context: False)
     states.split_window(WIDTH)
     script = _script()
     bpy.app.timers.register(lambda: _turn(script), first_interval=0.5)
@@ -58,13 +61,12 @@ def _turn(script: Iterator[float]) -> float | None:
 def _script() -> Iterator[float]:
     states.show_material_tab()
     yield 0.5
-    # What Cycles renders the list's preview of must not be changed meanwhile: hide the list.
-    bpy.types.EEVEE_MATERIAL_PT_context_material.poll = classmethod(lambda _cls, _context: False)
     states.open_source()
     for cls in bpy.types.Panel.__subclasses__():
         if cls.__name__.startswith("ROUGHSPECTRA_PT") and "poll" not in vars(cls):
             _watch(cls)
-    print(f"Blender {bpy.app.version_string}; milliseconds of processor time: median (least)")
+    said = f"Blender {bpy.app.version_string}; milliseconds of processor time: median (least)"
+    print(said, flush=True)
     for state in STATES:
         window = bpy.context.window_manager.windows[0]
         with bpy.context.temp_override(window=window):

@@ -28,10 +28,10 @@ class _Tab:
     @classmethod
     def is_here(cls, context: Any) -> bool:
         """Show wherever a material can be."""
+        if common.active_material(context) is not None:
+            return True
         thing = common.active_object(context)
-        return common.active_material(context) is not None or hasattr(
-            getattr(thing, "data", None), "materials"
-        )
+        return hasattr(getattr(thing, "data", None), "materials")
 
 
 class _Sidebar:

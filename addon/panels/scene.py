@@ -8,9 +8,8 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .. import stamp
 from ..preview import words
-from .text import sentence
+from . import redraw
 
 
 def draw_scene(layout: Any, context: Any, material: Any) -> None:
@@ -18,15 +17,16 @@ def draw_scene(layout: Any, context: Any, material: Any) -> None:
     group = material.rough_spectra
     row = layout.row(align=True)
     row.operator("rough_spectra.analyze_scene", icon="LIGHT").scope = "VIEW"
+    shown = redraw.current(material, context)
+    write, found = shown.write, shown.state.stamp
     if not group.scene_view:
         text = iface_("Finds the lights and directions that meet the materials in view")
-        sentence(layout, context, text, "INFO")
+        write.sentence(layout, text, "INFO")
         return
-    found = stamp.get_stamp(material)
     if not group.use_scene or found is None:
         return
     for name, delta_e in found.delta_e_lights:
         text = f"{name}: ΔE00 {delta_e:.2f}, {iface_(words.words(delta_e))}"
-        sentence(layout, context, text, "LIGHT")
+        write.sentence(layout, text, "LIGHT")
     if found.scene_reason:
-        sentence(layout, context, found.scene_reason, "INFO")
+        write.sentence(layout, found.scene_reason, "INFO")

@@ -10,7 +10,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .text import sentence
+from . import redraw
 
 _SHOWN = (
     *(("device", "Device"), ("geometry", "Geometry"), ("aperture", "Aperture")),
@@ -21,16 +21,17 @@ _SHOWN = (
 def draw_source(layout: Any, context: Any, material: Any) -> None:
     """Draw source, what the file says of the measurement, and every note."""
     group = material.rough_spectra
+    write = redraw.current(material, context).write
     details, sentences = _details(group.details)
-    sentence(layout, context, group.source or iface_("The source is not known"), "FILE")
+    write.sentence(layout, group.source or iface_("The source is not known"), "FILE")
     column = layout.column(align=True)
     for label, value in details:
-        column.label(text=f"{iface_(label)}: {value}", translate=False)
+        write.sentence(column, f"{iface_(label)}: {value}")
     if group.sigma_source:
         text = f"{iface_('σ from')}: {group.sigma_source}"
-        sentence(layout, context, text, "FORCE_TURBULENCE")
+        write.sentence(layout, text, "FORCE_TURBULENCE")
     for text in sentences:
-        sentence(layout, context, text, "INFO")
+        write.sentence(layout, text, "INFO")
 
 
 @lru_cache(maxsize=32)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import Any
 
@@ -15,40 +16,53 @@ _FONT = 0  # the interface's
 _MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
 _TABS = 20.0  # beside the panels of a sidebar
 _LEAST = 80.0
-_GLUED = "ΔE00\N{NO-BREAK SPACE}"
+_LINE = 0.8
+"""Height of a line, in heights of a button."""
+_GLUE = "\N{NO-BREAK SPACE}"
+_UNBROKEN = re.compile(r"(?<=ΔE00) (?=\d)|(?<=\d) (?=(?:nm|%|K)(?!\w))|(?<=σ) (?==)|(?<==) (?=\d)")
+"""Spaces at which no line may end: a number stays with what it is of."""
 
 
-def sentence(
-    layout: Any, context: Any, text: str, icon: str = "BLANK1", inset: float = 0.0
-) -> None:
-    """Draw a sentence over as many lines as it needs.
+class Writer:
+    """Writes sentences into the layouts of a region.
 
     Parameters
     ----------
-    layout
-        A column; the lines are set close to each other.
     context
-        Tells how wide the region is.
-    text
-        Translated already.
-    icon
-        Before the first line.
-    inset
-        Pixels at UI scale 1 that are taken beside the sentence, such as by a box around it.
+        Tells how wide the region is, and how large the letters are.
     """
-    scale = theme.scale(context.preferences)
-    margins = _MARGINS + inset + (_TABS if context.area.type == "NODE_EDITOR" else 0.0)
-    width = max(int(context.region.width / scale - margins), _LEAST)
-    column = layout.column(align=True)
-    below = "NONE" if icon == "NONE" else "BLANK1"
-    for number, line in enumerate(_lines(text, width, _points(context.preferences), scale)):
-        row = column.row()
-        row.scale_y = 0.8
-        row.label(text=line, icon=icon if number == 0 else below, translate=False)
 
+    def __init__(self, context: Any) -> None:
+        preferences = context.preferences
+        self._scale = theme.scale(preferences)
+        self._points = float(preferences.ui_styles[0].widget.points)
+        tabs = _TABS if context.area.type == "NODE_EDITOR" else 0.0
+        self._width = context.region.width / self._scale - _MARGINS - tabs
 
-def _points(preferences: Any) -> float:
-    return float(preferences.ui_styles[0].widget.points)
+    def width(self, inset: float = 0.0) -> float:
+        """Width of a line in pixels at UI scale 1."""
+        return max(int(self._width - inset), _LEAST)
+
+    def sentence(self, layout: Any, text: str, icon: str = "BLANK1", inset: float = 0.0) -> None:
+        """Draw a sentence over as many lines as it needs, set close to each other.
+
+        Parameters
+        ----------
+        layout
+            What it is drawn into.
+        text
+            Translated already.
+        icon
+            Before the first line; with "NONE" there is no place for one.
+        inset
+            Pixels at UI scale 1 that are taken beside the sentence, such as by a box around it.
+        """
+        lines = _lines(text, self.width(inset), self._points, self._scale)
+        column = layout.column(align=True)
+        column.scale_y = _LINE
+        for line in lines:
+            column.label(text=line, icon=icon, translate=False)
+            icon = "NONE" if icon == "NONE" else "BLANK1"
 
 
 @lru_cache(maxsize=256)
@@ -57,23 +71,33 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
 
     A word that is too long by itself, such as a path, is broken.
     """
-    blf.size(_FONT, points * scale)
-    lines, line = [], ""
-    for word in " ".join(text.split()).replace("ΔE00 ", _GLUED).split(" "):
-        longer = f"{line} {word}".lstrip()
-        if _fits(longer, width * scale):
-            line = longer
-            continue
-        if line:
-            lines.append(line)
-        line = ""
-        for letter in word:
-            if line and not _fits(line + letter, width * scale):
-                lines.append(line)
-                line = ""
-            line += letter
-    return tuple(line.replace(_GLUED, "ΔE00 ") for line in (*lines, line))
+    size, most = points * scale, width * scale
+    space = _width("x x", size) - 2 * _width("x", size)
+    lines: list[list[str]] = [[]]
+    used = 0.0
+    for word in _UNBROKEN.sub(_GLUE, " ".join(text.split())).split(" "):
+        pieces = [word] if _width(word, size) <= most else _pieces(word, most, size)
+        for piece in pieces:
+            needed = _width(piece, size)
+            if lines[-1] and used + space + needed > most:
+                lines.append([])
+            used = used + space + needed if lines[-1] else needed
+            lines[-1].append(piece)
+    return tuple(" ".join(line).replace(_GLUE, " ") for line in lines)
 
 
-def _fits(text: str, pixels: float) -> bool:
-    return bool(blf.dimensions(_FONT, text)[0] <= pixels)
+def _pieces(word: str, most: float, size: float) -> list[str]:
+    """Break a word into pieces that fit, all but the last as long as they can be."""
+    pieces = [""]
+    for letter in word:
+        if pieces[-1] and _width(pieces[-1] + letter, size) > most:
+            pieces.append("")
+        pieces[-1] += letter
+    return pieces
+
+
+@lru_cache(maxsize=2048)
+def _width(word: str, size: float) -> float:
+    """Pixels that a word takes; sentences have few that are new."""
+    blf.size(_FONT, size)
+    return float(blf.dimensions(_FONT, word)[0])

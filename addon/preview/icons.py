@@ -99,7 +99,9 @@ def fit(context: Any, inset: float = 0.0) -> float:
     return max(int(free * 2) / 2, 1.0)
 
 
-def icon_id(material: Any, figure: str, units: float, context: Any) -> int:
+def icon_id(
+    material: Any, figure: str, units: float, context: Any, known: int | None = None
+) -> int:
     """Give the icon of a figure, to be called while drawing; 0 while there is none yet.
 
     Parameters
@@ -110,12 +112,14 @@ def icon_id(material: Any, figure: str, units: float, context: Any) -> int:
         One of `FIGURES`.
     units
         The `scale` that the panel gives to `template_icon`.
+    known
+        The material's `digest`, for who has just asked for it.
 
     A picture that is out of date is shown until the new one is there, within a frame: an empty
     square for a moment would flicker.
     """
     wish = _Wish(material.session_uid, figure, side(units, context.preferences))
-    state = _state(material, context)
+    state = digest(material, context) if known is None else known
     picture = _pictures.get(wish)
     if picture is None or picture.state != state:
         _pending[wish] = state
@@ -128,14 +132,39 @@ def icon_id(material: Any, figure: str, units: float, context: Any) -> int:
     return picture.icon
 
 
-def differences(material: Any, context: Any) -> tuple[float, float, float] | None:
+def differences(
+    material: Any, context: Any, known: int | None = None
+) -> tuple[float, float, float] | None:
     """Give ΔE00 of what is in the shader node, to be called while drawing, after `icon_id`.
 
     At the instrument, and mean and 95th percentile over all angles; None until they are computed
-    along with the pictures.
+    along with the pictures. `known` as with `icon_id`.
     """
-    known = _differences.get(material.session_uid)
-    return known[1] if known is not None and known[0] == _state(material, context) else None
+    found = _differences.get(material.session_uid)
+    state = digest(material, context) if known is None else known
+    return found[1] if found is not None and found[0] == state else None
+
+
+def digest(material: Any, context: Any) -> int:
+    """Give a digest of everything that a material's pictures depend on."""
+    group = material.rough_spectra
+    node = nodes.shader_node(material)
+    written: tuple[float, ...] = ()
+    if node is not None:
+        color = nodes.color_socket(node).default_value
+        written = (*color[:3], nodes.roughness_socket(node).default_value)
+    return hash(
+        (
+            group.stamp,
+            group.spectrum,
+            (group.kind, group.instrument, group.illuminant, group.model, group.sigma),
+            stamp.has_scene(group) and group.scene_view,
+            written,
+            context.scene.render.engine,
+            stamp.working_space_name(),
+            theme.current(context.preferences),
+        )
+    )
 
 
 def refresh(material: Any) -> None:
@@ -201,28 +230,6 @@ def _previews() -> Any:
     return _collection
 
 
-def _state(material: Any, context: Any) -> int:
-    """Digest of everything that a picture depends on; some microseconds."""
-    group = material.rough_spectra
-    node = nodes.shader_node(material)
-    written: tuple[float, ...] = ()
-    if node is not None:
-        color = nodes.color_socket(node).default_value
-        written = (*color[:3], nodes.roughness_socket(node).default_value)
-    return hash(
-        (
-            group.stamp,
-            group.spectrum,
-            (group.kind, group.instrument, group.illuminant, group.model, group.sigma),
-            stamp.has_scene(group) and group.scene_view,
-            written,
-            context.scene.render.engine,
-            stamp.working_space_name(),
-            theme.current(context.preferences),
-        )
-    )
-
-
 def _work() -> float | None:
     """Make what drawing asked for; comes back where that takes longer than a frame."""
     end = time.monotonic() + _AT_ONCE
@@ -246,7 +253,7 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
     from . import compose, data
 
     context = bpy.context
-    state = _state(material, context)
+    state = digest(material, context)
     look = theme.current(context.preferences)
     try:
         space = working_space.current()

@@ -79,15 +79,17 @@ def current(preferences: Any) -> Look:
     # Blender 5 moved the colors of panels from each editor to the interface.
     panels = getattr(space, "panelcolors", None)
     back = theme.user_interface.panel_back if panels is None else panels.back
-    red, green, blue, alpha = back
-    behind = tuple(space.back[:3])
-    background = tuple(
-        round(alpha * c + (1 - alpha) * b, 3)
-        for c, b in zip((red, green, blue), behind, strict=True)
-    )
     text = space.text if panels is not None else theme.user_interface.panel_text
-    ink = tuple(round(c, 3) for c in text[:3])
-    return look(background, ink, scale(preferences))
+    return _look(tuple(back), tuple(space.back[:3]), tuple(text[:3]), scale(preferences))
+
+
+@lru_cache(maxsize=8)
+def _look(back: tuple[float, ...], behind: Color, text: Color, scale: float) -> Look:
+    """Round once and not at every draw; `back` is translucent."""
+    red, green, blue, alpha = back
+    over = ((red, behind[0]), (green, behind[1]), (blue, behind[2]))
+    background = tuple(round(alpha * c + (1 - alpha) * b, 3) for c, b in over)
+    return look(background, tuple(round(c, 3) for c in text), scale)
 
 
 def scale(preferences: Any) -> float:

@@ -200,6 +200,72 @@ def test_another_engine_is_named_as_what_limits(green):
     assert mean > 2 * in_cycles
 
 
+def sentence_with(beginning):
+    """The sentence that begins so, with the line after it, or an empty text."""
+    page = drawn()
+    return next(
+        (" ".join(page[i : i + 2]) for i, line in enumerate(page) if line.startswith(beginning)), ""
+    )
+
+
+def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(green):
+    scene = bpy.context.scene
+    assert sentence_with("Model two-bounce")
+    assert sentence_with("Material rough")
+    scene.render.engine = "BLENDER_WORKBENCH"
+    assert sentence_with("Target of the model two-bounce")
+    assert not sentence_with("Model")
+    assert "Analyze the scene" in sentence_with("Material lambert: this engine leaves")
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    assert "right for its scene" in sentence_with("Material lambert: the render engine ignores")
+    assert sentence_with("Limited by the engine")
+    green.rough_spectra.use_scene = False
+    assert "Light from the Scene" in sentence_with("Material lambert: this engine leaves")
+
+
+def test_a_smooth_surface_is_the_same_in_every_engine(green):
+    green.rough_spectra.sigma = 0.0
+    for engine in ("CYCLES", "BLENDER_WORKBENCH"):
+        bpy.context.scene.render.engine = engine
+        drawn()
+        icons._work()
+        assert sentence_with("Limited by nothing")
+        assert sentence_with("Material lambert: at worst")
+
+
+def test_what_another_node_sets_is_not_compared(green):
+    links = green.node_tree.links
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    noise = green.node_tree.nodes.new("ShaderNodeTexNoise")
+    links.new(noise.outputs["Color"], node.inputs["Color"])
+    page = drawn()
+    assert "Color comes from another node" in page
+    assert "no one color to compare" in sentence_with("Color or roughness comes from another")
+    assert not any("ΔE00" in line for line in page)
+    assert "There is no one color to plot" in page
+    assert not any(line.startswith("picture") for line in page)
+
+
+def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
+    wide = drawn()
+    narrow = drawn(context(region=types.SimpleNamespace(width=230)))
+    assert any(line.endswith("visible side by side") for line in wide)
+    assert "45°/0°: ΔE00 0.00, not visible" in narrow
+
+
+def light_and_camera():
+    """Put both above the wall."""
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    for thing in (camera, sun):
+        thing.location.z = 4
+        scene.collection.objects.link(thing)
+    scene.camera = camera
+    bpy.context.view_layer.update()
+
+
 def test_a_measurement_stands_beside_the_prediction(green):
     rgb = (0.1, 0.2, 0.1)
     measured.note(green, measured.fingerprint(green), rgb, 0.004)
