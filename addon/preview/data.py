@@ -140,12 +140,16 @@ def written(material: Any) -> tuple[Array, float]:
     Raises
     ------
     MaterialError
-        If there is neither.
+        If there is neither, or a socket holds no number.
     """
     node = nodes.shader_node(material)
     if node is not None:
         color = np.array(nodes.color_socket(node).default_value[:3], np.float64)
-        return color, float(nodes.roughness_socket(node).default_value)
+        roughness = float(nodes.roughness_socket(node).default_value)
+        if not np.isfinite((*color, roughness)).all():
+            msg = f"Material {material.name!r}: {node.name!r} holds a value that is no number."
+            raise MaterialError(msg)
+        return color, roughness
     found = stamp.get_stamp(material)
     if found is None:
         msg = f"Material {material.name!r} has no color derived from its spectrum yet; renew it."

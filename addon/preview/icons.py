@@ -149,10 +149,11 @@ def digest(material: Any, context: Any) -> int:
     """Give a digest of everything that a material's pictures depend on."""
     group = material.rough_spectra
     node = nodes.shader_node(material)
-    written: tuple[float, ...] = ()
+    written = ""
     if node is not None:
         color = nodes.color_socket(node).default_value
-        written = (*color[:3], nodes.roughness_socket(node).default_value)
+        # As text: NaN is unequal to itself, and would have pictures made without end.
+        written = repr((*color[:3], nodes.roughness_socket(node).default_value))
     return hash(
         (
             group.stamp,

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, light_spectrum, scene_view, target
+from rough_spectra.addon import assign, light_spectrum, nodes, scene_view, target
 from rough_spectra.addon.preview import icons, theme
 
 
@@ -114,6 +114,16 @@ def test_a_material_without_spectrum_is_tried_once(make_material):
     ask(material)
     assert not icons._pending
     assert icons.icon_id(material, "sheet", 10.0, bpy.context) == 0
+
+
+def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
+    node = nodes.shader_node(material)
+    icons.icon_id(material, "sheet", 10, bpy.context)
+    nodes.color_socket(node).default_value[0] = float("nan")
+    icons.icon_id(material, "sheet", 10, bpy.context)
+    assert icons._work() is None
+    assert icons.icon_id(material, "sheet", 10, bpy.context) == 0
+    assert not icons._pending
 
 
 def test_pictures_of_removed_materials_are_not_made(material):

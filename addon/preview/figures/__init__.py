@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures: from numbers to pixels. Knows no Blender.
+
+Every figure fills the canvas (see `raster`) that it is given; what stays the same while σ is
+dragged is drawn once and copied. Nothing is told by color alone: curves differ in dash and
+thickness and are named beside a sample.
+"""
+
+from ._angles import LIGHT_ANGLE, STEEPEST, angles, angles_axes, angles_polar, polar_place
+from ._sigma_range import LARGEST_SIGMA, sigma_range
+from ._spectrum import VISIBLE_NM, spectrum, spectrum_axes
+from ._swatches import swatch, swatch_pair, swatches
+
+__all__ = [
+    "LARGEST_SIGMA",
+    "LIGHT_ANGLE",
+    "STEEPEST",
+    "VISIBLE_NM",
+    "angles",
+    "angles_axes",
+    "angles_polar",
+    "polar_place",
+    "sigma_range",
+    "spectrum",
+    "spectrum_axes",
+    "swatch",
+    "swatch_pair",
+    "swatches",
+]
