@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A progress line for terminals: how much is done, how fast, how long it will take."""
+"""What terminals are told: how much is done, how fast, how long it will take."""
 
 from __future__ import annotations
 
@@ -11,6 +11,11 @@ from typing import TextIO
 _TERMINAL_SECONDS = 0.2
 _LOG_SECONDS = 10.0
 """In a log file every line stays, so there are fewer."""
+
+
+def counted(count: int, thing: str) -> str:
+    """Say how many of a thing there are: "1 reading", "2 readings"."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
 class ProgressLine:

@@ -70,6 +70,13 @@ SHADER_ITEMS = (
     ("DIFFUSE", "Diffuse BSDF", "Set a Diffuse BSDF, making one if another shader is in use", 1),
     ("PRINCIPLED", "Principled BSDF", "Set a Principled BSDF with its specular level at 0", 2),
 )
+_TITLES = {
+    setting: {item[0]: item[1] for item in items}
+    for setting, items in (
+        *(("kind", KIND_ITEMS), ("instrument", INSTRUMENT_ITEMS)),
+        *(("model", MODEL_ITEMS), ("shader", SHADER_ITEMS)),
+    )
+}
 ILLUMINANT_ITEMS = tuple(
     (name, name, f"CIE standard illuminant {name}", number)
     for name, number in (
@@ -162,6 +169,11 @@ class RoughSpectraMaterial(PropertyGroup):
 
 
 classes = (RoughSpectraMaterial,)
+
+
+def title(setting: str, identifier: str) -> str:
+    """Give what the panel calls a value of a setting: "45°a:0°" for the instrument "45a:0"."""
+    return _TITLES.get(setting, {}).get(identifier, identifier)
 
 
 def register_pointer() -> None:

@@ -17,7 +17,7 @@ from typing import Any, Literal
 import bpy
 
 from . import nodes
-from .properties import SCHEMA
+from .properties import SCHEMA, title
 
 DEFAULT_SPACE = "Linear Rec.709"
 """The working space before Blender 5.0, unless a custom OCIO configuration has another."""
@@ -332,7 +332,8 @@ def _changed_inputs(group: Any, stamp: Stamp) -> list[str]:
     found = [
         "the spectrum was replaced"
         if label == "spectrum"
-        else f"{label if label == 'σ' else 'the ' + label} was changed from {value} to {now[label]}"
+        else f"{label if label == 'σ' else 'the ' + label} was changed from "
+        f"{title(label, value)} to {title(label, now[label])}"
         for label, value in before.items()
         if label in now and now[label] != value
     ]

@@ -141,9 +141,9 @@ class Measuring(InBackground):
     def state(self, done: int, total: int) -> str:
         """Say how many renders are done."""
         if self._count == 1:
-            sentence = rpt_("Measuring 1 material: {done} of {total} renders")
+            sentence = rpt_("Measuring 1 material: {done} of {total} rendered")
         else:
-            sentence = rpt_("Measuring {count} materials: {done} of {total} renders")
+            sentence = rpt_("Measuring {count} materials: {done} of {total} rendered")
         return sentence.format(count=self._count, done=done, total=total)
 
     def finish(self, job: Any) -> str:

@@ -67,14 +67,13 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
         result = readings.compare(self._prepared, values[self._places])
         written = writers.write(result, self._base)
         largest = result.largest_delta_e
+        count = len(result.entries)
         if largest is None:
-            sentence = rpt_("{readings} readings; {files} files in {folder}")
+            sentence = rpt_("{readings}; {files} files in {folder}")
         else:
-            sentence = rpt_(
-                "{readings} readings, largest ΔE00 {largest:.2f}; {files} files in {folder}"
-            )
+            sentence = rpt_("{readings}, largest ΔE00 {largest:.2f}; {files} files in {folder}")
         return sentence.format(
-            readings=len(result.entries),
+            readings=rpt_("1 reading") if count == 1 else rpt_("{} readings").format(count),
             largest=largest,
             files=len(written),
             folder=self._base.parent,

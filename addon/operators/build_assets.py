@@ -92,7 +92,9 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         for name, sentences in built.warnings.items():
             for sentence in sentences:
                 self.report({"WARNING"}, f"{name}: {sentence}")
-        said = rpt_("{count} materials in {file}").format(count=built.count, file=built.blend)
+        one = rpt_("1 material in {file}")
+        said = one if built.count == 1 else rpt_("{count} materials in {file}")
+        said = said.format(count=built.count, file=built.blend)
         if not self.add_to_preferences:
             return said
         name = build.add_to_preferences(self._folder)

@@ -17,6 +17,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from ..properties import title
 from . import common
 from .import_samples import ImportOptions, carry_out
 
@@ -123,7 +124,9 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         )
         row = layout.row()
         row.prop(self, "all_chosen")
-        row.label(text=iface_("{} samples").format(len(self.items)), translate=False)
+        count = len(self.items)
+        text = iface_("1 sample") if count == 1 else iface_("{} samples").format(count)
+        row.label(text=text, translate=False)
         if 0 <= self.index < len(self.items):
             column = layout.column(align=True)
             item = self.items[self.index]
@@ -186,7 +189,7 @@ def _fill(items: Any, found: tuple[Found, ...]) -> None:
 def _about(each: Found) -> str:
     sample = each.sample
     parts = (
-        *(sample.kind.capitalize(), sample.geometry or sample.instrument),
+        *(sample.kind.capitalize(), sample.geometry or title("instrument", sample.instrument)),
         *(sample.specular, sample.condition, sample.device),
     )
     return ", ".join(part for part in parts if part)
@@ -197,8 +200,10 @@ def _draw_refused(layout: Any, refused: tuple[str, ...]) -> None:
     column.alert = True
     for sentence in refused[:_MOST_REFUSED]:
         _draw_sentence(column, iface_("Not read: {}").format(sentence), "CANCEL")
-    if len(refused) > _MOST_REFUSED:
-        text = iface_("{} more files were not read").format(len(refused) - _MOST_REFUSED)
+    more = len(refused) - _MOST_REFUSED
+    if more > 0:
+        several = iface_("{} more files were not read").format(more)
+        text = iface_("1 more file was not read") if more == 1 else several
         column.label(text=text, translate=False)
 
 

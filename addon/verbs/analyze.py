@@ -40,6 +40,7 @@ def run(options: argparse.Namespace) -> int:
     from ...core.errors import InputError
     from .. import scene_analysis, scene_report, selection
     from ..blend_file import save
+    from ..progress import counted
 
     scene = bpy.context.scene
     if options.scene is not None:
@@ -62,8 +63,8 @@ def run(options: argparse.Namespace) -> int:
     print("\n".join(scene_report.table(report, changes)), file=sys.stderr)
     path = save(options.output)
     print(
-        f"matched {len(changes)} materials to scene {scene.name!r} in {report.seconds:.2f} s; "
-        f"saved {path}",
+        f"matched {counted(len(changes), 'material')} to scene {scene.name!r} in "
+        f"{report.seconds:.2f} s; saved {path}",
         file=sys.stderr,
     )
     return 0

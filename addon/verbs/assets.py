@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     """Build the library; exit status 0."""
     from .. import library
     from ..assets import build, plan
-    from ..progress import ProgressLine
+    from ..progress import ProgressLine, counted
 
     folder = options.library or library.user_folder()
     chosen = [
@@ -83,5 +83,5 @@ def run(options: argparse.Namespace) -> int:
     for name, sentences in built.warnings.items():
         for sentence in sentences:
             print(f"warning: material {name!r}: {sentence}", file=sys.stderr)
-    print(f"{built.count} materials in {built.blend}", file=sys.stderr)
+    print(f"{counted(built.count, 'material')} in {built.blend}", file=sys.stderr)
     return 0

@@ -71,6 +71,7 @@ def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
     from .. import assign, mapping
     from ..blend_file import save
+    from ..progress import counted
 
     rows = mapping.rows(options)
     pairs = mapping.pair(rows, options)
@@ -81,8 +82,8 @@ def run(options: argparse.Namespace) -> int:
     path = save(options.output)
     worst = max(solution.delta_e_instrument for solution in solutions)
     print(
-        f"assigned {len(pairs)} materials, largest predicted ΔE00 at 45°/0° {worst:.4f}; "
-        f"saved {path}",
+        f"assigned {counted(len(pairs), 'material')}, largest predicted ΔE00 at 45°/0° "
+        f"{worst:.4f}; saved {path}",
         file=sys.stderr,
     )
     return 0

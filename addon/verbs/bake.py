@@ -73,6 +73,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0."""
     from .. import outputs, readings, readings_document, selection, writers
+    from ..progress import counted
 
     outputs.check_base(options.output)
     result = measure(options, not options.predicted_only)
@@ -89,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
         written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
-    print(f"{len(result.entries)} readings{largest}; wrote {names}", file=sys.stderr)
+    print(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}", file=sys.stderr)
     return 0
 
 

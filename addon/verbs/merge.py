@@ -27,9 +27,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Join and write; exit status 0."""
     from .. import readings_document, writers
+    from ..progress import counted
 
     result = readings_document.merge(readings_document.from_json(path) for path in options.parts)
     written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
     names = ", ".join(path.name for path in written)
-    print(f"{len(result.entries)} readings; wrote {names}", file=sys.stderr)
+    print(f"{counted(len(result.entries), 'reading')}; wrote {names}", file=sys.stderr)
     return 0

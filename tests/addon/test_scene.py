@@ -388,7 +388,7 @@ def test_verb_prints_lights_and_saves(plate, tmp_path, capsys):
     assert command_line.main(["analyze", "--blend", str(path)]) == 0
     told = capsys.readouterr().err
     assert "blackbody of 2856 K" in told
-    assert "matched 1 materials to scene 'Scene'" in told
+    assert "matched 1 material to scene 'Scene'" in told
     bpy.ops.wm.open_mainfile(filepath=str(path))
     assert bpy.data.materials["Plate"].rough_spectra.use_scene
     assert command_line.main(["analyze", "--scene", "Nowhere"]) == 2
