@@ -38,6 +38,7 @@ def start() -> None:
     """Install the extension, set scale and theme, and take the pictures one by one."""
     preferences = bpy.context.preferences
     preferences.view.show_splash = False
+    preferences.view.show_tooltips = False
     preferences.view.ui_scale = float(SCALE)
     bpy.ops.extensions.package_install_files(
         filepath=ZIP, repo="user_default", enable_on_install=True, overwrite=True
@@ -153,7 +154,7 @@ def _panel(pixels: Any, left: int, contrast: int) -> Any:
     """Cut what is below the last panel."""
     inner = pixels[:-8, left:-48]
     busy = np.flatnonzero(np.ptp(inner, axis=1).max(axis=-1) > contrast)
-    return pixels[: min(len(pixels), int(busy.max()) + 12)]
+    return pixels[: min(len(pixels), int(busy.max()) + 8 + round(12 * float(SCALE)))]
 
 
 def _dialog(pixels: Any) -> Any:

@@ -142,10 +142,10 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         column.enabled = self.add_to_library
         column.prop(self, "collection", placeholder="Names of the files")
         layout.prop(self, "materials", expand=True)
-        column = layout.column()
-        column.enabled = self.materials != "NONE"
-        column.prop(self, "sigma", text="σ Unless Stated")
-        column.prop(self, "shader")
+        for name, label in (("sigma", "σ Unless Stated"), ("shader", "Shader")):
+            row = layout.row()
+            row.enabled = self.materials != "NONE"
+            row.prop(self, name, text=label)
 
     def execute(self, context: Any) -> set[str]:
         """Import what is checked."""
