@@ -152,7 +152,7 @@ def _within(pixels: Any, part: Any, window: Any) -> Any:
 
 def _panel(pixels: Any, left: int, contrast: int) -> Any:
     """Cut what is below the last panel."""
-    inner = pixels[:-8, left:-48]
+    inner = pixels[:-8, round(left * float(SCALE)) : -round(48 * float(SCALE))]
     busy = np.flatnonzero(np.ptp(inner, axis=1).max(axis=-1) > contrast)
     return pixels[: min(len(pixels), int(busy.max()) + 8 + round(12 * float(SCALE)))]
 

@@ -179,12 +179,11 @@ def _shader(found: stamp.Stamp, group: Any) -> str:
         return found.shader_reason
     if group.scene_view:
         return tip_(
-            "lambert: this engine leaves the roughness out. Check Light from the Scene to get the "
-            "closest color without"
+            "lambert: this engine leaves the roughness out; check Light from the Scene for the "
+            "closest color"
         )
     return tip_(
-        "lambert: this engine leaves the roughness out. Analyze the scene to get the closest "
-        "color without"
+        "lambert: this engine leaves the roughness out; analyze the scene for the closest color"
     )
 
 

@@ -215,7 +215,7 @@ def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(gr
     scene.render.engine = "BLENDER_WORKBENCH"
     assert sentence_with("Target of the model two-bounce")
     assert not sentence_with("Model")
-    assert "Analyze the scene" in sentence_with("Material lambert: this engine leaves")
+    assert "analyze the scene" in sentence_with("Material lambert: this engine leaves")
     light_and_camera()
     assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
     assert "right for its scene" in sentence_with("Material lambert: the render engine ignores")
