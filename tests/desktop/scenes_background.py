@@ -56,12 +56,13 @@ def measuring(found):
     yield from green_file()
     yield from _start()
     found["modal"] = [op.bl_idname for op in window().modal_operators]
-    yield from find(area("PROPERTIES"), "sigma")
     yield from move(*middle(area("TEXT_EDITOR")))
+    # Before the long way over the panel, during which a measurement may well come to its end.
+    found["still_running"] = bool(jobs())
+    yield from find(area("PROPERTIES"), "sigma")
     picture = os.environ.get("ROUGH_SPECTRA_GRAB")
     if picture:
         subprocess.run(["import", "-window", "root", picture], check=True)
-    found["still_running"] = bool(jobs())
     yield _ended
     yield 0.5
     found["measured"] = _measured()
