@@ -149,13 +149,16 @@ def get_stamp(material: Any) -> Stamp | None:
     return _parsed(material.rough_spectra.stamp)
 
 
-def state(material: Any) -> State:
-    """Tell whether the color still follows from the spectrum, and if not, why."""
+def state(material: Any, working_space: str = "") -> State:
+    """Tell whether the color still follows from the spectrum, and if not, why.
+
+    `working_space` is the open file's, for who has just asked for it.
+    """
     group = material.rough_spectra
     if not group.spectrum:
         return _NONE
     found = get_stamp(material)
-    reasons = tuple(stale_reasons(material, working_space_name()))
+    reasons = tuple(stale_reasons(material, working_space or working_space_name()))
     place = elsewhere(material)
     if place:
         return State("linked", (place, *reasons), found)

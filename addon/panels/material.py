@@ -208,7 +208,7 @@ def draw_measurement(layout: Any, context: Any) -> None:
     row.operator("rough_spectra.measure", text="Measure All").scope = "ALL"
     material = stored_material(context)
     found = None if material is None else measured.get(material)
-    if found is not None and found.delta_e is not None:
+    if found is not None:
         _draw_measured(layout, context, material, found)
     layout.operator("rough_spectra.bake", icon="EXPORT")
 
@@ -216,7 +216,7 @@ def draw_measurement(layout: Any, context: Any) -> None:
 def _draw_measured(layout: Any, context: Any, material: Any, found: measured.Measured) -> None:
     shown = redraw.current(material, context)
     write, predicted = shown.write, shown.state.stamp
-    if predicted is None:
+    if predicted is None or found.delta_e is None:
         return
     column = layout.column(align=True)
     for when, delta_e in (

@@ -34,7 +34,8 @@ class Redraw:
     def __init__(self, material: Any, context: Any) -> None:
         self.began = time.monotonic()
         self.of = _of(material, context)
-        self.state = stamp.state(material)
+        self._space = stamp.working_space_name()
+        self.state = stamp.state(material, self._space)
         self.write = Writer(context)
         self._digest: int | None = None
 
@@ -43,7 +44,7 @@ class Redraw:
         if self._digest is None:
             from ..preview import icons
 
-            self._digest = icons.digest(material, context)
+            self._digest = icons.digest(material, context, self._space)
         return self._digest
 
     def is_textured(self, material: Any) -> bool:

@@ -145,8 +145,11 @@ def differences(
     return found[1] if found is not None and found[0] == state else None
 
 
-def digest(material: Any, context: Any) -> int:
-    """Give a digest of everything that a material's pictures depend on."""
+def digest(material: Any, context: Any, working_space: str = "") -> int:
+    """Give a digest of everything that a material's pictures depend on.
+
+    `working_space` is the open file's, for who has just asked for it.
+    """
     group = material.rough_spectra
     node = nodes.shader_node(material)
     written = ""
@@ -162,7 +165,7 @@ def digest(material: Any, context: Any) -> int:
             stamp.has_scene(group) and group.scene_view,
             written,
             context.scene.render.engine,
-            stamp.working_space_name(),
+            working_space or stamp.working_space_name(),
             theme.current(context.preferences),
         )
     )
