@@ -90,8 +90,11 @@ class InBackground:
         context.workspace.status_text_set(f"{self.state(done, total)}   |   {rpt_('ESC: stop')}")
 
     def _finish(self, context: Any) -> set[str]:
+        from ..preview import icons
+
         sentence = self.finish(self._job)
         self._end(context)
+        icons.redraw()  # nobody has to touch the panel for it to show what was found
         self.report({"INFO"}, sentence)
         return {"FINISHED"}
 

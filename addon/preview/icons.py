@@ -181,7 +181,7 @@ def refresh(material: Any) -> None:
     ]
     if wishes:
         _make(material, wishes)
-        _redraw()
+        redraw()
 
 
 def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
@@ -246,9 +246,9 @@ def _work() -> float | None:
         if uid in by_uid:
             _make(by_uid[uid], wishes)
         if _pending and time.monotonic() > end:
-            _redraw()
+            redraw()
             return 0.0
-    _redraw()
+    redraw()
     return None
 
 
@@ -315,7 +315,8 @@ def _upload(preview: Any, canvas: Any, *, small: bool = False) -> None:
         preview.icon_pixels.foreach_set(flat)
 
 
-def _redraw() -> None:
+def redraw() -> None:
+    """Draw the editors again that have the panel; not to be called while drawing."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"PROPERTIES", "NODE_EDITOR"}:

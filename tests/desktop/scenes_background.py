@@ -50,6 +50,19 @@ def _ended():
     return not jobs()
 
 
+def _watch_result():
+    """Note each time that the panel draws what was measured."""
+    panel, drawn = ours("addon.panels.material"), []
+    draw = panel._draw_measured
+
+    def watched(*arguments):
+        drawn.append(True)
+        draw(*arguments)
+
+    panel._draw_measured = watched
+    return drawn
+
+
 @scene
 def measuring(found):
     """Measure to the end, and look around in the panel meanwhile."""
@@ -63,8 +76,12 @@ def measuring(found):
     picture = os.environ.get("ROUGH_SPECTRA_GRAB")
     if picture:
         subprocess.run(["import", "-window", "root", picture], check=True)
+    yield from move(*middle(area("TEXT_EDITOR")))
+    yield 0.3
+    drawn = _watch_result()
     yield _ended
     yield 0.5
+    found["shown"] = bool(drawn)
     found["measured"] = _measured()
     found["modal_after"] = [op.bl_idname for op in window().modal_operators]
     yield from move(*middle(area("PROPERTIES")))

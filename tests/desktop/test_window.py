@@ -36,6 +36,7 @@ MEASURE = "ROUGH_SPECTRA_OT_measure"
 def test_measuring(scene):
     assert MEASURE in scene["modal"]
     assert scene["still_running"]
+    assert scene["shown"]  # without the pointer over the panel
     assert scene["measured"] == [pytest.approx(0, abs=0.02), True]
     assert scene["modal_after"] == []
     assert scene["undone"] is None
