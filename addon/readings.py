@@ -190,6 +190,20 @@ def _reading(item: Prepared, measured: Array | None, space: working_space.Workin
     )
 
 
+def from_spectrum(item: Prepared, entry: Reading) -> float | None:
+    """Give ΔE00 of what was measured from the spectrum's own reading, or None without either.
+
+    `Reading.delta_e_00` is the same, but for a material that follows its scene: that one is
+    compared with what was matched, and this with what the spectrum asks for under the main light.
+    """
+    if item.request is None or item.request.scene is None or entry.measured is None:
+        return entry.delta_e_00
+    light, wanted = item.request.scene.lights[0], target.target_reading(item.request)
+    weights = light.weights(item.request.sample.wavelengths)
+    lab = colorimetry.xyz_to_lab(wanted @ weights, light.white)
+    return round(float(colorimetry.delta_e(lab, np.array(entry.measured.lab))), 4)
+
+
 def _predicted(
     request: target.Request, model_reason: str, space: working_space.WorkingSpace
 ) -> Predicted:

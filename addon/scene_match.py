@@ -162,11 +162,6 @@ def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ..
     )
 
 
-def mean_over_lights(view: SceneView, of_lights: Array) -> float:
-    """Mean of a number that each light has, by the lights' shares."""
-    return float(np.average(of_lights, weights=_shares(view)))
-
-
 def percentile(values: Array, weights: Array, share: float) -> float:
     """Value below which that share of the weights lies."""
     order = np.argsort(values)

@@ -74,8 +74,8 @@ class Solution:
     model, model_reason
         The model that gave the target, and why it was taken.
     delta_e_instrument
-        ΔE00 predicted between target and Cycles at the instrument; in a scene, the mean over its
-        lights, each with its share.
+        ΔE00 predicted between target and Cycles at the instrument; in a scene, under its main
+        light.
     delta_e_mean, delta_e_95
         Mean and 95th percentile over the hemisphere below 80°, or over the scene's directions.
     shader_reason
@@ -263,7 +263,6 @@ def _solve_in_scene(
     elif reason != ASKED_FOR:
         taken, shader_reason = scene_match.choose_shader(view, lambert, rough, request.tolerance)
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
-    missed = scene_match.mean_over_lights(view, taken.instrument)
     [judged] = judgement.judge_each([sample])
     found = (space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space))
     return Solution(
@@ -272,7 +271,7 @@ def _solve_in_scene(
         target=target,
         model=request.model,
         model_reason=reason,
-        delta_e_instrument=missed,
+        delta_e_instrument=float(taken.instrument[0]),
         delta_e_mean=float(np.average(taken.over_scene, weights=view.weights)),
         delta_e_95=scene_match.percentile(taken.over_scene, view.weights, 0.95),
         delta_e_lambert=float(np.average(lambert.over_scene, weights=view.weights)),

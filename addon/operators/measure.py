@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -62,7 +63,13 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
         """Keep each reading with its material; linked ones are only reported."""
         from .. import measured, readings
 
-        entries = readings.compare(self._prepared, values).entries
+        # As the panel predicts it, so from the spectrum even where a scene asks for something else.
+        entries = [
+            replace(entry, delta_e_00=readings.from_spectrum(item, entry))
+            for item, entry in zip(
+                self._prepared, readings.compare(self._prepared, values).entries, strict=True
+            )
+        ]
         present = {material.session_uid: material for material in bpy.data.materials}
         for entry, uid, state in zip(entries, self._ids, self._states, strict=True):
             material = present.get(uid)

@@ -14,6 +14,7 @@ from rough_spectra.addon import (
     assign,
     colorimetry,
     light_spectrum,
+    measured,
     presets,
     readings,
     scene_analysis,
@@ -366,6 +367,17 @@ def test_measurement_finds_what_was_matched_to_the_scene(plate):
     assert reading.measured.rgb == pytest.approx(promised, abs=1e-5)
     sentence = next(w for w in reading.warnings if "follows its scene" in w)
     assert f"{change.solution.delta_e_instrument:.2f}" in sentence
+
+
+def test_panel_holds_a_measurement_to_the_spectrum_as_it_predicts_it(plate):
+    add_lamp("Warm", use_temperature=True, temperature=2700)
+    add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
+    assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
+    predicted = stamp.get_stamp(plate).delta_e_instrument
+    assert predicted > 0.5
+    with bpy.context.temp_override(material=plate):
+        assert bpy.ops.rough_spectra.measure("EXEC_DEFAULT") == {"FINISHED"}
+    assert measured.get(plate).delta_e == pytest.approx(predicted, abs=0.01)
 
 
 def test_operator_matches_and_reports(plate):
