@@ -83,13 +83,10 @@ def readers() -> tuple[Reader, ...]:
     return tuple(cast(Reader, module) for module in found)
 
 
-def formats() -> list[str]:
-    """Return the names of all formats that can be read."""
-    return [reader.NAME for reader in readers()]
-
-
 def _unrecognized(document: Document) -> InputError:
     fault = f"it is not text ({document.fault}) and " if document.fault else ""
     return document.error(
-        "", f"{fault}no format recognizes it; export it as one of: {', '.join(formats())}"
+        "",
+        f"{fault}no format recognizes it; export the reflectance as a table with wavelengths (CSV), "
+        "as CGATS or as CxF3",
     )
