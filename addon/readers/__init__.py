@@ -87,6 +87,6 @@ def _unrecognized(document: Document) -> InputError:
     fault = f"it is not text ({document.fault}) and " if document.fault else ""
     return document.error(
         "",
-        f"{fault}no format recognizes it; export the reflectance as a table with wavelengths (CSV), "
-        "as CGATS or as CxF3",
+        f"{fault}no format recognizes it; export the reflectance as a table with wavelengths "
+        "(CSV), as CGATS or as CxF3",
     )

@@ -135,7 +135,7 @@ def test_not_a_measurement(tmp_path, data, part):
     (tmp_path / "junk.csv").write_bytes(data)
     sentence = refusal(tmp_path / "junk.csv")
     assert part in sentence
-    assert "Nix export" in sentence  # the remedy lists what can be read
+    assert "export the reflectance as a table" in sentence
 
 
 def test_too_large_is_refused_before_it_is_read(tmp_path, monkeypatch):
