@@ -79,7 +79,7 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         column.prop(self, "illuminant")
         column.prop(self, "observer")
         column.prop(self, "tolerance")
-        layout.prop(self, "library_folder")
+        layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
 
 
 def defaults() -> Defaults:

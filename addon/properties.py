@@ -78,18 +78,18 @@ _TITLES = {
     )
 }
 ILLUMINANT_ITEMS = tuple(
-    (name, name, f"CIE standard illuminant {name}", number)
-    for name, number in (
-        ("D65", 0),
-        ("A", 1),
-        ("D50", 2),
-        ("D55", 3),
-        ("D75", 4),
-        ("E", 5),
-        ("F2", 6),
-        ("F7", 7),
-        ("F11", 8),
-        ("LED-B3", 9),
+    (name, name, f"CIE illuminant {name}: {what}", number)
+    for name, what, number in (
+        ("D65", "noon daylight, 6500 K", 0),
+        ("A", "incandescent lamp, 2856 K", 1),
+        ("D50", "warm daylight, 5000 K, as in print shops", 2),
+        ("D55", "daylight, 5500 K", 3),
+        ("D75", "north sky, 7500 K", 4),
+        ("E", "the same at every wavelength", 5),
+        ("F2", "cool white fluorescent lamp, 4230 K", 6),
+        ("F7", "daylight fluorescent lamp, 6500 K", 7),
+        ("F11", "fluorescent lamp of three narrow bands, 4000 K", 8),
+        ("LED-B3", "white LED with a blue chip, 4100 K", 9),
     )
 )
 OBSERVER_ITEMS = (

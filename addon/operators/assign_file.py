@@ -32,7 +32,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
     """Make the material read like a sample of a measurement file, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_file"
-    bl_label = "Assign Measurement File"
+    bl_label = "Assign from File"  # the file browser's button holds no more
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(

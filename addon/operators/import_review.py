@@ -89,7 +89,7 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
     """Choose which samples of the files to import, and what to make of them"""
 
     bl_idname = "rough_spectra.import_review"
-    bl_label = "Import Measured Spectra"
+    bl_label = "Import Spectra"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
     items: CollectionProperty(

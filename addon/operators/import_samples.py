@@ -56,7 +56,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
     """Add the samples of measurement files to your library, and to materials if wanted"""
 
     bl_idname = "rough_spectra.import_samples"
-    bl_label = "Import Measured Spectra"
+    bl_label = "Import Spectra"  # the file browser's button holds no more
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(

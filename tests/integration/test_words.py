@@ -53,7 +53,7 @@ def test_operators_are_found_by_different_names(extension):
     labels = [kind.name for name, kind in kinds().items() if name.startswith("operator")]
     twice = {label for label in labels if labels.count(label) > 1}
     # The second one is the first one's dialog, which search leaves out.
-    assert twice <= {"Import Measured Spectra"}
+    assert twice <= {"Import Spectra"}
 
 
 def test_a_button_that_is_off_says_why(extension):
