@@ -59,7 +59,7 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
             chosen, left = scene_report.choose(report, materials, self.overwrite_edits)
             changes = scene_report.follow(report, chosen)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         unlit = scene_report.unlit_sentence(report)
         for sentence in (self._instead(context), *report.warnings, unlit, *left):

@@ -68,7 +68,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         for note in sample.notes:
             self.report({"WARNING"}, f"{sample.name}: {note}")

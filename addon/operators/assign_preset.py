@@ -57,7 +57,7 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
             request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         common.report_assigned(self, assigned, request.sample)
         return {"FINISHED"}

@@ -10,6 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.errors import RoughSpectraError
+from . import common
 
 if TYPE_CHECKING:
     from ...core.arrays import Array
@@ -100,7 +101,7 @@ class InBackground:
 
     def _fail(self, context: Any, error: RoughSpectraError) -> set[str]:
         self._end(context)
-        self.report({"ERROR"}, str(error))
+        common.report_error(self, error)
         return {"CANCELLED"}
 
     def _end(self, context: Any) -> None:

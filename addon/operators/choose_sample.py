@@ -82,7 +82,7 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
             request, shader = common.replacing_request(common.active_material(context), sample)
             assigned = common.assign_in_scope(context, "ACTIVE", request, shader)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         common.report_assigned(self, assigned, sample)
         return {"FINISHED"}

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import radians
@@ -28,6 +29,7 @@ SCOPE_ITEMS = (
 ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
 
 
+_CHARACTERS_A_LINE = 100
 _SWATCH_WIDTH = 1.6
 """Of a color in a list, in heights of a button."""
 
@@ -254,6 +256,18 @@ def draw_swatch(row: Any, item: Any, has_color: bool = True) -> None:
     else:
         swatch.label(text="", icon="BLANK1")
     row.separator(factor=0.5)
+
+
+def report_error(operator: Any, error: Exception | str) -> None:
+    """Report what went wrong, in lines: Blender's popup lets a long one run out of the window."""
+    sentence = str(error)
+    if not bpy.app.background:
+        # The space is for the status bar, which leaves out the end of a line.
+        lines = textwrap.wrap(
+            sentence, _CHARACTERS_A_LINE, break_long_words=False, break_on_hyphens=False
+        )
+        sentence = " \n".join(lines)
+    operator.report({"ERROR"}, sentence)
 
 
 def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:

@@ -146,7 +146,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
             match = self.matches[self.index]
             sample, assigned = common.assign_from_library(self, context, match.sample)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         common.report_warnings(self, assigned)
         sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")

@@ -104,7 +104,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
         asks = self._asks and not bpy.app.background
         if batch.refused and not (batch.found and (asks or self.keep_going)):
             for sentence in batch.refused:
-                self.report({"ERROR"}, sentence)
+                common.report_error(self, sentence)
             return {"CANCELLED"}
         if not batch.found:
             self.report({"ERROR"}, "No file was chosen; choose a measurement file")
@@ -185,7 +185,7 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
         elif operator.materials == "CREATE":
             assigned = _create(operator, chosen)
     except RoughSpectraError as error:
-        operator.report({"ERROR"}, f"{error} Nonetheless, {said}." if said else str(error))
+        common.report_error(operator, f"{error} Nonetheless, {said}." if said else error)
         return {"CANCELLED"}
     seen = {sentence for each in chosen for sentence in each.sentences}
     for material, solution in assigned:

@@ -46,7 +46,7 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
         try:
             storage.keep(material)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         self.report({"INFO"}, rpt_("{} kept as it is").format(material.name))
         return {"FINISHED"}

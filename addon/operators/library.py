@@ -61,7 +61,7 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
         try:
             sample, assigned = common.assign_from_library(self, context, self.sample)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
@@ -92,7 +92,7 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
             if self.sample:
                 self.new_name = library.load(self.sample, library.user_folder()).name
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         return context.window_manager.invoke_props_dialog(self)
 
@@ -103,7 +103,7 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
         try:
             new = library.rename(self.sample, self.new_name, library.user_folder())
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         self.report({"INFO"}, rpt_("{} is now {}").format(self.sample, new))
         return {"FINISHED"}
@@ -145,7 +145,7 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
         try:
             library.remove([self.sample], library.user_folder())
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         self.report({"INFO"}, rpt_("{} removed from the library").format(self.sample))
         return {"FINISHED"}

@@ -60,7 +60,7 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
                 left += refused
             solutions = assign.renew(materials)
         except RoughSpectraError as error:
-            self.report({"ERROR"}, str(error))
+            common.report_error(self, error)
             return {"CANCELLED"}
         for sentence in left:
             self.report({"WARNING"}, sentence)
