@@ -28,6 +28,9 @@ _WEIGHT_ELSEWHERE = 0.03
 _ROUGHNESSES = (0.1, 0.5, 0.9)
 """Cycles' roughnesses that the search starts from."""
 FLAT = "lambert: the render engine ignores diffuse roughness; the color is right for its scene."
+_CONTRADICTION = 0.8
+"""ΔE00 between two lights' means from which they contradict each other: what half of all observers
+see side by side."""
 _ENOUGH = 1e-4
 """Overshoot of the gamut that nobody sees."""
 _FAINT = 0.01
@@ -43,7 +46,7 @@ class Match:
     color, roughness
         Of the shader; the color within 0 to 1, shape (3,).
     over_scene
-        ΔE00 in each of the view's geometries, shape (geometries,).
+        ΔE00 in each of the view's places, shape (places,).
     instrument
         ΔE00 at 45°/0° under each of the view's lights, shape (lights,).
     """
@@ -90,7 +93,7 @@ def match(
     ratio = places.to_ratio(wanted_xyz)
     # Rows of the search: several roughnesses, and last the material without any.
     roughness = np.array([*_ROUGHNESSES, 0.0])
-    mean = np.clip(np.einsum("g,gc->c", places.weights, ratio), 1e-4, 1)
+    mean = np.clip(places.weights @ ratio, 1e-4, 1)
     color = np.clip(cycles.color_for_reading(np.tile(mean, (len(roughness), 1)), roughness), 0, 1)
     free = np.ones((len(roughness), 4), bool)
     free[-1, 3] = False
@@ -107,7 +110,7 @@ def match(
     two = [best, len(found) - 1]
     at_instrument = _at_instrument(found[two], view, read, bands, space)
     rough, lambert = (
-        Match(found[row, :3], float(found[row, 3]), apart[row, : len(view.geometries)], missed)
+        Match(found[row, :3], float(found[row, 3]), apart[row, : len(view.place_weights)], missed)
         for row, missed in zip(two, at_instrument, strict=True)
     )
     return rough, lambert, np.average(targets, axis=0, weights=_shares(view))
@@ -122,12 +125,12 @@ def judge(
     bands: Array,
     space: WorkingSpace,
 ) -> Array:
-    """ΔE00 of a given color and roughness in each of the view's geometries; see `match`."""
+    """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
     places = _Places.of(view, space)
     wanted = places.under_lights(_reflected(albedo, model, sigma, places), bands)
     seen = places.perceive(np.append(shader[0], shader[1]))
     apart = colorimetry.delta_e(seen, colorimetry.xyz_to_lab(wanted, places.whites))
-    return np.asarray(apart[: len(view.geometries)])
+    return np.asarray(apart[: len(view.place_weights)])
 
 
 def choose_shader(
@@ -145,7 +148,7 @@ def choose_shader(
     worst = float(lambert.over_scene.max())
     if worst <= tolerance:
         return lambert, f"lambert: at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
-    flat, bent = (np.average(m.over_scene, weights=view.weights) for m in (lambert, rough))
+    flat, bent = (np.average(m.over_scene, weights=view.place_weights) for m in (lambert, rough))
     if bent <= flat:
         words = "rough: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
         return rough, words.format(bent, flat)
@@ -154,9 +157,13 @@ def choose_shader(
 
 
 def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
-    """Mean ΔE00 of the directions of each light, with the light's name."""
+    """Mean ΔE00 where each light shines, with the light's name.
+
+    A place counts by the part of its light that comes from there; `apart` has shape (places,).
+    """
+    of_row = apart[view.places]
     return tuple(
-        (light.name, float(np.average(apart[mine], weights=view.weights[mine])))
+        (light.name, float(np.average(of_row[mine], weights=view.weights[mine])))
         for index, light in enumerate(view.lights)
         if (mine := view.light_indices == index).any()
     )
@@ -178,10 +185,14 @@ def explain(view: SceneView, per_light: tuple[tuple[str, float], ...]) -> str:
     parts = ", ".join(
         f"{name} ΔE00 {apart:.2f} ({shares[name]:.0%} of the light)" for name, apart in per_light
     )
-    return (
-        f"Matched to {len(view.lights)} colors of light, which no single color can satisfy "
-        f"alike; the mean over the picture is least with {parts}."
+    apart = [delta_e for _, delta_e in per_light]
+    said = (
+        f"Matched to {len(view.lights)} colors of light as they mix in the picture; the mean over "
+        f"it is least with {parts}."
     )
+    if max(apart) - min(apart) < _CONTRADICTION:
+        return said
+    return f"{said} No single color is right under all of them."
 
 
 def gamut(name: str, target: Array, space: WorkingSpace) -> str:
@@ -219,11 +230,16 @@ def light_rgb(light: SceneLight, space: WorkingSpace) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Places:
-    """Directions of a scene and, with little weight, some all over the hemisphere."""
+    """Places in a scene and, with little weight, one for each of some directions all around.
+
+    `angles`, `index` of the light and `rgb` of it are those of the ways of light, (ways,);
+    `mixing`, (places, ways), is the part of each way in the light of a place.
+    """
 
     angles: tuple[Array, Array, Array]
     lights: tuple[SceneLight, ...]
     index: Array
+    mixing: Array
     weights: Array
     whites: Array
     rgb: Array
@@ -236,12 +252,16 @@ class _Places:
         light, view_angle, azimuth = map(np.append, view.angles, spread)
         index = np.append(view.light_indices, np.zeros(_ELSEWHERE, int))
         elsewhere = np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE)
-        scene = view.weights / view.weights.sum() * (1 - _WEIGHT_ELSEWHERE)
-        whites = np.stack([lamp.white for lamp in view.lights])[index]
-        rgb = np.stack([light_rgb(lamp, space) for lamp in view.lights])[index]
+        scene = view.place_weights / view.place_weights.sum() * (1 - _WEIGHT_ELSEWHERE)
         weights = np.append(scene, elsewhere)
+        mixing = np.zeros((len(weights), len(index)))
+        count, ways = len(scene), len(view.weights)
+        mixing[view.places, np.arange(ways)] = view.weights / view.place_weights[view.places]
+        mixing[np.arange(count, len(weights)), np.arange(ways, len(index))] = 1
+        whites = mixing @ np.stack([lamp.white for lamp in view.lights])[index]
+        rgb = np.stack([light_rgb(lamp, space) for lamp in view.lights])[index]
         angles, to_xyz = (light, view_angle, azimuth), np.linalg.inv(space.from_xyz).T
-        return cls(angles, view.lights, index, weights, whites, rgb, space.from_xyz, to_xyz)
+        return cls(angles, view.lights, index, mixing, weights, whites, rgb, space.from_xyz, to_xyz)
 
     @cached_property
     def to_relative(self) -> Array:
@@ -249,27 +269,29 @@ class _Places:
 
         Shape (9, 3 places): channel and function of the closure; X, Y or Z and place.
         """
-        # (places, channel, XYZ): the channel under the light, as XYZ, relative to white.
-        mixed = self.rgb[..., np.newaxis] * self.to_xyz / self.whites[:, np.newaxis]
-        functions = cycles_slopes.functions(*self.angles)
-        return np.einsum("gcx,fg->cfxg", mixed, functions).reshape(9, -1)
+        # (ways, channel, function), then (places, …): mixed, then as XYZ relative to white.
+        functions = cycles_slopes.functions(*self.angles).T
+        ways = self.rgb[..., np.newaxis] * functions[:, np.newaxis]
+        mixed = (self.mixing @ ways.reshape(len(ways), 9)).reshape(-1, 3, 3)
+        to_xyz = self.to_xyz / self.whites[:, np.newaxis]
+        return np.einsum("pcx,pcf->cfxp", to_xyz, mixed).reshape(9, -1)
 
     def under_lights(self, reflected: Array, bands: Array) -> Array:
-        """XYZ of spectra (places, bands), each under the light of its place."""
+        """XYZ of each place, shape (places, 3), from the spectra (ways, bands) of its ways."""
         matrices = np.stack([light.weights(bands) for light in self.lights])
-        return np.asarray(np.einsum("gb,gbx->gx", reflected, matrices[self.index]))
+        return np.asarray(self.mixing @ np.einsum("gb,gbx->gx", reflected, matrices[self.index]))
 
     def to_ratio(self, xyz: Array) -> Array:
         """Per-channel ratio to the light; where a light lacks a channel, that of its luminance."""
-        rgb = xyz @ self.from_xyz.T
-        faint = self.rgb < _FAINT * self.rgb.max(axis=1, keepdims=True)
-        return np.where(faint, xyz[:, 1:2], rgb / np.where(faint, 1, self.rgb))
+        rgb, light = xyz @ self.from_xyz.T, self.mixing @ self.rgb
+        faint = light < _FAINT * light.max(axis=1, keepdims=True)
+        return np.where(faint, xyz[:, 1:2], rgb / np.where(faint, 1, light))
 
     def perceive(self, parameters: Array) -> Array:
         """Lab of Cycles' material with parameters (..., 4), color and roughness, in all places."""
         color, roughness = parameters[..., np.newaxis, :3], parameters[..., np.newaxis, 3]
         seen = cycles.reflectance(color, roughness, *self.angles)
-        return colorimetry.xyz_to_lab((seen * self.rgb) @ self.to_xyz, self.whites)
+        return colorimetry.xyz_to_lab(self.mixing @ ((seen * self.rgb) @ self.to_xyz), self.whites)
 
     def distance_to(self, xyz: Array, lab: Array) -> Callable[[Array], tuple[Array, Array]]:
         """Give what `compromise.fit` searches: how far materials are from wanted colors.

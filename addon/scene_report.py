@@ -139,7 +139,7 @@ def _mean_now(report: SceneReport, material: Any) -> float | None:
     roughness = float(np.clip(nodes.roughness_socket(node).default_value, 0, 1))
     request, space = storage.load(material, view), working_space.current()
     apart = target.differences(request, view, color, roughness, space)
-    return float(np.average(apart, weights=view.weights))
+    return float(np.average(apart, weights=view.place_weights))
 
 
 def unlit_sentence(report: SceneReport) -> str:

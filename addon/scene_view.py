@@ -64,13 +64,14 @@ class SceneView:
     lights
         Sorted by share, largest first.
     geometries
-        Each θi, θr and Δφ in radians, the index of the light, and a weight; the weights of a
-        light's directions add up to its share.
+        Each θi, θr and Δφ in radians, the index of the light, a weight, and the number of the
+        place on the surface; the weights of a light's directions add up to its share. Light that
+        meets at one place is seen mixed. Without numbers each has a place of its own.
     """
 
     scene: str
     lights: tuple[SceneLight, ...]
-    geometries: tuple[tuple[float, float, float, int, float], ...]
+    geometries: tuple[tuple[float, ...], ...]
 
     @cached_property
     def angles(self) -> tuple[Array, Array, Array]:
@@ -81,12 +82,24 @@ class SceneView:
     @cached_property
     def light_indices(self) -> Array:
         """Index of each geometry's light, shape (geometries,)."""
-        return np.array([row[3] for row in self.geometries])
+        return np.array([int(row[3]) for row in self.geometries])
 
     @cached_property
     def weights(self) -> Array:
         """Weight of each geometry; they add up to 1. Shape (geometries,)."""
         return np.array([row[4] for row in self.geometries])
+
+    @cached_property
+    def places(self) -> Array:
+        """Index of each geometry's place, shape (geometries,)."""
+        return np.array(
+            [int(row[5]) if len(row) > 5 else i for i, row in enumerate(self.geometries)]
+        )
+
+    @cached_property
+    def place_weights(self) -> Array:
+        """Weight of each place, shape (places,); they add up to 1."""
+        return np.bincount(self.places, self.weights)
 
     def to_json(self) -> str:
         """Give the text that `from_json` reads; equal views give equal text."""
@@ -117,13 +130,18 @@ def from_json(text: str) -> SceneView:
             for light in data["lights"]
         )
         geometries = tuple(
-            (float(i), float(r), float(phi), int(light), float(weight))
-            for i, r, phi, light, weight in data["geometries"]
+            (*map(float, angles), int(light), float(weight), *map(int, place))
+            for *angles, light, weight, place in (
+                (*row[:5], row[5:6]) for row in data["geometries"]
+            )
         )
         known = {row[3] for row in geometries} <= set(range(len(lights)))
         lengths = {len(light.spd) for light in lights}
         if not geometries or not known or lengths != {light_spectrum.GRID.size}:
             raise ValueError("lights and directions do not belong together")
+        places = {row[5] if len(row) > 5 else i for i, row in enumerate(geometries)}
+        if places != set(range(len(places))):
+            raise ValueError("a place has no light")
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         msg = f"The stored analysis of the scene cannot be read ({error}); analyze it again."
         raise InputError(msg) from error

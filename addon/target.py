@@ -240,7 +240,7 @@ def _solve(
 def differences(
     request: Request, view: SceneView, color: Array, roughness: float, space: WorkingSpace
 ) -> Array:
-    """ΔE00 of a shader's color and roughness in each of a scene's directions."""
+    """ΔE00 of a shader's color and roughness in each of a scene's places."""
     [(settled, _)] = settle([replace(request, scene=view)])
     [albedo] = spectra.albedos([settled], settled.model)
     bands, shader = settled.sample.wavelengths, (color, roughness)
@@ -272,9 +272,9 @@ def _solve_in_scene(
         model=request.model,
         model_reason=reason,
         delta_e_instrument=float(taken.instrument[0]),
-        delta_e_mean=float(np.average(taken.over_scene, weights=view.weights)),
-        delta_e_95=scene_match.percentile(taken.over_scene, view.weights, 0.95),
-        delta_e_lambert=float(np.average(lambert.over_scene, weights=view.weights)),
+        delta_e_mean=float(np.average(taken.over_scene, weights=view.place_weights)),
+        delta_e_95=scene_match.percentile(taken.over_scene, view.place_weights, 0.95),
+        delta_e_lambert=float(np.average(lambert.over_scene, weights=view.place_weights)),
         shader_reason=shader_reason,
         warnings=(*sample.altered, *judged, *(sentence for sentence in found if sentence)),
         sigma_max=spectra.sigma_max(request),

@@ -41,8 +41,8 @@ def differences(
         wanted = colorimetry.xyz_to_lab(seen @ light.weights(bands), light.white)
         apart = colorimetry.delta_e(scene_match.to_lab(at_instrument, light, space), wanted)
         over = target.differences(request, view, color, roughness, space)
-        high = scene_match.percentile(over, view.weights, 0.95)
-        return float(apart), float(np.average(over, weights=view.weights)), high
+        high = scene_match.percentile(over, view.place_weights, 0.95)
+        return float(apart), float(np.average(over, weights=view.place_weights)), high
     angles = geometry.hemisphere(MATCH_GEOMETRIES)
     reflected = np.vstack((in_directions(request, albedo, angles), seen))
     rgb = space.rgb_weights(bands, request.illuminant)

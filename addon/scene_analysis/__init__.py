@@ -20,17 +20,20 @@ from .. import light_spectrum, working_space
 from ..scene_view import SceneView, make_light
 from . import camera, sampling, sources, surfaces
 from .camera import View
-from .lamps import Dome
+from .lamps import Dome, Sampled
 from .sampling import Samples
 from .sources import Lamp
 from .surfaces import Hits
 
 __all__ = ["SceneReport", "View", "analyze", "look"]
 
-_HITS_A_MATERIAL = 96
+_HITS_A_MATERIAL = 32
 """Places of a material from which lamps are looked for; more do not change the matching."""
-_LOOKS = 4
-"""Lamps looked for from each place, chosen by what they would shed there."""
+_RAYS = 48_000
+"""Looks for lamps altogether. Too few at one place, and a light that is seldom met there has too
+small a part: a part is never below 0, and cannot be as much too large."""
+_LOOKS = (8, 48)
+"""Looks from one place, least and most: the lamp is chosen by what it would shed there."""
 _EVEN = 0.25
 """Part of the looks that choose among the lamps at even odds."""
 _SEED = 20
@@ -120,30 +123,37 @@ def look(
         luminance = np.array([np.linalg.solve(space.from_xyz, lamp.rgb)[1] for lamp in lamps])
         linked = _linked(lamps, found, hits.objects[places], hits.materials[places])
         start = points + facing * (_OFFSET * found.scale)
-        for _ in range(_LOOKS):
+        looks = int(np.clip(_RAYS // len(places), *_LOOKS))
+        for number in range(looks):
+            # In even steps: the parts of lights that nothing hides then come out without noise.
+            choice = (number + random.uniform(size=len(start))) / looks
+            sampled = [lamp.source.sample(start, normals, random) for lamp in lamps]
             parts.append(
-                _one_look(found, lamps, luminance, linked, start, normals, facing, view, random)
+                _one_look(
+                    found, lamps, sampled, choice, luminance, linked, start, normals, facing, view
+                )
             )
     if not parts:
         none, no_index = np.zeros(0), np.zeros(0, int)
         return Samples(none, none, none, no_index, no_index, none, np.zeros((0, 3))), places
     joined = [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+    joined[5] /= looks  # the light that arrives: the mean over all looks
     return Samples(*joined), places
 
 
 def _one_look(
     found: surfaces.Surfaces,
     lamps: list[Lamp],
+    sampled: list[Sampled],
+    choice: Array,
     luminance: Array,
     linked: Array,
     start: Array,
     normals: Array,
     facing: Array,
     view: Array,
-    random: np.random.Generator,
 ) -> tuple[Array, ...]:
     count = len(start)
-    sampled = [lamp.source.sample(start, normals, random) for lamp in lamps]
     would = np.stack([part.irradiance for part in sampled]) * luminance[:, np.newaxis] * linked
     above = np.stack([np.einsum("ij,ij->i", part.toward, facing) > 0 for part in sampled])
     would = np.where(above, would, 0)
@@ -151,10 +161,10 @@ def _one_look(
     # Mostly by what they would shed; some at even odds, since the brightest may be hidden.
     able = (would > 0) / np.maximum((would > 0).sum(axis=0), 1)
     odds = (1 - _EVEN) * would / np.maximum(total, 1e-300) + _EVEN * able
-    lamp = (np.cumsum(odds, axis=0) < random.uniform(size=count)).sum(axis=0)
+    lamp = (np.cumsum(odds, axis=0) < choice).sum(axis=0)
     lamp = np.minimum(lamp, len(lamps) - 1)
     own = np.arange(count)
-    arrives = would[lamp, own] / np.maximum(odds[lamp, own], 1e-300) / _LOOKS
+    arrives = would[lamp, own] / np.maximum(odds[lamp, own], 1e-300)
     toward = np.stack([part.toward for part in sampled])[lamp, own]
     distance = np.stack([part.distance for part in sampled])[lamp, own]
     tried = np.flatnonzero((arrives > 0) & ((view * normals).sum(axis=1) > 0))
@@ -218,9 +228,11 @@ def _views(
             unlit.append(materials[index])
             continue
         own = samples[mine]
-        chosen, weight = sampling.reduce(own, weights[mine], groups[own.lamp])
+        chosen, weight, place = sampling.reduce(own, weights[mine], groups[own.lamp])
         ways = np.column_stack((own.theta_i, own.theta_r, own.delta_phi))[chosen]
-        views[materials[index]] = _view(scene, ways, groups[own.lamp[chosen]], weight, colors)
+        views[materials[index]] = _view(
+            scene, ways, groups[own.lamp[chosen]], weight, place, colors
+        )
     if unlit:
         overall = _overall(scene, np.bincount(groups[groups >= 0], power[groups >= 0]), colors)
         views |= dict.fromkeys(unlit, overall)
@@ -229,11 +241,12 @@ def _views(
 
 def _overall(scene: str, power: Array, colors: list[tuple[str, str, Array]]) -> SceneView:
     """All lights of the picture, from all around: for what only gets light from surfaces."""
-    ways = np.column_stack(hemisphere(sampling.GEOMETRIES // len(colors)))
     shares = np.where(power >= sampling.LEAST_SHARE * power.sum(), power, 0)
     kept = np.flatnonzero(shares)
+    ways = np.column_stack(hemisphere(sampling.PLACES // len(kept)))
     weight = np.repeat(shares[kept] / shares.sum() / len(ways), len(ways))
-    return _view(scene, np.tile(ways, (len(kept), 1)), np.repeat(kept, len(ways)), weight, colors)
+    ways, light = np.tile(ways, (len(kept), 1)), np.repeat(kept, len(ways))
+    return _view(scene, ways, light, weight, np.arange(len(ways)), colors)
 
 
 def _arriving(
@@ -248,17 +261,23 @@ def _arriving(
 
 
 def _view(
-    scene: str, ways: Array, group: Array, weight: Array, colors: list[tuple[str, str, Array]]
+    scene: str,
+    ways: Array,
+    group: Array,
+    weight: Array,
+    place: Array,
+    colors: list[tuple[str, str, Array]],
 ) -> SceneView:
     shares = np.bincount(group, weight, minlength=len(colors))
     order = [int(light) for light in np.argsort(-shares, kind="stable") if shares[light] > 0]
     rank = {light: place for place, light in enumerate(order)}
     lights = tuple(make_light(*colors[light], float(shares[light])) for light in order)
     geometries = []
-    for (theta_i, theta_r, phi), light, part in zip(ways.tolist(), group, weight, strict=True):
+    rows = zip(ways.tolist(), group, weight, place.tolist(), strict=True)
+    for (theta_i, theta_r, phi), light, part, number in rows:
         angles = round(theta_i, 4), round(theta_r, 4), round(phi, 4)
-        geometries.append((*angles, rank[int(light)], round(float(part), 6)))
-    return SceneView(scene, lights, tuple(sorted(geometries, key=lambda row: row[3:])))
+        geometries.append((*angles, rank[int(light)], round(float(part), 6), number))
+    return SceneView(scene, lights, tuple(geometries))
 
 
 def _color(members: Array, xyz: Array, power: Array, lamps: list[Lamp]) -> tuple[str, str, Array]:
@@ -268,5 +287,7 @@ def _color(members: Array, xyz: Array, power: Array, lamps: list[Lamp]) -> tuple
     mean = (xyz[found] / xyz[found, 1:2] * power[found, np.newaxis]).sum(axis=0)
     main = lamps[found[0]]
     spd, words = light_spectrum.like(mean, main.temperature)
-    more = len(found) - 1
-    return main.name + (f" and {more} more" if more else ""), words, spd
+    others = "" if len(found) == 1 else f" and {len(found) - 1} more"
+    if len(found) == 2:
+        others = f" and {lamps[found[1]].name}"
+    return main.name + others, words, spd

@@ -134,11 +134,17 @@ class Dome:
     xyz: Array | None = None
 
     def sample(self, points: Array, normals: Array, random: np.random.Generator) -> Sampled:
-        """Choose half of the directions by the surface's cosine, half by the world's light."""
+        """Choose half of the directions by the surface's cosine, half by the world's light.
+
+        All by the cosine where the world is even.
+        """
         rows, columns = self.radiance.shape
         count = len(points)
         toward = normals + _on_sphere(random.uniform(size=(2, count)))
         toward /= np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-9)
+        if self.radiance.size == 1:
+            even = np.where(_cosine(toward, normals) > 0, np.pi * self.radiance.item(), 0.0)
+            return Sampled(toward, np.full(count, FAR), even)
         middle = (np.arange(rows) + 0.5) * np.pi / rows
         solid = np.sin(middle)[:, np.newaxis] * (2 * np.pi**2 / (rows * columns))
         power = np.cumsum((self.radiance * solid).ravel())

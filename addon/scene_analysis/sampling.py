@@ -12,15 +12,16 @@ from ...core.arrays import Array
 from ...core.geometry import STEEPEST
 from .. import light_spectrum
 
-GEOMETRIES = 32
-"""Directions that stand for a material's; a light has at least `_LEAST_OF_LIGHT` of them."""
+PLACES = 24
+"""Places of a material that stand for all of it."""
 SAME_COLOR = 0.003
 """Distance in u'v' below which lights count as one color; eyes tell apart about 0.002."""
 MOST_LIGHTS = 4
 """Colors of light that are told apart; beyond, the faintest joins the nearest."""
 LEAST_SHARE = 0.01
 """A light with a smaller part in the light on a material is left out of its matching."""
-_LEAST_OF_LIGHT = 4
+_LEAST_PART = 0.02
+"""A light with a smaller part in the light at a place is left out there."""
 _DARK = 0.01
 """Part of the median irradiance below which a place counts as dark: its color shows little."""
 
@@ -127,39 +128,60 @@ def group_colors(xyz: Array, power: Array) -> Array:
     return groups
 
 
-def reduce(samples: Samples, weights: Array, groups: Array) -> tuple[Array, Array]:
-    """Choose a few ways that stand for all of one material's.
+def reduce(samples: Samples, weights: Array, groups: Array) -> tuple[Array, Array, Array]:
+    """Choose a few places that stand for all of one material's.
 
-    Within a light, ways are put in order of view, light and azimuth, and taken where the sum of
-    weights passes even steps: each stands for as much light as the next.
+    Places are put in order of the light that is strongest there, then of view, light and azimuth,
+    and taken in even steps. At each, one way of every color of light stands for all of its color.
 
     Parameters
     ----------
     samples, weights
-        Of one material.
+        Of one material; the weights of the ways at one place add up to 1.
     groups
         Color group of each way.
 
     Returns
     -------
-    chosen, weight
-        Indices of ways, and the weight of each; weights add up to 1.
+    chosen, weight, place
+        Indices of ways, the weight of each, and the number of its place; weights add up to 1.
     """
-    total = weights.sum()
-    shares = np.bincount(groups, weights) / total
-    kept = np.flatnonzero(shares >= LEAST_SHARE)
-    shares = shares / shares[kept].sum()
-    chosen, weight = [], []
-    for light in kept:
-        mine = np.flatnonzero((groups == light) & (weights > 0))
-        count = max(_LEAST_OF_LIGHT, round(GEOMETRIES * shares[light]))
-        ordered = mine[_winding(samples[mine])]
-        passed = np.cumsum(weights[ordered])
-        steps = (np.arange(count) + 0.5) / count * passed[-1]
-        picked, times = np.unique(np.searchsorted(passed, steps), return_counts=True)
-        chosen.append(ordered[picked])
-        weight.append(shares[light] * times / count)
-    return np.concatenate(chosen), np.concatenate(weight)
+    lit = np.flatnonzero((weights > 0) & (groups >= 0))
+    # One way for each color at each place: the strongest, with the weight of all.
+    order = lit[np.lexsort((-weights[lit], groups[lit], samples.hit[lit]))]
+    own = np.stack((samples.hit[order], groups[order]), axis=1)
+    starts = np.flatnonzero(np.r_[True, (np.diff(own, axis=0) != 0).any(axis=1)])
+    ways, part = order[starts], np.add.reduceat(weights[order], starts)
+    shares = np.bincount(groups[ways], part) / part.sum()
+    _, hit = np.unique(samples.hit[ways], return_inverse=True)
+    strongest = np.zeros(hit.max() + 1)
+    np.maximum.at(strongest, hit, part)
+    kept = (shares[groups[ways]] >= LEAST_SHARE) & (part >= _LEAST_PART) | (part == strongest[hit])
+    ways, part, hit = ways[kept], part[kept], hit[kept]
+    part = part / np.bincount(hit, part)[hit]
+    main = np.flatnonzero(part >= np.maximum.reduceat(part, _starts(hit))[hit])
+    _, first = np.unique(hit[main], return_index=True)
+    main = ways[main[first]]
+    ordered = np.lexsort((_winding_rank(samples[main]), groups[main]))
+    steps = (np.arange(PLACES) + 0.5) / PLACES * len(ordered)
+    picked, times = np.unique(ordered[steps.astype(int)], return_counts=True)
+    number = np.full(len(main), -1)
+    number[picked] = np.arange(len(picked))
+    chosen = np.flatnonzero(number[hit] >= 0)
+    place = number[hit[chosen]]
+    return ways[chosen], part[chosen] * times[place] / PLACES, place
+
+
+def _starts(of: Array) -> Array:
+    """Where each number begins in a sorted array."""
+    return np.flatnonzero(np.r_[True, np.diff(of) != 0])
+
+
+def _winding_rank(samples: Samples) -> Array:
+    """Place of each way in an order in which neighbors are alike."""
+    rank = np.empty(len(samples.hit), int)
+    rank[_winding(samples)] = np.arange(len(rank))
+    return rank
 
 
 def _winding(samples: Samples) -> Array:

@@ -255,12 +255,15 @@ def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
 
 
 def light_and_camera():
-    """Put both above the wall."""
+    """Put both above the wall: the light low, the camera close, so that directions differ."""
     scene = bpy.context.scene
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    lens = bpy.data.cameras.new("Camera")
+    lens.lens = 12
+    camera = bpy.data.objects.new("Camera", lens)
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    sun.rotation_euler.x = 1
     for thing in (camera, sun):
-        thing.location.z = 4
+        thing.location.z = 1
         scene.collection.objects.link(thing)
     scene.camera = camera
     bpy.context.view_layer.update()
