@@ -256,6 +256,15 @@ def has_scene(group: Any) -> bool:
     return bool(group.use_scene and group.scene_view)
 
 
+@lru_cache(maxsize=2048)
+def analyzed_scene(scene_view: str) -> str:
+    """Name of the scene that an analysis is of, from its text; empty if it cannot be read."""
+    try:
+        return str(json.loads(scene_view)["scene"])
+    except (ValueError, KeyError, TypeError):
+        return ""
+
+
 def engine_is_flat() -> bool:
     """Whether the scene's render engine ignores diffuse roughness."""
     scene = bpy.context.scene
@@ -332,15 +341,25 @@ def _changed_inputs(group: Any, stamp: Stamp) -> list[str]:
         return []
     before = dict(stamp.settings)
     now = settings(group)
-    found = [
-        "the spectrum was replaced"
-        if label == "spectrum"
-        else f"{label if label == 'σ' else 'the ' + label} was changed from "
-        f"{title(label, value)} to {title(label, now[label])}"
-        for label, value in before.items()
-        if label in now and now[label] != value
-    ]
+    found = []
+    for label, value in before.items():
+        if now.get(label, value) == value:
+            continue
+        if label == "spectrum":
+            found.append("the spectrum was replaced")
+            continue
+        what = label if label == "σ" else f"the {label}"
+        old, new = _told(label, value, now[label])
+        found.append(f"{what} was changed from {old} to {new}")
     return found or ["the spectrum or a setting was changed"]
+
+
+def _told(label: str, *values: str) -> list[str]:
+    """Write two values of a setting as the panel does, with no more digits than tell them apart."""
+    if label != "σ":
+        return [title(label, value) for value in values]
+    rounded = [f"{float(value.rstrip('°')):.2f}".rstrip("0").rstrip(".") + "°" for value in values]
+    return rounded if len(set(rounded)) == len(values) else list(values)
 
 
 def _changed_surface(material: Any, stamp: Stamp, working_space: str) -> list[str]:

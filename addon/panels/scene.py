@@ -8,6 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
+from .. import stamp
 from ..preview import words
 from . import redraw
 
@@ -30,3 +31,7 @@ def draw_scene(layout: Any, context: Any, material: Any) -> None:
         write.sentence(layout, text, "LIGHT")
     if found.scene_reason:
         write.sentence(layout, found.scene_reason, "INFO")
+    analyzed = stamp.analyzed_scene(group.scene_view)
+    if analyzed not in {"", context.scene.name}:
+        text = iface_("Analyzed in scene {name}; analyze again if that is not this one")
+        write.sentence(layout, text.format(name=repr(analyzed)), "INFO")

@@ -13,7 +13,7 @@ import numpy as np
 from ...core import cycles, reading
 from ...core.arrays import Array
 from ...core.errors import MaterialError
-from .. import colorimetry, nodes, spectra, stamp, storage
+from .. import colorimetry, nodes, scene_match, spectra, stamp, storage
 from ..request import AUTO, VIRTUAL, Request
 from ..working_space import WorkingSpace
 from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
@@ -171,8 +171,12 @@ def of_request(
     shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument
+    curve = space.to_xyz(shown, light)[:, 1]
     if request.scene is not None:
+        main = request.scene.lights[0]
         target, blender = under_main_light(request.scene, seen, bands, blender, space)
+        luminance = main.weights(bands)[:, 1]
+        curve = scene_match.to_xyz(shown, main, space)[:, 1]
     return Data(
         target=patch(target, space),
         blender=patch(blender, space),
@@ -182,7 +186,7 @@ def of_request(
         bars=rgb_bars(at_instrument, space, light),
         view=VIEW_ANGLES,
         target_curve=np.maximum(in_directions(request, rho, _DIRECTIONS) @ luminance, 0),
-        blender_curve=space.to_xyz(shown, light)[:, 1],
+        blender_curve=curve,
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
         sigma_max=spectra.sigma_max(request),

@@ -5,8 +5,16 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, light_spectrum, nodes, scene_view, target
-from rough_spectra.addon.preview import icons, theme
+from rough_spectra.addon import (
+    assign,
+    light_spectrum,
+    nodes,
+    scene_view,
+    target,
+    working_space,
+)
+from rough_spectra.addon.preview import data, icons, theme
+from rough_spectra.core import geometry
 
 
 @pytest.fixture(autouse=True)
@@ -79,6 +87,20 @@ def test_leaving_the_scene_shows_though_the_node_is_edited(material):
     ask(material, "swatches")
     icons._work()
     assert (pixels("swatches") != before).any()
+
+
+def test_the_plot_over_angles_is_of_the_scenes_main_light(material):
+    """In a red light a green surface is dark, and Blender's curve meets the target's there."""
+    reddish = np.linspace(0, 1, light_spectrum.GRID.size) ** 4
+    lights = (scene_view.make_light("Fire", "red", reddish / light_spectrum.to_xyz(reddish)[1], 1),)
+    spread = np.column_stack(geometry.hemisphere(16)).tolist()
+    rows = tuple((*angles, 0, 1 / 16) for angles in spread)
+    space = working_space.current()
+    before = data.collect(material, space)
+    assign.follow_scene({material: scene_view.SceneView("Scene", lights, rows)})
+    found = data.collect(material, space)
+    assert found.target_curve.max() < 0.9 * before.target_curve.max()
+    assert found.blender_curve.mean() == pytest.approx(found.target_curve.mean(), rel=0.15)
 
 
 def test_refresh_makes_visible_pictures_at_once(material):

@@ -83,6 +83,8 @@ def test_keep_accepts_edits_until_the_next(make):
     assert OPS.keep() == {"FINISHED"}
     material.rough_spectra.sigma = math.radians(40)
     assert stamp.state(material).reasons == ("σ was changed from 30° to 40°",)
+    material.rough_spectra.sigma = math.radians(36.92308)
+    assert stamp.state(material).reasons == ("σ was changed from 30° to 36.92°",)
     assert sockets(material)[0] == pytest.approx(0.8)
     assert OPS.renew() == {"FINISHED"}
     assert kind(material) == "fresh"

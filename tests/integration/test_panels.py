@@ -224,6 +224,14 @@ def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(gr
     assert "Light from the Scene" in sentence_with("Material lambert: this engine leaves")
 
 
+def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    assert not sentence_with("Analyzed in scene")
+    bpy.context.scene.name = "Elsewhere"
+    assert sentence_with("Analyzed in scene 'Scene'")
+
+
 def test_a_smooth_surface_is_the_same_in_every_engine(green):
     green.rough_spectra.sigma = 0.0
     for engine in ("CYCLES", "BLENDER_WORKBENCH"):
