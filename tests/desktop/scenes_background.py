@@ -70,9 +70,9 @@ def measuring(found):
     yield from _start()
     found["modal"] = [op.bl_idname for op in window().modal_operators]
     yield from move(*middle(area("TEXT_EDITOR")))
-    # Before the long way over the panel, during which a measurement may well come to its end.
+    # No long way over the panel: the measurement may well come to its end meanwhile.
+    yield from move(*middle(area("PROPERTIES")))
     found["still_running"] = bool(jobs())
-    yield from find(area("PROPERTIES"), "sigma")
     picture = os.environ.get("ROUGH_SPECTRA_GRAB")
     if picture:
         subprocess.run(["import", "-window", "root", picture], check=True)
