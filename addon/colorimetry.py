@@ -104,8 +104,7 @@ LAB_FROM_ROOTS = np.array(((0.0, 116, 0), (500, -500, 0), (0, 200, -200)))
 def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
     """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
-    bent = np.where(ratio > _DARK, np.cbrt(ratio), ratio * (841 / 108) + 4 / 29)
-    x, y, z = np.moveaxis(bent, -1, 0)
+    x, y, z = np.moveaxis(_bent(ratio, np.cbrt(ratio)), -1, 0)
     return np.stack((116 * y - 16, 500 * (x - y), 200 * (y - z)), axis=-1)
 
 
@@ -115,8 +114,12 @@ def roots(relative: Array) -> tuple[Array, Array]:
     dark = relative <= _DARK
     if not dark.any():
         return root, root / (3 * relative)
-    bent = np.where(dark, relative * (841 / 108) + 4 / 29, root)
+    bent = _bent(relative, root)
     return bent, np.where(dark, 841 / 108, root / (3 * np.where(dark, 1, relative)))
+
+
+def _bent(relative: Array, root: Array) -> Array:
+    return np.where(relative > _DARK, root, relative * (841 / 108) + 4 / 29)
 
 
 def spectrum_to_lab(

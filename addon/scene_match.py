@@ -18,6 +18,7 @@ import numpy as np
 from ..core import compromise, cycles, cycles_slopes, geometry, ladder, reading
 from ..core.arrays import Array
 from . import colorimetry
+from .preview.words import SIDE_BY_SIDE
 from .scene_view import SceneLight, SceneView
 from .working_space import WorkingSpace
 
@@ -28,9 +29,6 @@ _WEIGHT_ELSEWHERE = 0.03
 _ROUGHNESSES = (0.1, 0.5, 0.9)
 """Cycles' roughnesses that the search starts from."""
 FLAT = "lambert: the render engine ignores diffuse roughness; the color is right for its scene."
-_CONTRADICTION = 0.8
-"""ΔE00 between two lights' means from which they contradict each other: what half of all observers
-see side by side."""
 _ENOUGH = 1e-4
 """Overshoot of the gamut that nobody sees."""
 _FAINT = 0.01
@@ -190,7 +188,7 @@ def explain(view: SceneView, per_light: tuple[tuple[str, float], ...]) -> str:
         f"Matched to {len(view.lights)} colors of light as they mix in the picture; the mean over "
         f"it is least with {parts}."
     )
-    if max(apart) - min(apart) < _CONTRADICTION:
+    if max(apart) - min(apart) < SIDE_BY_SIDE:
         return said
     return f"{said} No single color is right under all of them."
 

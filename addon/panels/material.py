@@ -163,7 +163,8 @@ def _limit(found: stamp.Stamp, numbers: tuple[float, ...] | None, group: Any) ->
         return tip_("Limited by nothing: Blender shows the target")
     if stamp.engine_is_flat() and (found.roughness > 0.0 or stamp.has_scene(group)):
         return tip_("Limited by the engine: only Cycles shows the roughness")
-    if len(found.delta_e_lights) > 1:
+    apart = [delta_e for _, delta_e in found.delta_e_lights]
+    if apart and max(apart) - min(apart) >= words.SIDE_BY_SIDE:
         return tip_("Limited by the lights: no single color is right under all of them")
     if found.delta_e_instrument > _GAMUT:
         return tip_("Limited by the gamut: {space} cannot hold this color").format(

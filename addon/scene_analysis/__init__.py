@@ -9,7 +9,7 @@ is rendered, and nothing in the file changes.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,7 @@ from .surfaces import Hits
 __all__ = ["SceneReport", "View", "analyze", "look"]
 
 _HITS_A_MATERIAL = 32
-"""Places of a material from which lamps are looked for; more do not change the matching."""
+"""Places of a material from which lamps are looked for."""
 _RAYS = 48_000
 """Looks for lamps altogether. Too few at one place, and a light that is seldom met there has too
 small a part: a part is never below 0, and cannot be as much too large."""
@@ -136,9 +136,8 @@ def look(
     if not parts:
         none, no_index = np.zeros(0), np.zeros(0, int)
         return Samples(none, none, none, no_index, no_index, none, np.zeros((0, 3))), places
-    joined = [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
-    joined[5] /= looks  # the light that arrives: the mean over all looks
-    return Samples(*joined), places
+    seen = Samples(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    return replace(seen, light=seen.light / looks), places
 
 
 def _one_look(

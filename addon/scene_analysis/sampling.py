@@ -149,20 +149,17 @@ def reduce(samples: Samples, weights: Array, groups: Array) -> tuple[Array, Arra
     lit = np.flatnonzero((weights > 0) & (groups >= 0))
     # One way for each color at each place: the strongest, with the weight of all.
     order = lit[np.lexsort((-weights[lit], groups[lit], samples.hit[lit]))]
-    own = np.stack((samples.hit[order], groups[order]), axis=1)
-    starts = np.flatnonzero(np.r_[True, (np.diff(own, axis=0) != 0).any(axis=1)])
+    starts = _starts(samples.hit[order] * (MOST_LIGHTS + 1) + groups[order])
     ways, part = order[starts], np.add.reduceat(weights[order], starts)
     shares = np.bincount(groups[ways], part) / part.sum()
+    kept = (shares[groups[ways]] >= LEAST_SHARE) & (part >= _LEAST_PART)
+    ways, part = ways[kept], part[kept]
     _, hit = np.unique(samples.hit[ways], return_inverse=True)
-    strongest = np.zeros(hit.max() + 1)
-    np.maximum.at(strongest, hit, part)
-    kept = (shares[groups[ways]] >= LEAST_SHARE) & (part >= _LEAST_PART) | (part == strongest[hit])
-    ways, part, hit = ways[kept], part[kept], hit[kept]
     part = part / np.bincount(hit, part)[hit]
-    main = np.flatnonzero(part >= np.maximum.reduceat(part, _starts(hit))[hit])
-    _, first = np.unique(hit[main], return_index=True)
-    main = ways[main[first]]
-    ordered = np.lexsort((_winding_rank(samples[main]), groups[main]))
+    # The strongest way at each place stands for it in the order.
+    by_part = np.lexsort((-part, hit))
+    main = ways[by_part[_starts(hit[by_part])]]
+    ordered = _winding(samples[main], groups[main])
     steps = (np.arange(PLACES) + 0.5) / PLACES * len(ordered)
     picked, times = np.unique(ordered[steps.astype(int)], return_counts=True)
     number = np.full(len(main), -1)
@@ -177,17 +174,10 @@ def _starts(of: Array) -> Array:
     return np.flatnonzero(np.r_[True, np.diff(of) != 0])
 
 
-def _winding_rank(samples: Samples) -> Array:
-    """Place of each way in an order in which neighbors are alike."""
-    rank = np.empty(len(samples.hit), int)
-    rank[_winding(samples)] = np.arange(len(rank))
-    return rank
-
-
-def _winding(samples: Samples) -> Array:
-    """Order in which neighbors are alike in all three angles: a boustrophedon of cells."""
+def _winding(samples: Samples, groups: Array) -> Array:
+    """Order by color, then so that neighbors are alike in all angles: a boustrophedon of cells."""
     view = np.floor(samples.theta_r / STEEPEST * 3.999)
     light = np.floor(samples.theta_i / STEEPEST * 3.999)
     light = np.where(view % 2 == 1, 3 - light, light)
     azimuth = np.where((view + light) % 2 == 1, -samples.delta_phi, samples.delta_phi)
-    return np.lexsort((azimuth, light, view))
+    return np.lexsort((azimuth, light, view, groups))

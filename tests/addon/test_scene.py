@@ -26,6 +26,7 @@ from rough_spectra.addon import (
     target,
     working_space,
 )
+from rough_spectra.addon.scene_analysis import sampling
 from rough_spectra.core import compromise, cycles, geometry
 from rough_spectra.core.errors import InputError, MaterialError
 
@@ -213,6 +214,30 @@ def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
                 both, shader, sample.values, "closure", SIGMA, sample.wavelengths, space
             )
             assert mean <= np.average(apart, weights=both.weights) + 0.02
+
+
+def test_a_place_holds_its_lights_in_their_parts():
+    """Two lamps at three places; the second does not reach the third."""
+    hit, lamp = np.repeat([4, 7, 9], 4), np.tile([0, 1, 0, 1], 3)
+    light = np.where(lamp == 0, 3.0, 1.0)
+    light[-3::2] = 0
+    angle = np.linspace(0.1, 1.0, 12)
+    samples = sampling.Samples(angle, angle, angle, hit, lamp, light, np.zeros((12, 3)))
+    weights = sampling.per_place(samples, 10, np.zeros(10, int))
+    chosen, weight, place = sampling.reduce(samples, weights, lamp)
+    assert weight.sum() == pytest.approx(1)
+    for number, parts in ((4, (0.75, 0.25)), (7, (0.75, 0.25)), (9, (1.0,))):
+        mine = hit[chosen] == number
+        assert len(set(place[mine])) == 1
+        assert weight[mine][np.argsort(lamp[chosen[mine]])] * 3 == pytest.approx(parts)
+
+
+def test_an_analysis_whose_places_have_no_light_is_refused():
+    view = view_of(light_of((1, 1, 1)))
+    rows = tuple((*row, 2 * number) for number, row in enumerate(view.geometries))
+    text = scene_view.SceneView("Scene", view.lights, rows).to_json()
+    with pytest.raises(InputError, match="a place has no light"):
+        scene_view.from_json(text)
 
 
 def test_two_lights_are_told_apart_and_explained(plate):

@@ -232,6 +232,14 @@ def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
     assert sentence_with("Analyzed in scene 'Scene'")
 
 
+@pytest.mark.parametrize("contradict", [False, True])
+def test_the_lights_limit_only_where_they_contradict_each_other(green, contradict):
+    found = json.loads(green.rough_spectra.stamp)
+    found |= {"delta_e_lights": [["Warm", 2.0], ["Cold", 2.9 if contradict else 2.1]]}
+    green.rough_spectra.stamp = json.dumps(found)
+    assert bool(sentence_with("Limited by the lights")) == contradict
+
+
 def test_a_smooth_surface_is_the_same_in_every_engine(green):
     green.rough_spectra.sigma = 0.0
     for engine in ("CYCLES", "BLENDER_WORKBENCH"):
