@@ -217,12 +217,12 @@ def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
 
 
 def test_a_place_holds_its_lights_in_their_parts():
-    """Two lamps at three places; the second does not reach the third."""
-    hit, lamp = np.repeat([4, 7, 9], 4), np.tile([0, 1, 0, 1], 3)
-    light = np.where(lamp == 0, 3.0, 1.0)
-    light[-3::2] = 0
-    angle = np.linspace(0.1, 1.0, 12)
-    samples = sampling.Samples(angle, angle, angle, hit, lamp, light, np.zeros((12, 3)))
+    """Two lamps at three places, one of which the second does not reach; a third is too faint."""
+    hit, lamp = np.repeat([4, 7, 9], 3), np.tile([0, 1, 2], 3)
+    light = np.choose(lamp, (3.0, 1.0, 0.02))
+    light[-2] = 0
+    angle = np.linspace(0.1, 1.0, 9)
+    samples = sampling.Samples(angle, angle, angle, hit, lamp, light, np.zeros((9, 3)))
     weights = sampling.per_place(samples, 10, np.zeros(10, int))
     chosen, weight, place = sampling.reduce(samples, weights, lamp)
     assert weight.sum() == pytest.approx(1)
