@@ -164,9 +164,11 @@ def _limit(found: stamp.Stamp, numbers: tuple[float, ...] | None, group: Any) ->
     if stamp.engine_is_flat() and (found.roughness > 0.0 or stamp.has_scene(group)):
         return tip_("Limited by the engine: only Cycles shows the roughness")
     apart = [delta_e for _, delta_e in found.delta_e_lights]
-    if apart and max(apart) - min(apart) >= words.SIDE_BY_SIDE:
+    several = len(apart) > 1
+    # Where lights mix everywhere, it is at the instrument, under the main one alone, that it shows.
+    if several and max(max(apart) - min(apart), found.delta_e_instrument) >= words.SIDE_BY_SIDE:
         return tip_("Limited by the lights: no single color is right under all of them")
-    if found.delta_e_instrument > _GAMUT:
+    if not several and found.delta_e_instrument > _GAMUT:
         return tip_("Limited by the gamut: {space} cannot hold this color").format(
             space=found.working_space
         )

@@ -232,12 +232,15 @@ def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
     assert sentence_with("Analyzed in scene 'Scene'")
 
 
-@pytest.mark.parametrize("contradict", [False, True])
-def test_the_lights_limit_only_where_they_contradict_each_other(green, contradict):
+@pytest.mark.parametrize(
+    ("cold", "instrument", "limit"),
+    [(2.9, 0.0, "lights"), (2.1, 1.8, "lights"), (2.1, 0.2, "angles")],
+)
+def test_the_lights_limit_only_where_they_contradict_each_other(green, cold, instrument, limit):
     found = json.loads(green.rough_spectra.stamp)
-    found |= {"delta_e_lights": [["Warm", 2.0], ["Cold", 2.9 if contradict else 2.1]]}
+    found |= {"delta_e_lights": [["Warm", 2.0], ["Cold", cold]], "delta_e_instrument": instrument}
     green.rough_spectra.stamp = json.dumps(found)
-    assert bool(sentence_with("Limited by the lights")) == contradict
+    assert sentence_with(f"Limited by the {limit}")
 
 
 def test_a_smooth_surface_is_the_same_in_every_engine(green):
