@@ -58,12 +58,12 @@ def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
     Pairs of material and evaluated material. Rendering evaluates the scene apart from what the
     window shows, so that only the latter has the values of the frame.
     """
-    from . import nodes, stamp
+    from . import facts, nodes, stamp
 
     found = []
     for material in bpy.data.materials:
         animation = material.animation_data
-        if animation is None or not stamp.has_spectrum(material):
+        if animation is None or not facts.has_spectrum(material):
             continue
         if not any(curve.data_path.startswith(_PATH) for curve in nodes.curves(animation)):
             continue

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from . import nodes, stamp
+from . import facts
+from .facts import Facts
 
 
 @dataclass(frozen=True)
@@ -37,14 +38,16 @@ class Measured:
 
 def fingerprint(material: Any) -> str:
     """Digest of all that a measurement depends on and Rough Spectra knows of."""
-    node = nodes.shader_node(material)
-    sockets: tuple[float, ...] = ()
-    if node is not None:
-        color = nodes.color_socket(node).default_value[:3]
-        sockets = (*color, nodes.roughness_socket(node).default_value)
+    return _fingerprint(facts.of(material))
+
+
+@lru_cache(maxsize=1024)
+def _fingerprint(found: Facts) -> str:
+    surface = found.surface
+    sockets = () if surface is None else (*surface.color, surface.roughness)
     told = (
-        stamp.inputs_digest(material.rough_spectra),
-        stamp.working_space_name(),
+        facts.digest(found.inputs),
+        found.working_space,
         *(f"{value:.7f}" for value in sockets),
     )
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
@@ -65,13 +68,16 @@ def note(material: Any, of: str, rgb: tuple[float, float, float], delta_e: float
     material.rough_spectra.measured = json.dumps({"of": of, "rgb": rgb, "delta_e_00": delta_e})
 
 
-def get(material: Any) -> Measured | None:
-    """Give the last measurement, or None where there is none that can be read."""
+def get(material: Any, known: Facts | None = None) -> Measured | None:
+    """Give the last measurement, or None where there is none that can be read.
+
+    `known` are the material's facts, for who has just read them.
+    """
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
     of, rgb, delta_e = found
-    return Measured(rgb, delta_e, of == fingerprint(material))
+    return Measured(rgb, delta_e, of == _fingerprint(known or facts.of(material)))
 
 
 @lru_cache(maxsize=64)

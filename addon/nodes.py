@@ -7,8 +7,9 @@ Finding never changes anything, so a whole selection is checked before the first
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import bpy
 
@@ -57,6 +58,39 @@ class Place:
     make: str
 
 
+class Surface(NamedTuple):
+    """What a surface shows, as far as Rough Spectra sets it or cannot predict it.
+
+    Parameters
+    ----------
+    node, shader
+        Name and type of the shader node.
+    color, roughness
+        Values of its sockets. What is no number is `math.nan` itself, so that surfaces compare.
+    color_linked, roughness_linked
+        Whether another node sets them, so that the values don't show.
+    muted
+        Whether the node is.
+    disturbing
+        See `disturbing_sockets`.
+    """
+
+    node: str
+    shader: str
+    color: tuple[float, float, float]
+    roughness: float
+    color_linked: bool
+    roughness_linked: bool
+    muted: bool
+    disturbing: tuple[str, ...]
+
+    @property
+    def linked(self) -> list[str]:
+        """Names of those of color and roughness that another node sets."""
+        color = [_COLOR_SOCKETS[self.shader]] * self.color_linked
+        return color + [_ROUGHNESS_SOCKETS[self.shader]] * self.roughness_linked
+
+
 def find(material: Any, shader: Shader = "AUTO") -> Place:
     """Find where the color of a material's surface is set, changing nothing.
 
@@ -102,6 +136,32 @@ def shader_node(material: Any) -> Any | None:
     return link.from_node
 
 
+def surface(material: Any) -> Surface | None:
+    """Read the Diffuse or Principled BSDF behind the active output; None where there is none."""
+    node = shader_node(material)
+    if node is None:
+        return None
+    shader, inputs = node.bl_idname, node.inputs
+    color_at, roughness_at, neutral = _places(node, shader)
+    color, roughness = inputs[color_at], inputs[roughness_at]
+    red, green, blue, _ = color.default_value
+    return Surface(
+        node.name,
+        shader,
+        (comparable(red), comparable(green), comparable(blue)),
+        comparable(roughness.default_value),
+        color.is_linked,
+        roughness.is_linked,
+        node.mute,
+        tuple(_in_use(inputs, neutral)),
+    )
+
+
+def comparable(value: float) -> float:
+    """Give NaN as `math.nan` itself: no other is equal to itself in a tuple."""
+    return math.nan if math.isnan(value) else value
+
+
 def write(place: Place, color: tuple[float, float, float], roughness: float) -> str:
     """Set color and roughness at a place that `find` gave; returns the node's name."""
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
@@ -123,10 +183,21 @@ def roughness_socket(node: Any) -> Any:
     return node.inputs[_ROUGHNESS_SOCKETS[node.bl_idname]]
 
 
-def linked_sockets(node: Any) -> list[str]:
-    """Name those of color and roughness that another node sets, so that their values don't show."""
-    found = (color_socket(node), roughness_socket(node))
-    return [str(socket.name) for socket in found if socket.is_linked]
+def _places(node: Any, shader: str) -> tuple[int, int, tuple[tuple[str, int, float], ...]]:
+    """Give the numbers of the sockets for color, roughness, and whatever else has to be neutral.
+
+    All nodes of a type have the same sockets. Blender finds one by its number three times as fast
+    as by its name, and a panel asks for eleven at every redraw.
+    """
+    if shader not in _numbers:
+        find = node.inputs.find
+        neutral = _NEUTRAL if shader == "ShaderNodeBsdfPrincipled" else ()
+        rest = tuple((name, find(name), value) for name, value in neutral)
+        _numbers[shader] = (find(_COLOR_SOCKETS[shader]), find(_ROUGHNESS_SOCKETS[shader]), rest)
+    return _numbers[shader]
+
+
+_numbers: dict[str, tuple[int, int, tuple[tuple[str, int, float], ...]]] = {}
 
 
 def disturbing_sockets(node: Any) -> list[str]:
@@ -134,10 +205,11 @@ def disturbing_sockets(node: Any) -> list[str]:
 
     Empty for a Diffuse BSDF. The specular level counts, which `write` sets to 0.
     """
-    if node.bl_idname != "ShaderNodeBsdfPrincipled":
-        return []
-    inputs = node.inputs
-    found = [(name, inputs[name], value) for name, value in _NEUTRAL]
+    return _in_use(node.inputs, _places(node, node.bl_idname)[2])
+
+
+def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
+    found = [(name, inputs[number], value) for name, number, value in neutral]
     return [
         name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
@@ -235,13 +307,22 @@ def _surface_link(output: Any | None) -> Any | None:
         return None
     socket = output.inputs["Surface"]
     while socket.is_linked:
-        link = socket.links[0]
+        link = _link_to(socket)
         if link.is_muted or not link.is_valid:
             return None
         if link.from_node.bl_idname != "NodeReroute":
             return link
         socket = link.from_node.inputs[0]
     return None
+
+
+def _link_to(socket: Any) -> Any:
+    """Give the link that ends in a socket. `socket.links` would look twice at each of the tree."""
+    for link in socket.id_data.links:
+        if link.to_socket == socket:
+            return link
+    msg = f"{socket.name!r} is not linked"
+    raise ValueError(msg)
 
 
 def _make(place: Place) -> Any:

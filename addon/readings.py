@@ -19,7 +19,7 @@ import numpy as np
 
 from ..core.arrays import Array
 from ..core.errors import OutputError
-from . import colorimetry, scene_match, stamp, storage, target, working_space
+from . import colorimetry, facts, scene_match, stamp, storage, target, working_space
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
 from .spectrophotometer import measure
@@ -65,7 +65,7 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     prepared = []
     for surface, material in surfaces:
         request, warnings, model_reason, shader_reason = None, [], "", ""
-        if stamp.has_spectrum(material):
+        if facts.has_spectrum(material):
             request, model_reason = _settled(material)
             reasons = stamp.stale_reasons(material, space)
             found = stamp.get_stamp(material)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError, MaterialError
-from . import assign, nodes, stamp, storage, target, working_space
+from . import assign, facts, nodes, stamp, storage, target, working_space
 from .scene_analysis import SceneReport
 from .target import Solution
 
@@ -45,7 +45,7 @@ def candidates(report: SceneReport, materials: Sequence[Any] | None = None) -> l
         If there is none; the sentence says why.
     """
     wanted = list(report.pixels) if materials is None else list(materials)
-    measured = [material for material in wanted if stamp.has_spectrum(material)]
+    measured = [material for material in wanted if facts.has_spectrum(material)]
     if not measured:
         where = "in view" if materials is None else "chosen"
         msg = f"No material {where} has a measured spectrum; assign one first."
@@ -144,7 +144,7 @@ def _mean_now(report: SceneReport, material: Any) -> float | None:
 
 def unlit_sentence(report: SceneReport) -> str:
     """Say which materials with a spectrum no lamp reaches directly; empty if none."""
-    names = [material.name for material in report.unlit if stamp.has_spectrum(material)]
+    names = [material.name for material in report.unlit if facts.has_spectrum(material)]
     if not names:
         return ""
     return (

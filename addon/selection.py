@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 
 from ..core.errors import InputError, MaterialError
-from . import stamp
+from . import facts
 
 
 def by_name(name: str) -> Any:
@@ -36,7 +36,7 @@ def of_objects(objects: Iterable[Any]) -> list[Any]:
 
 def with_spectrum() -> list[Any]:
     """All materials of the file that store a spectrum, sorted by name."""
-    found = [material for material in bpy.data.materials if stamp.has_spectrum(material)]
+    found = [material for material in bpy.data.materials if facts.has_spectrum(material)]
     return sorted(found, key=lambda m: (m.name, str(m.library)))
 
 

@@ -3,31 +3,24 @@
 """Tell whether the color in a material's shader node still follows from its spectrum.
 
 Only compares what is stored, without numpy or color science: cheap enough for a panel to draw.
+What takes a material reads its `facts` and asks what takes those.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import math
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Any, Literal
 
-import bpy
-
-from . import nodes
+from . import facts, nodes
+from .facts import Facts, Inputs, has_spectrum
 from .properties import SCHEMA, title
-
-DEFAULT_SPACE = "Linear Rec.709"
-"""The working space before Blender 5.0, unless a custom OCIO configuration has another."""
 
 DERIVATION = 1
 """Raise when the same spectrum and settings come to give another color, beyond rounding; materials
 derived before are then stale."""
-
-_USUAL_TOLERANCE = 1.0
-"""ΔE00; that of all materials before it could be set."""
 
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
@@ -114,74 +107,40 @@ class State:
     stamp: Stamp | None = None
 
 
-def has_spectrum(material: Any) -> bool:
-    """Whether a spectrum was assigned to the material."""
-    return bool(material.rough_spectra.spectrum)
-
-
-def sigma(group: Any) -> float:
-    """σ in radians, from the degrees that the user entered.
-
-    The property is single precision: 15° comes back as 15.0000004°. Five decimals of a degree are
-    what it can hold, and restore what was entered.
-    """
-    return math.radians(round(math.degrees(group.sigma), 5))
-
-
-def sigma_degrees(group: Any) -> float:
-    """σ in degrees as the user entered it."""
-    return round(math.degrees(group.sigma), 5)
-
-
-def tolerance(group: Any) -> float:
-    """ΔE00 as the user entered it: the property is single precision, as that of `sigma`."""
-    return round(group.tolerance, 5)
-
-
-def working_space_name() -> str:
-    """Name of the open file's working space."""
-    data = getattr(bpy.data, "colorspace", None)
-    return DEFAULT_SPACE if data is None else str(data.working_space)
-
-
 def get_stamp(material: Any) -> Stamp | None:
     """Give the stamp, or None where nothing was derived yet or it cannot be read."""
-    return _parsed(material.rough_spectra.stamp)
+    return parse(material.rough_spectra.stamp)
 
 
-def state(material: Any, working_space: str = "") -> State:
-    """Tell whether the color still follows from the spectrum, and if not, why.
+def state(material: Any) -> State:
+    """Tell whether the color still follows from the spectrum, and if not, why."""
+    return judge(facts.of(material)) if has_spectrum(material) else _NONE
 
-    `working_space` is the open file's, for who has just asked for it.
-    """
-    group = material.rough_spectra
-    if not group.spectrum:
+
+@lru_cache(maxsize=1024)
+def judge(found: Facts) -> State:
+    """Tell the same from a material's facts."""
+    if not found.inputs.spectrum:
         return _NONE
-    found = get_stamp(material)
-    reasons = tuple(stale_reasons(material, working_space or working_space_name()))
-    place = elsewhere(material)
-    if place:
-        return State("linked", (place, *reasons), found)
-    if group.schema > SCHEMA:
+    last = parse(found.stamp)
+    reasons = tuple(_stale_reasons(found))
+    if found.elsewhere:
+        return State("linked", (found.elsewhere, *reasons), last)
+    if found.schema > SCHEMA:
         newer = "it was stored by a newer Rough Spectra; update the extension to work with it"
-        return State("error", (newer,), found)
-    if group.error:
-        return State("error", (group.error,), found)
+        return State("error", (newer,), last)
+    if found.error:
+        return State("error", (found.error,), last)
     if reasons:
-        return State("stale", reasons, found)
-    if found is not None and found.kept:
-        return State("kept", ("color or roughness was edited by hand, and is kept",), found)
-    return State("fresh", (), found)
+        return State("stale", reasons, last)
+    if last is not None and last.kept:
+        return State("kept", ("color or roughness was edited by hand, and is kept",), last)
+    return State("fresh", (), last)
 
 
-def numbers_hold(material: Any, known: State | None = None) -> bool:
-    """Whether the stamp's ΔE00 are those of what the scene's engine shows of the material now.
-
-    `known` is its state, for who has just asked for it.
-    """
-    if (known or state(material)).kind != "fresh":
-        return False
-    return has_scene(material.rough_spectra) or not engine_is_flat()
+def numbers_hold(found: Facts) -> bool:
+    """Whether the stamp's ΔE00 are those of what the scene's engine shows of the material now."""
+    return judge(found).kind == "fresh" and (bool(found.inputs.scene_view) or not found.flat)
 
 
 def stale_reasons(material: Any, working_space: str) -> list[str]:
@@ -189,13 +148,7 @@ def stale_reasons(material: Any, working_space: str) -> list[str]:
 
     Empty, too, where the user chose to keep edits by hand and nothing changed since.
     """
-    stamp = get_stamp(material)
-    if stamp is None:
-        return ["nothing was derived from the spectrum yet"]
-    return [
-        *_changed_inputs(material.rough_spectra, stamp),
-        *_changed_surface(material, stamp, working_space),
-    ]
+    return _stale_reasons(facts.of(material)._replace(working_space=working_space))
 
 
 def follows(material: Any) -> bool:
@@ -203,57 +156,52 @@ def follows(material: Any) -> bool:
 
     Settings may have changed; edits by hand, kept or not, must not be overwritten.
     """
-    stamp = get_stamp(material)
+    found = facts.of(material)
+    stamp = parse(found.stamp)
     return (
         stamp is not None
         and not stamp.kept
-        and material.rough_spectra.schema <= SCHEMA
-        and not elsewhere(material)
-        and not _changed_surface(material, stamp, working_space_name())
+        and found.schema <= SCHEMA
+        and not found.elsewhere
+        and not _changed_surface(found, stamp)
     )
 
 
 def edited_by_hand(material: Any) -> bool:
     """Whether renewing would overwrite what the user set in the shader node, kept or not."""
-    stamp, node = get_stamp(material), nodes.shader_node(material)
-    if stamp is None or stamp.kept or node is None:
+    found = facts.of(material)
+    stamp, surface = parse(found.stamp), found.surface
+    if stamp is None or stamp.kept or surface is None:
         return stamp is not None and bool(stamp.kept)
-    if nodes.disturbing_sockets(node):
+    if surface.disturbing:
         return True
     # A change of the working space converted the sockets: what they held is not known. Another
     # node holds what somebody set, unless it is the same one by another name.
-    return stamp.working_space == working_space_name() and _edited(node, stamp)
+    return stamp.working_space == found.working_space and _edited(surface, stamp)
 
 
-def shown(material: Any) -> str:
+def shown(surface: nodes.Surface | None) -> str:
     """Give all that a surface shows, as far as Rough Spectra sets it, in a text to compare."""
-    node = nodes.shader_node(material)
-    if node is None:
+    if surface is None:
         return "no Diffuse or Principled BSDF"
-    color, roughness = nodes.color_socket(node), nodes.roughness_socket(node)
-    values = (*color.default_value[:3], roughness.default_value)
-    linked = (color.is_linked, roughness.is_linked, node.mute)
-    return repr((node.name, values, linked, nodes.disturbing_sockets(node)))
+    linked = (surface.color_linked, surface.roughness_linked, surface.muted)
+    values = (*surface.color, surface.roughness)
+    return repr((surface.node, values, linked, list(surface.disturbing)))
 
 
-def settings(group: Any) -> dict[str, str]:
+def settings(found: Inputs) -> dict[str, str]:
     """Every setting that the color follows from, by its label, and a digest of the spectrum."""
     return {
-        "spectrum": hashlib.sha256(group.spectrum.encode()).hexdigest()[:16],
-        "kind": group.kind,
-        "instrument": group.instrument,
-        "σ": f"{sigma_degrees(group):.5f}".rstrip("0").rstrip(".") + "°",
-        "illuminant": group.illuminant,
-        "model": group.model,
-        "shader": group.shader,
-        "tolerance": f"{tolerance(group):g}",
-        **_scene_settings(group),
+        "spectrum": hashlib.sha256(found.spectrum.encode()).hexdigest()[:16],
+        "kind": found.kind,
+        "instrument": found.instrument,
+        "σ": f"{found.sigma_degrees:.5f}".rstrip("0").rstrip(".") + "°",
+        "illuminant": found.illuminant,
+        "model": found.model,
+        "shader": found.shader,
+        "tolerance": f"{found.tolerance:g}",
+        **_scene_settings(found),
     }
-
-
-def has_scene(group: Any) -> bool:
-    """Whether the color follows from an analysis of the scene."""
-    return bool(group.use_scene and group.scene_view)
 
 
 @lru_cache(maxsize=2048)
@@ -265,62 +213,27 @@ def analyzed_scene(scene_view: str) -> str:
         return ""
 
 
-def engine_is_flat() -> bool:
-    """Whether the scene's render engine ignores diffuse roughness."""
-    scene = bpy.context.scene
-    return scene is not None and scene.render.engine in _FLAT_ENGINES
-
-
 def inputs_digest(group: Any) -> str:
     """Digest of the spectrum and of every setting that the color follows from."""
-    told: tuple[str, ...] = (
-        group.spectrum,
-        group.kind,
-        group.instrument,
-        f"{sigma_degrees(group):.5f}",
-        group.illuminant,
-        group.model,
-        group.shader,
-    )
-    if has_scene(group):
-        told += (group.scene_view, _engine())
-    if tolerance(group) != _USUAL_TOLERANCE:
-        told += (f"{tolerance(group)}",)  # so that older stamps stay valid
-    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
-
-
-def elsewhere(material: Any) -> str:
-    """Say where a material that cannot be changed here belongs, and what to do."""
-    if material.library is not None:
-        path = material.library.filepath
-        return f"it is linked from {path!r}; make it local to change it, or change it there"
-    if material.override_library is not None:
-        return "it is a library override, whose nodes Blender resets; make it local to change it"
-    if not material.is_editable:
-        return "it is read-only; make it local to change it"
-    return ""
+    return facts.digest(facts.inputs(group))
 
 
 _NONE = State("none")
 _FIELDS = {field.name for field in fields(Stamp)}
 _NUMBERS = ("roughness", "delta_e_instrument", "delta_e_mean", "delta_e_95")
-_FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
 
-def _engine() -> str:
-    return "one without diffuse roughness" if engine_is_flat() else "one with diffuse roughness"
-
-
-def _scene_settings(group: Any) -> dict[str, str]:
-    if not has_scene(group):
+def _scene_settings(found: Inputs) -> dict[str, str]:
+    if not found.scene_view:
         return {"light": "the illuminant's"}
-    analysis = hashlib.sha256(group.scene_view.encode()).hexdigest()[:6]
-    return {"light": f"the scene's (analysis {analysis})", "render engine": _engine()}
+    analysis = hashlib.sha256(found.scene_view.encode()).hexdigest()[:6]
+    engine = facts.engine_words(found.flat)
+    return {"light": f"the scene's (analysis {analysis})", "render engine": engine}
 
 
 @lru_cache(maxsize=2048)
-def _parsed(text: str) -> Stamp | None:
-    """Parse a stamp once: a panel asks for it at every draw."""
+def parse(text: str) -> Stamp | None:
+    """Read a stored stamp; None where it cannot be read."""
     try:
         data = json.loads(text)
         # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.
@@ -336,22 +249,29 @@ def _parsed(text: str) -> Stamp | None:
         return None
 
 
-def _changed_inputs(group: Any, stamp: Stamp) -> list[str]:
-    if stamp.inputs == inputs_digest(group):
+def _stale_reasons(found: Facts) -> list[str]:
+    stamp = parse(found.stamp)
+    if stamp is None:
+        return ["nothing was derived from the spectrum yet"]
+    return [*_changed_inputs(found.inputs, stamp), *_changed_surface(found, stamp)]
+
+
+def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
+    if stamp.inputs == facts.digest(found):
         return []
     before = dict(stamp.settings)
-    now = settings(group)
-    found = []
+    now = settings(found)
+    changes = []
     for label, value in before.items():
         if now.get(label, value) == value:
             continue
         if label == "spectrum":
-            found.append("the spectrum was replaced")
+            changes.append("the spectrum was replaced")
             continue
         what = label if label == "σ" else f"the {label}"
         old, new = _told(label, value, now[label])
-        found.append(f"{what} was changed from {old} to {new}")
-    return found or ["the spectrum or a setting was changed"]
+        changes.append(f"{what} was changed from {old} to {new}")
+    return changes or ["the spectrum or a setting was changed"]
 
 
 def _told(label: str, *values: str) -> list[str]:
@@ -362,9 +282,10 @@ def _told(label: str, *values: str) -> list[str]:
     return rounded if len(set(rounded)) == len(values) else list(values)
 
 
-def _changed_surface(material: Any, stamp: Stamp, working_space: str) -> list[str]:
+def _changed_surface(found: Facts, stamp: Stamp) -> list[str]:
+    surface, working_space = found.surface, found.working_space
     if stamp.kept and stamp.working_space == working_space:
-        if stamp.kept == shown(material):
+        if stamp.kept == shown(surface):
             return []
         return ["color or roughness was edited by hand after earlier edits were kept"]
     reasons = []
@@ -373,27 +294,24 @@ def _changed_surface(material: Any, stamp: Stamp, working_space: str) -> list[st
     if stamp.derivation != DERIVATION:
         when = "a newer" if stamp.derivation > DERIVATION else "an older"
         reasons.append(f"it was derived by {when} Rough Spectra {stamp.version}".rstrip())
-    node = nodes.shader_node(material)
-    if node is None or node.name != stamp.node:
+    if surface is None or surface.node != stamp.node:
         reasons.append(f"the surface no longer comes from {stamp.node!r}")
-    elif linked := nodes.linked_sockets(node):
+    elif linked := surface.linked:
         reasons += [f"{name} comes from another node" for name in linked]
-    elif stamp.working_space == working_space and _edited(node, stamp):
+    elif stamp.working_space == working_space and _edited(surface, stamp):
         # A change of the working space converts sockets: whether they were edited can't be told.
         reasons.append("color or roughness was edited by hand")
-    if node is not None:
-        if node.mute:
-            reasons.append(f"{node.name!r} is muted")
-        reasons += [f"{name} is in use" for name in nodes.disturbing_sockets(node)]
+    if surface is not None:
+        if surface.muted:
+            reasons.append(f"{surface.node!r} is muted")
+        reasons += [f"{name} is in use" for name in surface.disturbing]
     return reasons
 
 
-def _edited(node: Any, stamp: Stamp) -> bool:
-    color, roughness = nodes.color_socket(node), nodes.roughness_socket(node)
-    if color.is_linked or roughness.is_linked:
+def _edited(surface: nodes.Surface, stamp: Stamp) -> bool:
+    if surface.color_linked or surface.roughness_linked:
         return True
-    written = (*stamp.color, stamp.roughness)
-    found = (*color.default_value[:3], roughness.default_value)
+    written, found = (*stamp.color, stamp.roughness), (*surface.color, surface.roughness)
     # Sockets may hold NaN, which is near to nothing.
     near = (abs(a - b) <= _SOCKET_TOLERANCE for a, b in zip(written, found, strict=True))
     return not all(near)

@@ -13,23 +13,12 @@ from dataclasses import replace
 from typing import Any
 
 from ..core.errors import InputError, MaterialError
-from . import live, scene_view
+from . import facts, live, nodes, scene_view
+from .facts import elsewhere, engine_is_flat, has_scene, sigma, tolerance
 from .properties import SCHEMA
 from .sample import Sample
 from .scene_view import SceneView
-from .stamp import (
-    DERIVATION,
-    elsewhere,
-    engine_is_flat,
-    get_stamp,
-    has_scene,
-    inputs_digest,
-    settings,
-    shown,
-    sigma,
-    tolerance,
-    working_space_name,
-)
+from .stamp import DERIVATION, get_stamp, settings, shown
 from .target import Request, Solution
 from .version import version
 
@@ -155,10 +144,10 @@ def set_stamp(
     material: Any, solution: Solution, working_space: str, node: str, source: Any | None = None
 ) -> None:
     """Note what was derived and from what; `source` is the evaluated material, if it was that."""
-    group = (source or material).rough_spectra
+    inputs = facts.inputs((source or material).rough_spectra)
     stamp = {
-        "inputs": inputs_digest(group),
-        "settings": settings(group),
+        "inputs": facts.digest(inputs),
+        "settings": settings(inputs),
         "working_space": working_space,
         "node": node,
         "color": solution.color.tolist(),
@@ -196,13 +185,14 @@ def keep(material: Any) -> None:
         msg = f"Material {material.name!r}: {place}."
         raise MaterialError(msg)
     _refuse_newer(material)
+    inputs = facts.inputs(group)
     group.stamp = json.dumps(
         json.loads(group.stamp)
         | {
-            "inputs": inputs_digest(group),
-            "settings": settings(group),
-            "working_space": working_space_name(),
-            "kept": shown(material),
+            "inputs": facts.digest(inputs),
+            "settings": settings(inputs),
+            "working_space": facts.working_space_name(),
+            "kept": shown(nodes.surface(material)),
         }
     )
     group.error = ""

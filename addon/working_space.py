@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 from mathutils import Color
 
 from ..core.arrays import Array
-from . import colorimetry, stamp
+from . import colorimetry, facts, ocio
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,23 +74,5 @@ def current() -> WorkingSpace:
     """
     unit_colors = (Color(unit).from_xyz_d65_to_scene_linear() for unit in np.eye(3).tolist())
     matrix = np.array([list(color) for color in unit_colors], np.float64).T
-    return WorkingSpace(
-        name=stamp.working_space_name(), from_xyz=matrix, warning=_interchange_warning()
-    )
-
-
-def _interchange_warning() -> str:
-    """Say when Blender only assumes Rec.709, because a custom OCIO file does not tell."""
-    path = os.environ.get("OCIO", "")
-    if not path:
-        return ""
-    try:
-        text = Path(path).read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return ""
-    if "aces_interchange" in text:
-        return ""
-    return (
-        f"{path}: the OCIO configuration has no role aces_interchange, so Blender takes scene "
-        "linear for Rec.709; add the role, or expect wrong colors in another space."
-    )
+    name = facts.working_space_name()
+    return WorkingSpace(name=name, from_xyz=matrix, warning=ocio.warning())

@@ -141,11 +141,12 @@ def drawn(tab: list[Any], page: Any, context: Any) -> None:
 def pictures(material: Any, scale: int) -> None:
     """Ask for the panel's pictures, as drawing does, and make them."""
     import bpy
-    from rough_spectra.addon.preview import icons
+    from rough_spectra.addon import facts
+    from rough_spectra.addon.preview import icons, theme
 
+    digest = icons.digest(facts.of(material), theme.current(bpy.context.preferences))
     for figure, side in FIGURES:
-        wish = icons._Wish(material.session_uid, figure, side * scale)
-        icons._pending[wish] = icons.digest(material, bpy.context)
+        icons._pending[icons._Wish(material.session_uid, figure, side * scale)] = digest
     icons._work()
 
 

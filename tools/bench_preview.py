@@ -35,7 +35,7 @@ def main() -> None:
     extension.register()
     import bpy
     import numpy as np
-    from rough_spectra.addon import assign, live, nodes, readers, target, working_space
+    from rough_spectra.addon import assign, facts, live, nodes, readers, target, working_space
     from rough_spectra.addon.preview import compose, data, icons, theme
 
     material = bpy.data.materials.new("Bench")
@@ -53,6 +53,7 @@ def main() -> None:
         return data.collect(material, space)
 
     preview = icons._previews().new("bench")
+    seen = theme.current(bpy.context.preferences)
     print(
         f"Blender {bpy.app.version_string}, numpy {np.__version__}, {REPEATS} runs: least (median)"
     )
@@ -61,7 +62,7 @@ def main() -> None:
         request = target.Request(sample, 0.5, model=model)
         color = np.array((0.1, 0.3, 0.1))
         row(f"… {model}", partial(data.of_request, request, color, 0.4, space))
-    row("asking for an icon", lambda: icons.digest(material, bpy.context))
+    row("asking for an icon", lambda: icons.digest(facts.of(material), seen))
     for scale in (1, 2):
         look = theme.look((0.239,) * 3, (0.902,) * 3, float(scale))
         print(f"scale {scale}: sheet of {SHEET * scale}, swatches of {SWATCHES * scale} pixels")

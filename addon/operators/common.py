@@ -115,10 +115,10 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Sh
     material
         A `bpy.types.Material`, or None where it has yet to be made.
     """
-    from .. import stamp, storage
+    from .. import facts, storage
 
     fresh = new_request(sample, radians(sample.sigma_degrees or 0.0))
-    if material is None or not stamp.has_spectrum(material):
+    if material is None or not facts.has_spectrum(material):
         return fresh, "AUTO"
     shader = material.rough_spectra.shader
     try:
@@ -142,11 +142,11 @@ def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> 
 
 def begin_with_sigma(operator: Any, context: Any) -> None:
     """Let a dialog begin with the roughness that the material has: another sample keeps it."""
-    from .. import stamp
+    from .. import facts
 
     material = active_material(context)
-    if material is not None and stamp.has_spectrum(material):
-        operator.sigma = stamp.sigma(material.rough_spectra)
+    if material is not None and facts.has_spectrum(material):
+        operator.sigma = facts.sigma(material.rough_spectra)
 
 
 def is_material_tree(context: Any) -> bool:

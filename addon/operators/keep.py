@@ -23,10 +23,10 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material that is not up to date."""
-        from .. import stamp
+        from .. import facts, stamp
 
         material = common.active_material(context)
-        if material is None or not stamp.has_spectrum(material):
+        if material is None or not facts.has_spectrum(material):
             cls.poll_message_set("The material has no measured spectrum; assign one first")
             return False
         state = stamp.state(material)

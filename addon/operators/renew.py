@@ -69,14 +69,14 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         return {"FINISHED"} if materials else {"CANCELLED"}
 
     def _materials(self, context: Any) -> list[Any]:
-        from .. import stamp
+        from .. import facts, stamp
 
         if self.scope == "ALL_STALE":
             states = ((m, stamp.state(m)) for m in bpy.data.materials)
             found = [m for m, state in states if state.kind in {"stale", "error"}]
             return sorted(found, key=lambda m: m.name)
         found = common.materials_in_scope(context, self.scope)
-        materials = [material for material in found if stamp.has_spectrum(material)]
+        materials = [material for material in found if facts.has_spectrum(material)]
         if not materials:
             msg = "No material in scope has a measured spectrum; assign one first."
             raise RoughSpectraError(msg)

@@ -1,12 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor.
-
-What draws is imported when it draws: most sessions of Blender never show these panels.
-"""
+"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor."""
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import bpy
@@ -47,6 +45,14 @@ class _Sidebar:
         return common.is_material_tree(context)
 
 
+@lru_cache(maxsize=1)
+def _drawing() -> Any:
+    """Import what draws: most sessions of Blender never show these panels."""
+    from . import drawing
+
+    return drawing
+
+
 class _Main:
     """Measured spectrum of the material"""
 
@@ -59,9 +65,7 @@ class _Main:
 
     def draw(self, context: Any) -> None:
         """Draw the sample and the settings."""
-        from . import material
-
-        material.draw_sample(_prepared(self), context)
+        _drawing().draw_sample(self.layout, context)  # type: ignore[attr-defined]
 
 
 class _Part:
@@ -70,9 +74,7 @@ class _Part:
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Show where the material stores a spectrum."""
-        here = cls.is_here(context)  # type: ignore[attr-defined]
-        shown = common.active_material(context)
-        return here and shown is not None and bool(shown.rough_spectra.spectrum)
+        return _drawing().current(context).shown is not None
 
 
 class _Difference(_Part):
@@ -82,10 +84,7 @@ class _Difference(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw swatches, numbers and words."""
-        from . import material
-
-        layout = _prepared(self)
-        material.draw_difference(layout, context, common.active_material(context))
+        _drawing().draw_difference(self.layout, context)  # type: ignore[attr-defined]
 
 
 class _Plots(_Part):
@@ -95,9 +94,7 @@ class _Plots(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw the plots."""
-        from . import material
-
-        material.draw_plots(self.layout, context, common.active_material(context))  # type: ignore[attr-defined]
+        _drawing().draw_plots(self.layout, context)  # type: ignore[attr-defined]
 
 
 class _Measurement:
@@ -108,14 +105,11 @@ class _Measurement:
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Show where there is a material."""
-        here = cls.is_here(context)  # type: ignore[attr-defined]
-        return here and common.active_material(context) is not None
+        return bool(_drawing().current(context).has_material)
 
     def draw(self, context: Any) -> None:
         """Draw the buttons and the last measurement."""
-        from . import material
-
-        material.draw_measurement(_prepared(self), context)
+        _drawing().draw_measurement(self.layout, context)  # type: ignore[attr-defined]
 
 
 class _Scene(_Part):
@@ -125,9 +119,7 @@ class _Scene(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw the lights found."""
-        from . import scene
-
-        scene.draw_scene(_prepared(self), context, common.active_material(context))
+        _drawing().draw_scene(self.layout, context)  # type: ignore[attr-defined]
 
 
 class _Source(_Part):
@@ -138,16 +130,7 @@ class _Source(_Part):
 
     def draw(self, context: Any) -> None:
         """Draw file, instrument and notes."""
-        from . import source
-
-        source.draw_source(_prepared(self), context, common.active_material(context))
-
-
-def _prepared(panel: Any) -> Any:
-    layout = panel.layout
-    layout.use_property_split = True
-    layout.use_property_decorate = False
-    return layout
+        _drawing().draw_source(self.layout, context)  # type: ignore[attr-defined]
 
 
 class ROUGHSPECTRA_PT_material(_Main, _Tab, bpy.types.Panel):

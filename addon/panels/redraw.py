@@ -11,8 +11,10 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from .. import nodes, stamp
-from .text import Writer
+from .. import facts, stamp
+from ..operators import common
+from ..preview import icons, theme
+from . import sentences, text
 
 _LONGEST = 0.1
 """Seconds that a redraw may last; what is older is not taken over."""
@@ -21,53 +23,76 @@ _last: list[Redraw] = []
 
 
 class Redraw:
-    """A material as it is while the panels are drawn.
+    """A region while its panels are drawn.
+
+    Parameters
+    ----------
+    context
+        Of the region.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self.began = time.monotonic()
+        self.region = context.region  # to be compared alone: it may be gone already
+        preferences = context.preferences
+        look = theme.current(preferences)
+        self.width = self.region.width
+        form = text.format_of(preferences, look.scale, self.width, context.area.type)
+        self.style = sentences.style(form)
+        material = common.active_material(context)
+        self.has_material = material is not None
+        self.shown = None
+        if material is not None and facts.has_spectrum(material):
+            unit = icons.unit(look.scale, preferences.system.pixel_size)
+            self.shown = Shown(material, look, unit)
+
+    @property
+    def format(self) -> text.Format:
+        """Width and letters of the sentences."""
+        return self.style.format
+
+
+class Shown:
+    """A material with a spectrum as it is while the panels are drawn, and its pictures.
 
     Parameters
     ----------
     material
         A `bpy.types.Material` with a spectrum.
-    context
-        Of the region that is drawn.
+    look
+        How the pictures are drawn.
+    unit
+        Height of a button, pixels.
     """
 
-    def __init__(self, material: Any, context: Any) -> None:
-        self.began = time.monotonic()
-        self.of = _of(material, context)
-        self._space = stamp.working_space_name()
-        self.state = stamp.state(material, self._space)
-        self.write = Writer(context)
-        self._digest: int | None = None
+    def __init__(self, material: Any, look: theme.Look, unit: int) -> None:
+        self.uid = material.session_uid
+        self.unit = unit
+        self.facts = facts.of(material)
+        self.state = stamp.judge(self.facts)
+        self.digest = icons.digest(self.facts, look)
 
-    def digest(self, material: Any, context: Any) -> int:
-        """Give what the material's pictures depend on; see `icons.digest`."""
-        if self._digest is None:
-            from ..preview import icons
-
-            self._digest = icons.digest(material, context, self._space)
-        return self._digest
-
-    def is_textured(self, material: Any) -> bool:
+    @property
+    def is_textured(self) -> bool:
         """Whether another node sets color or roughness, so that the sockets' values don't show."""
-        if self.state.kind == "fresh":
-            return False
-        node = nodes.shader_node(material)
-        return node is not None and bool(nodes.linked_sockets(node))
+        surface = self.facts.surface
+        return surface is not None and (surface.color_linked or surface.roughness_linked)
+
+    def picture(self, figure: str, units: float) -> int:
+        """Give the icon of a figure for `template_icon` with this scale."""
+        return icons.icon_id(self.uid, figure, icons.side(units, self.unit), self.digest)
 
 
-def begin(material: Any, context: Any) -> Redraw:
+def begin(context: Any) -> Redraw:
     """Ask anew, for the outermost panel."""
-    _last[:] = [Redraw(material, context)]
+    _last[:] = [Redraw(context)]
     return _last[0]
 
 
-def current(material: Any, context: Any) -> Redraw:
+def current(context: Any) -> Redraw:
     """Give what the panel around this one found, for those inside."""
-    of = _of(material, context)
-    if _last and _last[0].of == of and time.monotonic() - _last[0].began < _LONGEST:
-        return _last[0]
-    return begin(material, context)
-
-
-def _of(material: Any, context: Any) -> tuple[int, str, int]:
-    return material.session_uid, context.area.type, context.region.width
+    if _last:
+        last = _last[0]
+        if time.monotonic() - last.began < _LONGEST and last.region == context.region:
+            return last
+    return begin(context)

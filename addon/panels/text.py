@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import blf
 
-from ..preview import theme
+from .icon_values import icon_value
 
 _FONT = 0  # the interface's
 _MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
@@ -22,34 +23,40 @@ _GLUE = "\N{NO-BREAK SPACE}"
 _UNBROKEN = re.compile(r"(?<=ΔE00) (?=\d)|(?<=\d) (?=(?:nm|%|K)(?!\w))|(?<=σ) (?==)|(?<==) (?=\d)")
 """Spaces at which no line may end: a number stays with what it is of."""
 
+Sentence = tuple[tuple[str, int], ...]
+"""Lines, each with the number of the icon before it."""
 
-class Writer:
-    """Writes sentences into the layouts of a region.
+
+class Format(NamedTuple):
+    """What the look of sentences in a region depends on.
 
     Parameters
     ----------
-    context
-        Tells how wide the region is, and how large the letters are.
+    pixels
+        Width of the region.
+    sidebar
+        Whether it has tabs beside the panels.
+    scale
+        Of the interface.
+    points
+        Size of the letters at UI scale 1.
     """
 
-    def __init__(self, context: Any) -> None:
-        preferences = context.preferences
-        self._scale = theme.scale(preferences)
-        self._points = float(preferences.ui_styles[0].widget.points)
-        tabs = _TABS if context.area.type == "NODE_EDITOR" else 0.0
-        self._width = context.region.width / self._scale - _MARGINS - tabs
+    pixels: int
+    sidebar: bool
+    scale: float
+    points: float
 
     def width(self, inset: float = 0.0) -> float:
-        """Width of a line in pixels at UI scale 1."""
-        return max(int(self._width - inset), _LEAST)
+        """Width of a line in pixels at UI scale 1; `inset` is taken by what is around it."""
+        tabs = _TABS if self.sidebar else 0.0
+        return max(int(self.pixels / self.scale - _MARGINS - tabs - inset), _LEAST)
 
-    def sentence(self, layout: Any, text: str, icon: str = "BLANK1", inset: float = 0.0) -> None:
-        """Draw a sentence over as many lines as it needs, set close to each other.
+    def sentence(self, text: str, icon: str = "BLANK1", inset: float = 0.0) -> Sentence:
+        """Break a sentence into as many lines as it needs.
 
         Parameters
         ----------
-        layout
-            What it is drawn into.
         text
             Translated already.
         icon
@@ -57,12 +64,24 @@ class Writer:
         inset
             Pixels at UI scale 1 that are taken beside the sentence, such as by a box around it.
         """
-        lines = _lines(text, self.width(inset), self._points, self._scale)
+        lines = _lines(text, self.width(inset), self.points, self.scale)
+        others = icon_value("NONE" if icon == "NONE" else "BLANK1")
+        return tuple((line, others if at else icon_value(icon)) for at, line in enumerate(lines))
+
+
+def format_of(preferences: Any, scale: float, pixels: int, area: str) -> Format:
+    """Give the format of a region of an editor of the type `area`."""
+    points = float(preferences.ui_styles[0].widget.points)
+    return Format(pixels, area == "NODE_EDITOR", scale, points)
+
+
+def draw(layout: Any, sentences: Iterable[Sentence]) -> None:
+    """Draw sentences below each other, the lines of each set close."""
+    for sentence in sentences:
         column = layout.column(align=True)
         column.scale_y = _LINE
-        for line in lines:
-            column.label(text=line, icon=icon, translate=False)
-            icon = "NONE" if icon == "NONE" else "BLANK1"
+        for line, icon in sentence:
+            column.label(text=line, icon_value=icon, translate=False)
 
 
 @lru_cache(maxsize=256)

@@ -27,7 +27,8 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
-from .. import nodes, stamp
+from .. import facts, stamp
+from ..facts import Facts
 from . import theme
 
 _BOUND = 64
@@ -71,55 +72,57 @@ _pending: dict[_Wish, int] = {}
 _differences: dict[int, tuple[int, tuple[float, float, float] | None]] = {}
 
 
-def unit(preferences: Any) -> int:
-    """Height of a widget, pixels."""
+def unit(scale: float, pixel_size: float) -> int:
+    """Height of a widget in pixels, from the `theme.scale` and `preferences.system.pixel_size`."""
     # Blender rounds in single precision, where 18 times the scale at 150 dpi is 37.5 and goes up.
-    body = math.floor(18 * theme.scale(preferences) + 0.5 + 1e-3)
-    return body + 2 * max(int(preferences.system.pixel_size), 1)
+    body = math.floor(18 * scale + 0.5 + 1e-3)
+    return body + 2 * max(int(pixel_size), 1)
 
 
-def side(units: float, preferences: Any) -> int:
-    """Pixels of a picture that `template_icon(…, scale=units)` draws one to one."""
-    height = unit(preferences)
+def side(units: float, height: int) -> int:
+    """Pixels of a picture that `template_icon(…, scale=units)` draws one to one.
+
+    `height` is that of a widget, from `unit`.
+    """
     return max(int(int(height * units) - _BORDER * height), 1)
 
 
-def fit(context: Any, inset: float = 0.0) -> float:
+def fit(width: int, height: int, inset: float = 0.0) -> float:
     """Give the `scale` for `template_icon` at which a picture fills the width of a panel.
 
     Parameters
     ----------
+    width
+        Of the region, pixels.
+    height
+        Of a widget, from `unit`.
     inset
         Widget heights that boxes around the picture take of the width.
 
     Half units, so that dragging the border of an editor does not make a picture for every pixel.
     """
-    height = unit(context.preferences)
-    free = context.region.width / height - _PANEL_MARGIN - inset
+    free = width / height - _PANEL_MARGIN - inset
     return max(int(free * 2) / 2, 1.0)
 
 
-def icon_id(
-    material: Any, figure: str, units: float, context: Any, known: int | None = None
-) -> int:
+def icon_id(uid: int, figure: str, pixels: int, state: int) -> int:
     """Give the icon of a figure, to be called while drawing; 0 while there is none yet.
 
     Parameters
     ----------
-    material
-        A `bpy.types.Material`.
+    uid
+        The material's `session_uid`.
     figure
         One of `FIGURES`.
-    units
-        The `scale` that the panel gives to `template_icon`.
-    known
-        The material's `digest`, for who has just asked for it.
+    pixels
+        From `side`.
+    state
+        What the picture depends on, from `digest`.
 
     A picture that is out of date is shown until the new one is there, within a frame: an empty
     square for a moment would flicker.
     """
-    wish = _Wish(material.session_uid, figure, side(units, context.preferences))
-    state = digest(material, context) if known is None else known
+    wish = _Wish(uid, figure, pixels)
     picture = _pictures.get(wish)
     if picture is None or picture.state != state:
         _pending[wish] = state
@@ -132,42 +135,23 @@ def icon_id(
     return picture.icon
 
 
-def differences(
-    material: Any, context: Any, known: int | None = None
-) -> tuple[float, float, float] | None:
+def differences(uid: int, state: int) -> tuple[float, float, float] | None:
     """Give ΔE00 of what is in the shader node, to be called while drawing, after `icon_id`.
 
     At the instrument, and mean and 95th percentile over all angles; None until they are computed
-    along with the pictures. `known` as with `icon_id`.
+    along with the pictures. Parameters as with `icon_id`.
     """
-    found = _differences.get(material.session_uid)
-    state = digest(material, context) if known is None else known
+    found = _differences.get(uid)
     return found[1] if found is not None and found[0] == state else None
 
 
-def digest(material: Any, context: Any, working_space: str = "") -> int:
-    """Give a digest of everything that a material's pictures depend on.
-
-    `working_space` is the open file's, for who has just asked for it.
-    """
-    group = material.rough_spectra
-    node = nodes.shader_node(material)
-    written = ""
-    if node is not None:
-        color = nodes.color_socket(node).default_value
-        # As text: NaN is unequal to itself, and would have pictures made without end.
-        written = repr((*color[:3], nodes.roughness_socket(node).default_value))
+def digest(found: Facts, look: theme.Look) -> int:
+    """Give a digest of everything that a material's pictures depend on."""
+    surface = found.surface
+    # As text: -1 and -2 have the same hash.
+    written = "" if surface is None else repr((surface.color, surface.roughness))
     return hash(
-        (
-            group.stamp,
-            group.spectrum,
-            (group.kind, group.instrument, group.illuminant, group.model, group.sigma),
-            stamp.has_scene(group) and group.scene_view,
-            written,
-            context.scene.render.engine,
-            working_space or stamp.working_space_name(),
-            theme.current(context.preferences),
-        )
+        (found.inputs, found.stamp, written, found.engine, found.working_space, look),
     )
 
 
@@ -256,31 +240,30 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
     from .. import working_space
     from . import compose, data
 
-    context = bpy.context
-    state = digest(material, context)
-    look = theme.current(context.preferences)
+    found, look = facts.of(material), theme.current(bpy.context.preferences)
+    state = digest(found, look)
     try:
         space = working_space.current()
-        found = data.collect(material, space, context.scene.render.engine)
+        shown = data.collect(material, space, found.engine)
     except RoughSpectraError:
         # The panel says what is wrong with the material; there is nothing to picture.
         for wish in wishes:
             _store(wish, state, None)
         return
-    _differences[material.session_uid] = (state, _compared(material, space))
+    _differences[material.session_uid] = (state, _compared(material, found, space))
     for wish in wishes:
-        _store(wish, state, compose.picture(wish.figure, found, wish.side, look))
+        _store(wish, state, compose.picture(wish.figure, shown, wish.side, look))
 
 
-def _compared(material: Any, space: Any) -> tuple[float, float, float] | None:
+def _compared(material: Any, found: Facts, space: Any) -> tuple[float, float, float] | None:
     """Compare the shader node with the target where the stamp does not say how far they are."""
-    if stamp.numbers_hold(material):
+    if stamp.numbers_hold(found):
         return None
     from . import data, shown
 
     request = data.settled(material)
     color, roughness = data.written(material)
-    shader = (color, 0.0 if stamp.engine_is_flat() else roughness)
+    shader = (color, 0.0 if found.flat else roughness)
     return shown.differences(request, data.spectra_of(request), shader, space)
 
 

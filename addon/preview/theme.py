@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+import bpy
+
 if TYPE_CHECKING:
     from .raster import Color
 
@@ -19,6 +21,9 @@ _LETTERS = 4.5
 """Contrast that WCAG 2.1 asks of text (success criterion 1.4.3)."""
 _SHAPES = 3.0
 """Contrast that it asks of what is not text (1.4.11)."""
+
+_PANELS_OF_INTERFACE = bpy.app.version >= (5, 0, 0)
+"""Blender 5 moved the colors of panels from each editor to the interface."""
 
 _FONT = 10.0
 """Pixels an em at interface scale 1; Blender's own labels have 11."""
@@ -75,19 +80,20 @@ def look(background: Color, text: Color, scale: float = 1.0) -> Look:
 def current(preferences: Any) -> Look:
     """Give the look of `bpy.context.preferences`: the theme's panels, and the interface scale."""
     theme = preferences.themes[0]
-    space = theme.properties.space
-    # Blender 5 moved the colors of panels from each editor to the interface.
-    panels = getattr(space, "panelcolors", None)
-    back = theme.user_interface.panel_back if panels is None else panels.back
-    text = space.text if panels is not None else theme.user_interface.panel_text
-    return _look(tuple(back), tuple(space.back[:3]), tuple(text[:3]), scale(preferences))
+    if _PANELS_OF_INTERFACE:
+        back, text = theme.user_interface.panel_back, theme.user_interface.panel_text
+    else:
+        space = theme.properties.space
+        back, text = space.panelcolors.back, space.text
+    red, green, blue, alpha = back
+    behind = (0.0, 0.0, 0.0) if alpha == 1.0 else tuple(theme.properties.space.back[:3])
+    return _look((red, green, blue), alpha, behind, tuple(text[:3]), scale(preferences))
 
 
 @lru_cache(maxsize=8)
-def _look(back: tuple[float, ...], behind: Color, text: Color, scale: float) -> Look:
-    """Round once and not at every draw; `back` is translucent."""
-    red, green, blue, alpha = back
-    over = ((red, behind[0]), (green, behind[1]), (blue, behind[2]))
+def _look(back: Color, alpha: float, behind: Color, text: Color, scale: float) -> Look:
+    """Round once and not at every draw."""
+    over = zip(back, behind, strict=True)
     background = tuple(round(alpha * c + (1 - alpha) * b, 3) for c, b in over)
     return look(background, tuple(round(c, 3) for c in text), scale)
 

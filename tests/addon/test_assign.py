@@ -7,7 +7,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, live, nodes, stamp, storage, working_space
+from rough_spectra.addon import assign, facts, live, nodes, stamp, storage, working_space
 from rough_spectra.addon.sample import Sample
 from rough_spectra.core.errors import DomainError, MaterialError
 
@@ -77,14 +77,14 @@ def test_what_is_stored_is_bit_exact(make_material, awkward, request_for):
     assert loaded.sigma == request.sigma
     assert (loaded.model, loaded.illuminant, loaded.observer) == ("closure", "A", 10)
     assert material.rough_spectra.shader == "PRINCIPLED"
-    assert stamp.has_spectrum(material)
+    assert facts.has_spectrum(material)
 
 
 @pytest.mark.parametrize("degrees", [0, 0.1, 1, 12.5, 15, 17.3, 30, 45, 59.99999, 89.9, 90])
 def test_sigma_comes_back_as_entered(make_material, colorchecker, request_for, degrees):
     material = make_material()
     assign.assign([(material, request_for(colorchecker[0], degrees))])
-    assert stamp.sigma_degrees(material.rough_spectra) == degrees
+    assert facts.sigma_degrees(material.rough_spectra) == degrees
     assert storage.load(material).sigma == np.radians(degrees)
 
 
@@ -172,7 +172,7 @@ def test_one_material_named_twice_is_refused(make_material, colorchecker, reques
     material = make_material("Twice")
     with pytest.raises(MaterialError, match="'Twice' is named twice; give it one spectrum"):
         assign.assign([(material, request_for(sample)) for sample in colorchecker[:2]])
-    assert not stamp.has_spectrum(material)
+    assert not facts.has_spectrum(material)
 
 
 def test_renew_is_all_or_none_whatever_the_shaders(make_material, colorchecker, request_for):
@@ -363,7 +363,7 @@ def test_undo_and_redo_take_spectrum_and_sockets_along(make_material, colorcheck
         for expected in (states[1], states[0]):
             bpy.ops.ed.undo()
             assert everything(bpy.data.materials["Undone"]) == expected
-        assert not stamp.has_spectrum(bpy.data.materials["Undone"])
+        assert not facts.has_spectrum(bpy.data.materials["Undone"])
         bpy.ops.ed.redo()
         assert everything(bpy.data.materials["Undone"]) == states[1]
 

@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, live, nodes, stamp, storage, target, working_space
+from rough_spectra.addon import assign, facts, live, nodes, stamp, storage, target, working_space
 from rough_spectra.addon.openimageio import openimageio
 from rough_spectra.core import cycles
 
@@ -151,12 +151,12 @@ def test_dragging_and_undo_go_together(material):
         bpy.ops.ed.undo()
         found = bpy.data.materials["Wall"]
         assert sockets(found) == before
-        assert stamp.sigma_degrees(found.rough_spectra) == 20
+        assert facts.sigma_degrees(found.rough_spectra) == 20
         assert stamp.state(found).kind == "fresh"
         bpy.ops.ed.redo()
         found = bpy.data.materials["Wall"]
         assert sockets(found) == after
-        assert stamp.sigma_degrees(found.rough_spectra) == 35
+        assert facts.sigma_degrees(found.rough_spectra) == 35
         assert stamp.state(found).kind == "fresh"
 
 
@@ -210,7 +210,7 @@ def test_renders_follow_an_animated_sigma(wall, request_for, colorchecker, tmp_p
     for frame in (1, 2, 3):
         pixels = oiio.ImageBuf(str(tmp_path / f"frame-{frame:04d}.exr")).get_pixels()
         bpy.context.scene.frame_set(frame)
-        sigma = stamp.sigma_degrees(wall.rough_spectra)
+        sigma = facts.sigma_degrees(wall.rough_spectra)
         *color, roughness = derived(request_for(colorchecker[6], sigma))
         expected = cycles.reflectance(color, roughness, 0.0, 0.0, 0.0)
         # Four samples in single precision.

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon import (
     assign,
+    facts,
     light_spectrum,
     nodes,
     scene_view,
@@ -31,8 +32,21 @@ def material(make_material, colorchecker):
     return material
 
 
+def asked(material, figure, units):
+    """The icon that a panel gets while it draws."""
+    look = theme.current(bpy.context.preferences)
+    state = icons.digest(facts.of(material), look)
+    return icons.icon_id(material.session_uid, figure, side(units), state)
+
+
+def side(units):
+    """Pixels of a picture in this Blender."""
+    system = bpy.context.preferences.system
+    return icons.side(units, icons.unit(theme.scale(bpy.context.preferences), system.pixel_size))
+
+
 def ask(material, figure="sheet", units=10.0):
-    icons.icon_id(material, figure, units, bpy.context)
+    asked(material, figure, units)
 
 
 def pixels(figure="sheet"):
@@ -48,8 +62,8 @@ def test_drawing_makes_nothing_and_the_timer_makes_it(material):
     assert not icons._pictures
     assert bpy.app.timers.is_registered(icons._work)
     icons._work()
-    side = icons.side(10, bpy.context.preferences)
-    assert pixels().shape == (side, side, 4)
+    wide = side(10)
+    assert pixels().shape == (wide, wide, 4)
     assert pixels()[..., 3].max() == 1
 
 
@@ -130,8 +144,8 @@ def test_a_picture_has_the_colors_of_its_figure(material):
     icons._work()
     look = theme.current(bpy.context.preferences)
     found = data.collect(material, working_space.current(), bpy.context.scene.render.engine)
-    side = icons.side(10, bpy.context.preferences)
-    canvas = compose.picture("sheet", found, side, look)
+    wide = side(10)
+    canvas = compose.picture("sheet", found, wide, look)
     np.testing.assert_array_equal(np.rint(pixels() * 255), canvas)
 
 
@@ -141,16 +155,16 @@ def test_a_material_without_spectrum_is_tried_once(make_material):
     icons._work()
     ask(material)
     assert not icons._pending
-    assert icons.icon_id(material, "sheet", 10.0, bpy.context) == 0
+    assert asked(material, "sheet", 10.0) == 0
 
 
 def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
     node = nodes.shader_node(material)
-    icons.icon_id(material, "sheet", 10, bpy.context)
+    asked(material, "sheet", 10)
     nodes.color_socket(node).default_value[0] = float("nan")
-    icons.icon_id(material, "sheet", 10, bpy.context)
+    asked(material, "sheet", 10)
     assert icons._work() is None
-    assert icons.icon_id(material, "sheet", 10, bpy.context) == 0
+    assert asked(material, "sheet", 10) == 0
     assert not icons._pending
 
 
@@ -219,4 +233,4 @@ def test_pictures_have_the_size_that_blender_draws(scale, pixel, units, drawn):
     class Preferences:
         system = System
 
-    assert icons.side(units, Preferences) == drawn
+    assert icons.side(units, icons.unit(theme.scale(Preferences), pixel)) == drawn

@@ -52,7 +52,7 @@ def _ended():
 
 def _watch_result():
     """Note each time that the panel draws what was measured."""
-    panel, drawn = ours("addon.panels.material"), []
+    panel, drawn = ours("addon.panels.drawing"), []
     draw = panel._draw_measured
 
     def watched(*arguments):

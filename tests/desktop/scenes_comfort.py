@@ -118,8 +118,8 @@ def another_language(found):
     view.language = "de_DE"
     view.use_translate_interface = view.use_translate_reports = True
     yield 1.0
-    material = ours("addon.panels.material")
-    found["drawn"] = material._difference(material.iface_("Measured"), 0.1)
+    sentences = ours("addon.panels.sentences")
+    found["drawn"] = sentences._difference(sentences.iface_("Measured"), 0.1)
     with over(area("PROPERTIES")):
         OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
     label = OPS.renew.get_rna_type()

@@ -19,9 +19,9 @@ def stored(name):
 
 
 def degrees(name):
-    from rough_spectra.addon import stamp
+    from rough_spectra.addon import facts
 
-    return stamp.sigma_degrees(stored(name))
+    return facts.sigma_degrees(stored(name))
 
 
 @pytest.fixture

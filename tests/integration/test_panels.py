@@ -14,15 +14,16 @@ import types
 
 import bpy
 import pytest
-from rough_spectra.addon import measured, panels, storage
-from rough_spectra.addon.preview import icons
+from rough_spectra.addon import facts, measured, panels, storage
+from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object
 
 OPS = bpy.ops.rough_spectra
-ICONS = set(bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items.keys())
+PARAMETERS = bpy.types.UILayout.bl_rna.functions["label"].parameters
+ICONS = {item.identifier: item.value for item in PARAMETERS["icon"].enum_items}
 GREEN = "colorchecker/14-green"
 
 
@@ -37,8 +38,8 @@ class Layout:
 
     column = box = split = row
 
-    def label(self, *, text="", icon="NONE", translate=True):
-        assert icon in ICONS
+    def label(self, *, text="", icon_value=0, translate=True):
+        assert icon_value in ICONS.values()
         self.page.append(text)
 
     def prop(self, data, name, *, text=None, slider=False, expand=False):
@@ -46,8 +47,9 @@ class Layout:
         assert data.bl_rna.properties[name].description
         self.page.append(name)
 
-    def operator(self, name, *, text=None, icon="NONE", translate=True):
+    def operator(self, name, *, text=None, icon="NONE", icon_value=0, translate=True):
         assert icon in ICONS
+        assert icon_value in ICONS.values()
         module, _, function = name.partition(".")
         kind = getattr(getattr(bpy.ops, module), function).get_rna_type()
         self.page.append(name if text is None else f"{name}: {text}")
@@ -79,11 +81,13 @@ def context(space="PROPERTIES", **more):
 
 
 def drawn(where=None):
-    """All that the panels of the Material tab draw now, in order."""
+    """All that the panels of the Material tab draw now, in order; inner ones in those around."""
     where = where or context()
-    page = []
+    page, shown = [], {""}
     for cls in panels.classes:
-        if cls.bl_space_type == where.area.type and cls.poll(where):
+        around = getattr(cls, "bl_parent_id", "")
+        if cls.bl_space_type == where.area.type and around in shown and cls.poll(where):
+            shown.add(cls.__name__)
             page.append(f"[{cls.bl_label}]")
             cls.draw(types.SimpleNamespace(layout=Layout(page)), where)
     return page
@@ -97,6 +101,11 @@ def green():
     OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=0.5)
     yield material
     icons.clear()
+
+
+def digest(material):
+    """What the material's pictures depend on."""
+    return icons.digest(facts.of(material), theme.current(bpy.context.preferences))
 
 
 def test_without_an_object_there_is_no_panel():
@@ -168,7 +177,7 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     node.inputs["Color"].default_value = (0.09, 0.27, 0.11, 1)
     drawn()
     icons._work()
-    at_instrument, mean, high = icons.differences(green, context())
+    at_instrument, mean, high = icons.differences(green.session_uid, digest(green))
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
     assert at_instrument == pytest.approx(measured.get(green).delta_e, abs=0.01)
     assert at_instrument > 1
@@ -196,7 +205,7 @@ def test_another_engine_is_named_as_what_limits(green):
     icons._work()
     page = drawn()
     assert any("only Cycles shows the roughness" in line for line in page)
-    _, mean, _ = icons.differences(green, context())
+    _, mean, _ = icons.differences(green.session_uid, digest(green))
     assert mean > 2 * in_cycles
 
 

@@ -30,7 +30,7 @@ def test_register_brings_no_heavy_module_and_is_quick(blender):
     parts = {name.removeprefix("rough_spectra.") for name in found["added"]}
     computing = {"core.cycles", "core.reading", "core.oren_nayar", "addon.colorimetry"}
     assert not computing & parts
-    drawing = {"addon.panels.material", "addon.preview.icons", "addon.preview.theme"}
+    drawing = {"addon.panels.drawing", "addon.preview.icons", "addon.preview.theme"}
     assert not drawing & parts
     print(f"register: {found['first']:.1f} ms with imports, {found['again']:.1f} ms again")
     # Processor time, which includes compiling every module: the child keeps no bytecode. With it,
@@ -150,18 +150,18 @@ def test_presets_are_offered_by_ids_that_scripts_can_rely_on():
 
 def test_panel_computes_nothing_that_takes_time():
     """What `draw` calls, with 500 materials in the file."""
-    from rough_spectra.addon import assign, presets, stamp
+    from rough_spectra.addon import assign, facts, presets, stamp
     from rough_spectra.addon.target import Request
 
     materials = [rgb_material(f"{number}") for number in range(500)]
     sample = presets.load("14")
     assign.assign([(material, Request(sample, 0.3)) for material in materials])
-    assert all(not stamp.stale_reasons(m, stamp.working_space_name()) for m in materials)
+    assert all(not stamp.stale_reasons(m, facts.working_space_name()) for m in materials)
     seconds = []
     for material in materials[:100]:
         start = time.perf_counter()
-        assert stamp.has_spectrum(material)
-        assert not stamp.stale_reasons(material, stamp.working_space_name())
+        assert facts.has_spectrum(material)
+        assert not stamp.stale_reasons(material, facts.working_space_name())
         assert stamp.get_stamp(material) is not None
         seconds.append(time.perf_counter() - start)
     median = sorted(seconds)[50]
