@@ -144,9 +144,9 @@ def pictures(material: Any, scale: int) -> None:
     from rough_spectra.addon import facts
     from rough_spectra.addon.preview import icons, theme
 
-    digest = icons.digest(facts.of(material), theme.current(bpy.context.preferences))
+    state = (facts.of(material), theme.current(bpy.context.preferences))
     for figure, side in FIGURES:
-        icons._pending[icons._Wish(material.session_uid, figure, side * scale)] = digest
+        icons._pending[icons._Wish(material.session_uid, figure, side * scale)] = state
     icons._work()
 
 

@@ -62,7 +62,10 @@ def main() -> None:
         request = target.Request(sample, 0.5, model=model)
         color = np.array((0.1, 0.3, 0.1))
         row(f"… {model}", partial(data.of_request, request, color, 0.4, space))
-    row("asking for an icon", lambda: icons.digest(facts.of(material), seen))
+    row(
+        "asking for an icon",
+        lambda: icons.icon_id(material.session_uid, "sheet", SHEET, (facts.of(material), seen)),
+    )
     for scale in (1, 2):
         look = theme.look((0.239,) * 3, (0.902,) * 3, float(scale))
         print(f"scale {scale}: sheet of {SHEET * scale}, swatches of {SWATCHES * scale} pixels")

@@ -49,7 +49,8 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
     layout.use_property_split = True
     layout.use_property_decorate = False
     column = layout.column()
-    column.enabled = material.is_editable
+    if shown.facts.elsewhere:
+        column.enabled = False
     column.prop(group, "kind")
     if inputs.kind == "reading":
         column.prop(group, "instrument")
@@ -117,11 +118,7 @@ def _draw_swatches(
     beside = here.format.width(sentences.SWATCHES) >= _NARROWEST
     row = layout.row() if beside else layout.column()
     row.template_icon(picture, scale=_SWATCH_UNITS)
-    last, apart = shown.state.stamp, None
-    if last is not None and stamp.numbers_hold(shown.facts):
-        apart = (last.delta_e_instrument, last.delta_e_mean, last.delta_e_95)
-    else:
-        apart = icons.differences(shown.uid, shown.digest)
+    apart = shown.apart()
     if apart is not None:
         text.draw(row.column(align=True), sentences.numbers(apart, beside, here.style))
     return apart

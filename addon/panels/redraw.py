@@ -39,12 +39,13 @@ class Redraw:
         self.width = self.region.width
         form = text.format_of(preferences, look.scale, self.width, context.area.type)
         self.style = sentences.style(form)
-        material = common.active_material(context)
+        material: Any = common.active_material(context)
         self.has_material = material is not None
         self.shown = None
-        if material is not None and facts.has_spectrum(material):
+        found = None if material is None else facts.of(material)
+        if found is not None and found.inputs.spectrum:
             unit = icons.unit(look.scale, preferences.system.pixel_size)
-            self.shown = Shown(material, look, unit)
+            self.shown = Shown(material.session_uid, found, look, unit)
 
     @property
     def format(self) -> text.Format:
@@ -57,20 +58,20 @@ class Shown:
 
     Parameters
     ----------
-    material
-        A `bpy.types.Material` with a spectrum.
+    uid
+        Its `session_uid`.
+    found
+        Its facts.
     look
         How the pictures are drawn.
     unit
         Height of a button, pixels.
     """
 
-    def __init__(self, material: Any, look: theme.Look, unit: int) -> None:
-        self.uid = material.session_uid
-        self.unit = unit
-        self.facts = facts.of(material)
-        self.state = stamp.judge(self.facts)
-        self.digest = icons.digest(self.facts, look)
+    def __init__(self, uid: int, found: facts.Facts, look: theme.Look, unit: int) -> None:
+        self.uid, self.facts, self.unit = uid, found, unit
+        self.state = stamp.judge(found)
+        self._pictured = (found, look)
 
     @property
     def is_textured(self) -> bool:
@@ -80,7 +81,12 @@ class Shown:
 
     def picture(self, figure: str, units: float) -> int:
         """Give the icon of a figure for `template_icon` with this scale."""
-        return icons.icon_id(self.uid, figure, icons.side(units, self.unit), self.digest)
+        return icons.icon_id(self.uid, figure, icons.side(units, self.unit), self._pictured)
+
+    def apart(self) -> tuple[float, float, float] | None:
+        """Give ΔE00 of what is in the shader node: as stored, or computed with the pictures."""
+        stored = stamp.numbers(self.facts)
+        return stored or icons.differences(self.uid, self._pictured)
 
 
 def begin(context: Any) -> Redraw:

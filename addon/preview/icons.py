@@ -21,7 +21,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 from bpy.utils import previews
@@ -50,16 +50,19 @@ FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
 below each other; and each plot alone."""
 
 
+State = tuple[Facts, theme.Look]
+"""All that a material's pictures depend on: its facts, and how they are drawn."""
+
+
 @dataclass
 class _Picture:
     name: str
-    state: int
+    state: State
     icon: int
     drawn: float
 
 
-@dataclass(frozen=True)
-class _Wish:
+class _Wish(NamedTuple):
     material: int
     figure: str
     side: int
@@ -68,8 +71,8 @@ class _Wish:
 _collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
 _swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
-_pending: dict[_Wish, int] = {}
-_differences: dict[int, tuple[int, tuple[float, float, float] | None]] = {}
+_pending: dict[_Wish, State] = {}
+_differences: dict[int, tuple[State, tuple[float, float, float] | None]] = {}
 
 
 def unit(scale: float, pixel_size: float) -> int:
@@ -105,7 +108,7 @@ def fit(width: int, height: int, inset: float = 0.0) -> float:
     return max(int(free * 2) / 2, 1.0)
 
 
-def icon_id(uid: int, figure: str, pixels: int, state: int) -> int:
+def icon_id(uid: int, figure: str, pixels: int, state: State) -> int:
     """Give the icon of a figure, to be called while drawing; 0 while there is none yet.
 
     Parameters
@@ -117,7 +120,7 @@ def icon_id(uid: int, figure: str, pixels: int, state: int) -> int:
     pixels
         From `side`.
     state
-        What the picture depends on, from `digest`.
+        What the picture depends on now.
 
     A picture that is out of date is shown until the new one is there, within a frame: an empty
     square for a moment would flicker.
@@ -135,7 +138,7 @@ def icon_id(uid: int, figure: str, pixels: int, state: int) -> int:
     return picture.icon
 
 
-def differences(uid: int, state: int) -> tuple[float, float, float] | None:
+def differences(uid: int, state: State) -> tuple[float, float, float] | None:
     """Give ΔE00 of what is in the shader node, to be called while drawing, after `icon_id`.
 
     At the instrument, and mean and 95th percentile over all angles; None until they are computed
@@ -143,16 +146,6 @@ def differences(uid: int, state: int) -> tuple[float, float, float] | None:
     """
     found = _differences.get(uid)
     return found[1] if found is not None and found[0] == state else None
-
-
-def digest(found: Facts, look: theme.Look) -> int:
-    """Give a digest of everything that a material's pictures depend on."""
-    surface = found.surface
-    # As text: -1 and -2 have the same hash.
-    written = "" if surface is None else repr((surface.color, surface.roughness))
-    return hash(
-        (found.inputs, found.stamp, written, found.engine, found.working_space, look),
-    )
 
 
 def refresh(material: Any) -> None:
@@ -241,7 +234,7 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
     from . import compose, data
 
     found, look = facts.of(material), theme.current(bpy.context.preferences)
-    state = digest(found, look)
+    state = (found, look)
     try:
         space = working_space.current()
         shown = data.collect(material, space, found.engine)
@@ -257,7 +250,7 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
 
 def _compared(material: Any, found: Facts, space: Any) -> tuple[float, float, float] | None:
     """Compare the shader node with the target where the stamp does not say how far they are."""
-    if stamp.numbers_hold(found):
+    if stamp.numbers(found) is not None:
         return None
     from . import data, shown
 
@@ -267,7 +260,7 @@ def _compared(material: Any, found: Facts, space: Any) -> tuple[float, float, fl
     return shown.differences(request, data.spectra_of(request), shader, space)
 
 
-def _store(wish: _Wish, state: int, canvas: Any) -> None:
+def _store(wish: _Wish, state: State, canvas: Any) -> None:
     picture = _pictures.get(wish)
     if picture is None:
         name = f"{wish.material}-{wish.figure}-{wish.side}"

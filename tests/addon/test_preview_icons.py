@@ -34,8 +34,7 @@ def material(make_material, colorchecker):
 
 def asked(material, figure, units):
     """The icon that a panel gets while it draws."""
-    look = theme.current(bpy.context.preferences)
-    state = icons.digest(facts.of(material), look)
+    state = (facts.of(material), theme.current(bpy.context.preferences))
     return icons.icon_id(material.session_uid, figure, side(units), state)
 
 

@@ -103,9 +103,10 @@ def green():
     icons.clear()
 
 
-def digest(material):
-    """What the material's pictures depend on."""
-    return icons.digest(facts.of(material), theme.current(bpy.context.preferences))
+def differences(material):
+    """ΔE00 that the panel computed of what is in the shader node."""
+    state = (facts.of(material), theme.current(bpy.context.preferences))
+    return icons.differences(material.session_uid, state)
 
 
 def test_without_an_object_there_is_no_panel():
@@ -177,7 +178,7 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     node.inputs["Color"].default_value = (0.09, 0.27, 0.11, 1)
     drawn()
     icons._work()
-    at_instrument, mean, high = icons.differences(green.session_uid, digest(green))
+    at_instrument, mean, high = differences(green)
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
     assert at_instrument == pytest.approx(measured.get(green).delta_e, abs=0.01)
     assert at_instrument > 1
@@ -205,7 +206,7 @@ def test_another_engine_is_named_as_what_limits(green):
     icons._work()
     page = drawn()
     assert any("only Cycles shows the roughness" in line for line in page)
-    _, mean, _ = icons.differences(green.session_uid, digest(green))
+    _, mean, _ = differences(green)
     assert mean > 2 * in_cycles
 
 
