@@ -20,6 +20,9 @@ from .text import Format, Sentence
 Numbers = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
 
+_KEPT = 1024
+"""Materials whose sentences are kept, as many as their states."""
+
 SWATCHES = 98.0
 """Pixels at UI scale 1 that the swatches take beside the numbers."""
 
@@ -61,7 +64,7 @@ def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
     return (how.format.sentence(iface_(text), icon),)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     """Say why a material's color does not follow from its spectrum."""
     state = stamp.judge(found)
@@ -73,7 +76,7 @@ def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     return tuple(sentences)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
     """Tell how far Blender is from the target, beside the swatches or below them."""
     inset = SWATCHES if beside else 0.0
@@ -83,7 +86,7 @@ def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
     )
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
     """Say what limits a fresh material, and why its model and shader were taken.
 
@@ -102,7 +105,7 @@ def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentenc
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def measurement(
     predicted: float, measured: float, current: bool, how: Style
 ) -> tuple[Sentence, ...]:
@@ -116,7 +119,7 @@ def measurement(
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     """Say how right a material is under each light of its scene; `name` is the scene's of now."""
     if not found.analyzed:
@@ -134,7 +137,7 @@ def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=_KEPT)
 def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sentence, ...], ...]:
     """Say where a spectrum and its σ come from; what the file says of itself stands together."""
     about, notes = _details(details)

@@ -95,9 +95,9 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
     lines: list[list[str]] = [[]]
     used = 0.0
     for word in _UNBROKEN.sub(_GLUE, " ".join(text.split())).split(" "):
-        pieces = [word] if _width(word, size) <= most else _pieces(word, most, size)
-        for piece in pieces:
-            needed = _width(piece, size)
+        whole = _width(word, size)
+        pieces = [(word, whole)] if whole <= most else _pieces(word, most, size)
+        for piece, needed in pieces:
             if lines[-1] and used + space + needed > most:
                 lines.append([])
             used = used + space + needed if lines[-1] else needed
@@ -105,14 +105,14 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
     return tuple(" ".join(line).replace(_GLUE, " ") for line in lines)
 
 
-def _pieces(word: str, most: float, size: float) -> list[str]:
-    """Break a word into pieces that fit, all but the last as long as they can be."""
+def _pieces(word: str, most: float, size: float) -> list[tuple[str, float]]:
+    """Break a word into pieces that fit, all but the last as long as they can be; with widths."""
     pieces = [""]
     for letter in word:
         if pieces[-1] and _width(pieces[-1] + letter, size) > most:
             pieces.append("")
         pieces[-1] += letter
-    return pieces
+    return [(piece, _width(piece, size)) for piece in pieces]
 
 
 @lru_cache(maxsize=2048)

@@ -306,3 +306,46 @@ def test_local_copy_of_a_linked_material_is_written(library):
     with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
         wanted.materials = ["Plaster"]
     written(wanted.materials[0].copy())
+
+
+PRINCIPLED = ("Specular IOR Level", *nodes._PURE_DIFFUSE)
+
+
+@pytest.mark.parametrize("name", PRINCIPLED)
+def test_a_surface_is_read_from_the_sockets_of_these_names(make_material, name):
+    material = make_material(node="ShaderNodeBsdfPrincipled", Specular_IOR_Level=0.0)
+    node = surface(material)
+    node.inputs["Base Color"].default_value = (0.1, 0.2, 0.3, 1.0)
+    node.inputs["Diffuse Roughness"].default_value = 0.4
+    found = nodes.surface(material)
+    assert (*found.color, found.roughness) == pytest.approx((0.1, 0.2, 0.3, 0.4))
+    assert (found.node, found.linked, found.muted, found.disturbing) == (node.name, [], False, ())
+    node.inputs[name].default_value = 0.5
+    assert nodes.surface(material).disturbing == (name,)
+    node.inputs[name].default_value = nodes._PURE_DIFFUSE.get(name, 0.0)
+    tree = material.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeValue").outputs[0], node.inputs[name])
+    assert nodes.surface(material).disturbing == (name,)
+
+
+@pytest.mark.parametrize("kind", ["ShaderNodeBsdfDiffuse", "ShaderNodeBsdfPrincipled"])
+def test_what_other_nodes_set_is_named_as_the_sockets_are(make_material, kind):
+    material = make_material(node=kind)
+    node, tree = surface(material), material.node_tree
+    sockets = nodes.color_socket(node), nodes.roughness_socket(node)
+    for socket in sockets:
+        tree.links.new(tree.nodes.new("ShaderNodeValue").outputs[0], socket)
+    assert nodes.surface(material).linked == [socket.name for socket in sockets]
+    node.mute = True
+    assert nodes.surface(material).muted
+
+
+def test_the_link_is_found_among_those_of_a_large_tree(make_material):
+    material = make_material()
+    tree, node = material.node_tree, surface(material)
+    for _ in range(50):
+        first, second = (tree.nodes.new("ShaderNodeMath") for _ in range(2))
+        tree.links.new(first.outputs[0], second.inputs[0])
+    tree.links.remove(tree.get_output_node("CYCLES").inputs["Surface"].links[0])
+    tree.links.new(node.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+    assert nodes.shader_node(material) == node

@@ -113,13 +113,13 @@ GERMAN = {
 def another_language(found):
     """Draw in German, as far as a few words go."""
     yield from green_file()
+    found["before"] = _measurement()
     view = bpy.context.preferences.view
     bpy.app.translations.register("desktop tests", {"de_DE": GERMAN})
     view.language = "de_DE"
     view.use_translate_interface = view.use_translate_reports = True
     yield 1.0
-    sentences = ours("addon.panels.sentences")
-    found["drawn"] = sentences._difference(sentences.iface_("Measured"), 0.1)
+    found["drawn"] = _measurement()
     with over(area("PROPERTIES")):
         OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
     label = OPS.renew.get_rna_type()
@@ -127,6 +127,15 @@ def another_language(found):
     yield 0.5
     view.language = "en_US"
     bpy.app.translations.unregister("desktop tests")
+    found["after"] = _measurement()
+
+
+def _measurement():
+    """The line that the panel draws of a measurement, in the language of now."""
+    sentences, text = ours("addon.panels.sentences"), ours("addon.panels.text")
+    style = sentences.style(text.Format(600, False, 1.0, 11.0))
+    _, ((line, _),) = sentences.measurement(0.0, 0.1, True, style)
+    return line
 
 
 @scene

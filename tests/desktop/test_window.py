@@ -87,6 +87,7 @@ def test_preferences(scene):
 
 
 def test_another_language(scene):
+    assert scene["before"] == scene["after"] == "Measured: ΔE00 0.10, not visible"
     assert scene["drawn"] == "Gemessen: ΔE00 0.10, nicht sichtbar"
     assert scene["label"] == "Erneuern"
 

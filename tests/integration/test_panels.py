@@ -15,6 +15,7 @@ import types
 import bpy
 import pytest
 from rough_spectra.addon import facts, measured, panels, storage
+from rough_spectra.addon.panels import sentences, text
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
 
@@ -335,3 +336,31 @@ def test_right_click_menus_offer_to_measure_what_was_clicked(green):
         assert menu.layout.page == ["rough_spectra.measure"]
     for name in panels.menus._MENUS:
         assert panels.menus.draw_measure in getattr(bpy.types, name)._dyn_ui_initialize()
+
+
+def test_what_has_not_changed_is_not_composed_again(green):
+    def composed():
+        return [
+            made.cache_info().misses
+            for made in (sentences.difference, sentences.numbers, sentences.scene, text._lines)
+        ]
+
+    drawn()
+    before = composed()
+    drawn()
+    assert composed() == before
+    green.rough_spectra.sigma = 0.6
+    assert composed() == before
+    drawn()
+    assert composed() != before
+
+
+def test_a_panel_by_itself_asks_anew(green):
+    """As with `wm.call_panel`, where none around it has asked."""
+    drawn()
+    green.rough_spectra.model = "lambert"
+    other = context(region=types.SimpleNamespace(width=300))
+    page = []
+    panels.ROUGHSPECTRA_PT_difference.draw(types.SimpleNamespace(layout=Layout(page)), other)
+    assert any("Material rough" in line or "Material lambert" in line for line in page)
+    assert not any(line.startswith("Model") for line in page)
