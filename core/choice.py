@@ -76,7 +76,7 @@ def choose_shader(
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
         f"{model}: at worst {unit} {_number(errors[model], tolerance)} off, "
-        f"{'within' if errors[model] <= tolerance else 'more than'} {limit}; "
+        f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
         f"{'without' if model == 'rough' else 'with'} roughness it would be "
         f"{_number(errors[other], tolerance)}."
     )
