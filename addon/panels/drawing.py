@@ -49,8 +49,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
     layout.use_property_split = True
     layout.use_property_decorate = False
     column = layout.column()
-    if shown.facts.elsewhere:
-        column.enabled = False
+    column.enabled = material.is_editable
     column.prop(group, "kind")
     if inputs.kind == "reading":
         column.prop(group, "instrument")
@@ -98,16 +97,21 @@ def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
 def draw_difference(layout: Any, context: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
     here = current(context)
-    shown = here.shown
+    otherwise = "Color or roughness comes from another node: there is no one color to compare"
+    shown = _of_one_color(layout, here, otherwise)
     if shown is None:
-        return
-    if shown.is_textured:
-        label = "Color or roughness comes from another node: there is no one color to compare"
-        text.draw(layout, sentences.of(label, "INFO", here.style))
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
         text.draw(layout, sentences.difference(shown.facts, apart, here.style))
+
+
+def _of_one_color(layout: Any, here: redraw.Redraw, otherwise: str) -> redraw.Shown | None:
+    """Give the material if its node holds a color to picture; if another node does, say so."""
+    if here.shown is None or not here.shown.is_textured:
+        return here.shown
+    text.draw(layout, sentences.of(otherwise, "INFO", here.style))
+    return None
 
 
 def _draw_swatches(
@@ -127,12 +131,8 @@ def _draw_swatches(
 def draw_plots(layout: Any, context: Any) -> None:
     """Show the range of σ, spectrum and angles."""
     here = current(context)
-    shown = here.shown
+    shown = _of_one_color(layout, here, "There is no one color to plot")
     if shown is None:
-        return
-    if shown.is_textured:
-        label = "There is no one color to plot"
-        text.draw(layout, sentences.of(label, "INFO", here.style))
         return
     units = icons.fit(here.width, shown.unit)
     layout.template_icon(shown.picture("sheet", units), scale=units)

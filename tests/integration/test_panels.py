@@ -67,8 +67,10 @@ class Layout:
     def separator(self):
         pass
 
-    def __setattr__(self, name, _value):
+    def __setattr__(self, name, value):
         assert name in bpy.types.UILayout.bl_rna.properties
+        if name == "enabled":
+            self.page.append(f"enabled: {value}")
 
 
 def context(space="PROPERTIES", **more):
@@ -318,6 +320,17 @@ def test_a_linked_material_is_not_to_be_changed_here(scene_file):
     page = drawn()
     assert any("linked" in line for line in page)
     assert "rough_spectra.renew" not in page
+    assert "enabled: False" in page
+
+
+def test_the_settings_of_an_override_can_be_changed(scene_file):
+    with bpy.data.libraries.load(str(scene_file), link=True) as (_, wanted):
+        wanted.materials = ["Alpha"]
+    (linked,) = wanted.materials
+    mesh_object("Wall", linked.override_create())
+    page = drawn()
+    assert any("library override" in line for line in page)
+    assert "enabled: True" in page
 
 
 def test_the_sidebar_of_the_shader_editor_shows_the_same(green):
