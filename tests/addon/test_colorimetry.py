@@ -190,6 +190,21 @@ def test_unknown_light_or_observer_is_refused(arguments, sentence):
     assert str(caught.value).startswith(sentence)
 
 
+def test_opposite_hues_are_half_a_turn_apart_and_not_more():
+    """The formula then takes the hue halfway between the two angles: rounding must not turn it."""
+    rng = np.random.default_rng(5)
+    chroma = np.column_stack((rng.uniform(0.1, 60, 20000), rng.choice((1e-3, 1, 60), 20000)))
+    one = np.column_stack((np.full(20000, 50.0), chroma * rng.choice((-1, 1), chroma.shape)))
+    other = one * (1, -1, -1)
+    # Less than half a turn without any doubt: the larger of the two angles, below, a hair smaller.
+    below = np.where(one[:, 2:] < 0, one, other)
+    above = -below * (-1, 1, 1)
+    hair = below + 1e-7 * np.column_stack((np.zeros(20000), below[:, 2], -below[:, 1]))
+    expected = colorimetry.delta_e(above, hair)
+    np.testing.assert_allclose(colorimetry.delta_e(one, other), expected, rtol=1e-5)
+    np.testing.assert_allclose(colorimetry.delta_e(other, one), expected, rtol=1e-5)
+
+
 def test_delta_e_is_ciede2000_to_the_digits_published():
     table = np.array([[float(x) for x in line.split()] for line in SHARMA.split("\n") if line])
     assert table.shape == (34, 7)
