@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from . import facts, nodes
 from .facts import Facts, Inputs, has_spectrum
@@ -26,8 +26,7 @@ _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
 
 
-@dataclass(frozen=True)
-class Stamp:
+class Stamp(NamedTuple):
     """What was written to the shader node, and from what.
 
     Parameters
@@ -226,7 +225,6 @@ def inputs_digest(group: Any) -> str:
 
 
 _NONE = State("none")
-_FIELDS = {field.name for field in fields(Stamp)}
 _NUMBERS = ("roughness", "delta_e_instrument", "delta_e_mean", "delta_e_95")
 
 
@@ -244,7 +242,7 @@ def parse(text: str) -> Stamp | None:
     try:
         data = json.loads(text)
         # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.
-        data = {key: data[key] for key in data if key in _FIELDS}
+        data = {key: data[key] for key in Stamp._fields if key in data}
         red, green, blue = map(float, data["color"])
         data |= {"color": (red, green, blue), "warnings": tuple(map(str, data["warnings"]))}
         data |= {key: float(data[key]) for key in _NUMBERS}

@@ -20,8 +20,7 @@ _LEAST = 80.0
 _LINE = 0.8
 """Height of a line, in heights of a button."""
 _GLUE = "\N{NO-BREAK SPACE}"
-_UNBROKEN = re.compile(r"(?<=ΔE00) (?=\d)|(?<=\d) (?=(?:nm|%|K)(?!\w))|(?<=σ) (?==)|(?<==) (?=\d)")
-"""Spaces at which no line may end: a number stays with what it is of."""
+_UNIT = re.compile(r"(?:nm|%|K)(?!\w)")
 
 Sentence = tuple[tuple[str, int], ...]
 """Lines, each with the number of the icon before it."""
@@ -94,7 +93,7 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
     space = _width("x x", size) - 2 * _width("x", size)
     lines: list[list[str]] = [[]]
     used = 0.0
-    for word in _UNBROKEN.sub(_GLUE, " ".join(text.split())).split(" "):
+    for word in _words(text):
         whole = _width(word, size)
         pieces = [(word, whole)] if whole <= most else _pieces(word, most, size)
         for piece, needed in pieces:
@@ -103,6 +102,25 @@ def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, .
             used = used + space + needed if lines[-1] else needed
             lines[-1].append(piece)
     return tuple(" ".join(line).replace(_GLUE, " ") for line in lines)
+
+
+def _words(text: str) -> list[str]:
+    """Split a text at the spaces where a line may end: a number stays with what it is of."""
+    words: list[str] = []
+    for word in text.split():
+        if words and _belongs(words[-1], word):
+            words[-1] += _GLUE + word
+        else:
+            words.append(word)
+    return words
+
+
+def _belongs(before: str, word: str) -> bool:
+    if word[0].isdecimal():
+        return before.endswith(("ΔE00", "="))
+    if word[0] == "=":
+        return before.endswith("σ")
+    return before[-1].isdecimal() and _UNIT.match(word) is not None
 
 
 def _pieces(word: str, most: float, size: float) -> list[tuple[str, float]]:

@@ -377,3 +377,16 @@ def test_a_panel_by_itself_asks_anew(green):
     panels.ROUGHSPECTRA_PT_difference.draw(types.SimpleNamespace(layout=Layout(page)), other)
     assert any("Material rough" in line or "Material lambert" in line for line in page)
     assert not any(line.startswith("Model") for line in page)
+
+
+def test_a_number_stays_in_one_line_with_what_it_is_of():
+    sentence = (
+        "At most ΔE00 0.31 from 380 nm on, 5 % of it at 2856 K; σ = 30° and 13 Kinds of 4 nmX"
+    )
+    kept = [word.replace(text._GLUE, " ") for word in text._words(sentence) if text._GLUE in word]
+    assert kept == ["ΔE00 0.31", "380 nm", "5 %", "2856 K;", "σ = 30°"]
+    assert " ".join(text._words(sentence)).replace(text._GLUE, " ") == sentence
+    for width in range(80, 400, 5):
+        lines = text._lines(sentence, width, 11.0, 1.0)
+        assert " ".join(lines) == sentence
+        assert all(any(part in line for line in lines) for part in kept)
