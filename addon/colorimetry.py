@@ -104,8 +104,11 @@ LAB_FROM_ROOTS = np.array(((0.0, 116, 0), (500, -500, 0), (0, 200, -200)))
 def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
     """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
-    x, y, z = np.moveaxis(_bent(ratio, np.cbrt(ratio)), -1, 0)
-    return np.stack((116 * y - 16, 500 * (x - y), 200 * (y - z)), axis=-1)
+    bent = _bent(ratio, np.cbrt(ratio))
+    x, y, z = bent[..., 0], bent[..., 1], bent[..., 2]
+    lab = np.empty_like(bent)
+    lab[..., 0], lab[..., 1], lab[..., 2] = 116 * y - 16, 500 * (x - y), 200 * (y - z)
+    return lab
 
 
 def roots(relative: Array) -> tuple[Array, Array]:
@@ -139,8 +142,9 @@ def delta_e(lab_a: npt.ArrayLike, lab_b: npt.ArrayLike) -> Array:
     Source: G. Sharma, W. Wu and E. N. Dalal, "The CIEDE2000 color-difference formula" (2005);
     variables are named as there.
     """
-    l_1, a_1, b_1 = np.moveaxis(np.asarray(lab_a, np.float64), -1, 0)
-    l_2, a_2, b_2 = np.moveaxis(np.asarray(lab_b, np.float64), -1, 0)
+    one, other = np.asarray(lab_a, np.float64), np.asarray(lab_b, np.float64)
+    l_1, a_1, b_1 = one[..., 0], one[..., 1], one[..., 2]
+    l_2, a_2, b_2 = other[..., 0], other[..., 1], other[..., 2]
     # Blue-green grays are stretched along a*.
     plain = (np.sqrt(a_1 * a_1 + b_1 * b_1) + np.sqrt(a_2 * a_2 + b_2 * b_2)) / 2
     stretch = 1.5 - 0.5 * _saturation(plain)

@@ -9,6 +9,7 @@ without a sentence is one to use without a second thought.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -62,6 +63,18 @@ def judge(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
 
 def judge_each(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     """Give the sentences that follow from each sample alone, in the order of `samples`."""
+    if len(samples) == 1:
+        return [_judge_one(samples[0])]
+    return _judge_all(samples)
+
+
+@lru_cache(maxsize=256)
+def _judge_one(sample: Sample) -> tuple[str, ...]:
+    """Judge a sample once: while a slider is dragged, it stays the same."""
+    return _judge_all([sample])[0]
+
+
+def _judge_all(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     found: list[list[str]] = [[] for _ in samples]
     for members in _groups(range(len(samples)), lambda i: samples[i].wavelengths.tobytes()):
         at_once = max(1, _VALUES_AT_ONCE // samples[members[0]].wavelengths.size)

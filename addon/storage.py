@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from ..core.errors import InputError, MaterialError
@@ -78,19 +79,14 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         raise MaterialError(msg)
     _refuse_newer(material)
     try:
-        spectrum, details = json.loads(group.spectrum), json.loads(group.details or "{}")
-        lists = ("lab", "xyz", *_SENTENCES)
-        pairs = {key: tuple(details[key]) for key in lists if details.get(key)}
-        plain = {key: details[key] for key in _DETAILS if key in details and key not in pairs}
-        sample = Sample(
-            name=group.sample_name,
-            wavelengths=spectrum["wavelengths"],
-            values=spectrum["values"],
-            kind=group.kind,
-            instrument=group.instrument,
-            sigma_source=group.sigma_source,
-            source=group.source,
-            **(plain | pairs),
+        sample = _sample(
+            group.sample_name,
+            group.spectrum,
+            group.details,
+            group.kind,
+            group.instrument,
+            group.sigma_source,
+            group.source,
         )
     except (InputError, ValueError, KeyError, TypeError, AttributeError) as error:
         msg = (
@@ -109,6 +105,27 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         flat=view is not None and engine_is_flat(),
     )
     return in_scene(material, request)
+
+
+@lru_cache(maxsize=256)
+def _sample(
+    name: str, spectrum: str, details: str, kind: Any, instrument: str, about_sigma: str, cited: str
+) -> Sample:
+    """Read a sample from what is stored of it; once, while a slider is dragged."""
+    bands, more = json.loads(spectrum), json.loads(details or "{}")
+    lists = ("lab", "xyz", *_SENTENCES)
+    pairs = {key: tuple(more[key]) for key in lists if more.get(key)}
+    plain = {key: more[key] for key in _DETAILS if key in more and key not in pairs}
+    return Sample(
+        name=name,
+        wavelengths=bands["wavelengths"],
+        values=bands["values"],
+        kind=kind,
+        instrument=instrument,
+        sigma_source=about_sigma,
+        source=cited,
+        **(plain | pairs),
+    )
 
 
 def in_scene(material: Any, request: Request) -> Request:

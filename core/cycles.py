@@ -205,7 +205,7 @@ def _lobe(
     """
     dtype = precision(roughness, theta_i, theta_r, delta_phi)
     outside = (roughness < 0) | (roughness > 1)
-    if np.any(outside):
+    if outside.any():
         first = float(roughness[outside].flat[0])
         msg = f"Cycles' diffuse roughness holds {first:.6g}; it runs from 0 to 1 and is not σ."
         raise DomainError(msg)
