@@ -63,7 +63,7 @@ class Inputs(NamedTuple):
 
 
 class Facts(NamedTuple):
-    """A material that stores a spectrum, and what it depends on of its file.
+    """A material, and what its state depends on of the file; without a spectrum that text is empty.
 
     Parameters
     ----------

