@@ -72,7 +72,7 @@ def slope_deviation(sigma: npt.ArrayLike, dtype: np.dtype[Any]) -> Array:
 
 def _check_range(array: Array, what: str) -> None:
     outside = (array < 0) | (array > _LARGEST_ANGLE)
-    if outside.any():
+    if np.count_nonzero(outside):
         worst = float(array[outside].flat[0])
         msg = (
             f"{what} holds {worst:.6g} rad ({np.degrees(worst):.4g}°), outside 0 to π/2; "

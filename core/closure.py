@@ -28,7 +28,9 @@ white facets gives the albedo 1.05.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from math import comb
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -36,6 +38,7 @@ import numpy.typing as npt
 from . import closure_coefficients as fitted
 from .arrays import Array, polar_angle, precision, slope_deviation, spectrum
 from .blocks import apply_in_blocks
+from .remembered import remembered
 
 RING_ERROR = 0.01
 """Largest relative error of a 45a:0 reading, σ ≤ 50°, 0 < ρ ≤ 1; up to σ = 90° it is 0.0131."""
@@ -163,22 +166,41 @@ def factors(
         If an angle lies outside its range. NaN passes and stays where it was.
     """
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
-    light = np.tan(np.minimum(polar_angle(theta_i, "theta_i", dtype), LARGEST_ANGLE) / 2)
-    view = np.tan(np.minimum(polar_angle(theta_r, "theta_r", dtype), LARGEST_ANGLE) / 2)
-    cosine = np.cos(np.asarray(delta_phi, dtype=dtype))
+    angles = (np.asarray(angle, dtype) for angle in (theta_i, theta_r, delta_phi))
     t = roughness_variable(slope_deviation(sigma, dtype))
-    table = fitted.GEOMETRY.astype(dtype)
-    shape = np.broadcast_shapes(light.shape, view.shape, cosine.shape, t.shape)
+    half = _halved(*angles)
+    shape = np.broadcast_shapes(half[0].shape, t.shape)
+    table = _powers(dtype)
     if t.size == 1:
         # One roughness: the polynomials in t become numbers before any geometry is looked at.
-        table = _polynomial(np.moveaxis(table, -1, 0), t.reshape(1, 1))[..., np.newaxis]
-    flat = [np.broadcast_to(values, shape).ravel() for values in (light, view, cosine, t)]
-    found = np.empty((3, flat[0].size), dtype)
-    for start in range(0, flat[0].size, _CHUNK):
+        t = t.reshape(1)
+        table = _polynomial(table, t)[np.newaxis]
+        light, view, cosine = (values.ravel() for values in half)
+    else:
+        light, view, cosine, t = (np.broadcast_to(x, shape).ravel() for x in (*half, t))
+    found = np.empty((3, light.size), dtype)
+    for start in range(0, light.size, _CHUNK):
         block = slice(start, start + _CHUNK)
-        found[:, block] = _factors(table, *(values[block] for values in flat))
+        of_block = t if t.size == 1 else t[block]
+        found[:, block] = _factors(table, light[block], view[block], cosine[block], of_block)
     single, walk, ratio = found.reshape(3, *shape)
     return single, walk, ratio
+
+
+@lru_cache(maxsize=2)
+def _powers(dtype: np.dtype[Any]) -> Array:
+    """Give the table of the fit, the powers of t first: shape (powers, 3 functions, terms)."""
+    return np.ascontiguousarray(np.moveaxis(fitted.GEOMETRY, -1, 0), dtype)
+
+
+@remembered
+def _halved(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
+    """Give tan(θ/2) of light and view, and cos Δφ, all of the same shape."""
+    light, view = (
+        np.tan(np.minimum(polar_angle(angle, what, angle.dtype), LARGEST_ANGLE) / 2)
+        for angle, what in ((theta_i, "theta_i"), (theta_r, "theta_r"))
+    )
+    return tuple(np.broadcast_arrays(light, view, np.cos(delta_phi)))
 
 
 def reflectance(
@@ -252,11 +274,17 @@ def combine(first: Array, later: Array, odds: Array, t: Array) -> tuple[Array, A
 def _factors(
     table: Array, light: Array, view: Array, cosine: Array, t: Array
 ) -> tuple[Array, Array, Array]:
-    """b, a and g of geometries (n,), with `table` of shape (3 functions, terms, powers of t)."""
-    terms = monomials(light, view, cosine, fitted.DEGREE)
-    powers = np.moveaxis(table, -1, 0).reshape(-1, terms.shape[0]) @ terms
+    """b, a and g of geometries (n,), with `table` as in `_powers`; t is of shape (n,) or (1,)."""
+    [terms] = _terms(light, view, cosine)
+    powers = table.reshape(-1, terms.shape[0]) @ terms
     first, later, odds = _polynomial(powers.reshape(-1, 3, light.size), t)
     return combine(first, later, odds, t)
+
+
+@remembered
+def _terms(light: Array, view: Array, cosine: Array) -> tuple[Array, ...]:
+    """Give the monomials of the fit, and nothing else."""
+    return (monomials(light, view, cosine, fitted.DEGREE),)
 
 
 def _polynomial(coefficients: Array | Sequence[float], x: Array) -> Array:

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from .arrays import Array, polar_angle, precision, spectrum
 from .errors import DomainError
 from .reading import INSTRUMENT_ANGLES
+from .remembered import remembered
 
 ALBEDO_SPAN = np.pi / 2 - 2 / 3
 """How much a rough surface's directional albedo can lose; Fujii's normalization."""
@@ -27,11 +28,21 @@ MEAN_SPAN = ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
 
 _NEWTON_STEPS = 12
 """Newton on a convex cubic from above needs at most 7 steps to full double precision for c ≤ 1."""
+_SURE_STEPS = 2
+"""Steps taken by all: to ask whether a color needs them costs as much as a step."""
+
+Lobe = tuple[Array, Array, Array]
+"""A, B and D of `_lobe`."""
+
+_RING = "45a:0"
+"""Geometry whose reading a match meets exactly."""
 
 _PLACES = 9
 """Roughnesses tried at once, both ends of an interval among them."""
 _KNOWN = np.arange(_PLACES) % (_PLACES // 2) == 0
 """Those of them that were tried before in the interval twice around."""
+_SHARES = np.linspace(0, 1, _PLACES)
+_AROUND = np.arange(-1, 2)
 _ZOOMS = 2
 """Times that the interval shrinks to two steps of the one before: the last step is 0.008, and a
 parabola goes on from there."""
@@ -67,19 +78,13 @@ def reflectance(
         If a polar angle lies outside [0, π/2] or the roughness outside 0 to 1.
     """
     c = spectrum(color, "the color")
-    single, multiple, ratio = (
-        term[..., np.newaxis]
-        for term in _lobe(
-            *(np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
-        )
-    )
-    # An infinite color is NaN there, and needs no warning beside it.
-    with np.errstate(invalid="ignore"):
-        return np.asarray(c * (single + c * c * multiple / (1 - c * ratio)))
+    s, *angles = (np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
+    _check_roughness(s)
+    return _reflected(c, _lobe(s, *_directions(*angles)))
 
 
 def color_for_reading(
-    reading: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str = "45a:0"
+    reading: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str = _RING
 ) -> Array:
     """Socket color whose reading in Cycles is the given one, channel by channel.
 
@@ -98,23 +103,9 @@ def color_for_reading(
     is: nothing is clipped. NaN where the reading is NaN or infinite.
     """
     r = spectrum(reading, "the reading")
-    angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
-    single, multiple, ratio = (term[..., np.newaxis] for term in _lobe(*angles))
-    # r (1 - D c) = A c (1 - D c) + B c³. The start lies above the root and the cubic is convex
-    # there, so Newton comes down to the root without overshooting.
-    c = r / single
-    # The step after one this small is below the last place: Newton doubles the digits.
-    settled, moving = np.sqrt(np.finfo(r.dtype).eps) / 8, np.True_
-    with np.errstate(invalid="ignore"):
-        for _ in range(_NEWTON_STEPS):
-            value = ((multiple * c - single * ratio) * c + single + r * ratio) * c - r
-            slope = (3 * multiple * c - 2 * single * ratio) * c + single + r * ratio
-            step = np.where(moving, value / slope, 0)
-            c = c - step
-            moving = np.abs(step) > settled * np.abs(c)
-            if not moving.any():
-                break
-    return np.asarray(c)
+    s, *angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
+    _check_roughness(s)
+    return _color(r, _lobe(s, *_directions(*angles)))
 
 
 def match(
@@ -151,14 +142,18 @@ def match(
     """
     r = spectrum(reading, "the reading")
     wanted = spectrum(targets, "the targets")
+    directions, instrument = (
+        _directions(*(np.asarray(angles, r.dtype) for angles in where))
+        for where in (geometries, INSTRUMENT_ANGLES[_RING])
+    )
     roughness = np.empty(len(r), r.dtype)
     for start in range(0, len(r), _CHUNK):
         chunk = slice(start, start + _CHUNK)
         of_chunk, goal = r[chunk, np.newaxis], perceive(wanted[chunk, np.newaxis])
 
         def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
-            color = color_for_reading(of_chunk, tried)
-            seen = reflectance(color[..., np.newaxis, :], tried[..., np.newaxis], *geometries)
+            color = _color(of_chunk, _lobe(tried, *instrument))
+            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *directions))
             return np.asarray(difference(perceive(seen), goal).mean(axis=-1))
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
@@ -170,7 +165,7 @@ def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> 
 
     Many places a call and few calls: numpy spends more on a call than on a hundred numbers.
     """
-    shares = np.linspace(0, 1, _PLACES, dtype=dtype)
+    shares = _SHARES.astype(dtype)
     tried = np.tile(shares, (count, 1))
     costs = cost(tried)
     for _ in range(_ZOOMS):
@@ -190,46 +185,89 @@ def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> 
 
 def _around_least(tried: Array, costs: Array) -> tuple[Array, Array]:
     """Give three neighbors with the least cost among them, and in the middle unless at an end."""
-    middle = np.clip(np.argmin(costs, axis=1, keepdims=True), 1, _PLACES - 2)
-    index = middle + np.arange(-1, 2)
-    return np.take_along_axis(tried, index, axis=1), np.take_along_axis(costs, index, axis=1)
+    middle = np.minimum(np.maximum(costs.argmin(axis=1), 1), _PLACES - 2)
+    row, column = np.arange(len(costs))[:, np.newaxis], middle[:, np.newaxis] + _AROUND
+    return tried[row, column], costs[row, column]
 
 
-def _lobe(
-    roughness: Array, theta_i: Array, theta_r: Array, delta_phi: Array
-) -> tuple[Array, Array, Array]:
-    """Compute A, B and D of r = c (A + c² B / (1 - c D)).
-
-    The closure weight multiplies a term that already holds c², hence c³ in the second term.
-    Written so that roughness 0 is not 0/0: 1 - E = a s (k - G) with k the albedo span.
-    """
-    dtype = precision(roughness, theta_i, theta_r, delta_phi)
+def _check_roughness(roughness: Array) -> None:
     outside = (roughness < 0) | (roughness > 1)
-    if outside.any():
+    if np.count_nonzero(outside):
         first = float(roughness[outside].flat[0])
         msg = f"Cycles' diffuse roughness holds {first:.6g}; it runs from 0 to 1 and is not σ."
         raise DomainError(msg)
+
+
+@remembered
+def _directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
+    """Tilt of the facets in a direction, and how much of the light lost elsewhere leaves there.
+
+    All that the closure takes from a geometry.
+    """
+    dtype = precision(theta_i, theta_r, delta_phi)
     light = polar_angle(theta_i, "theta_i", dtype)
     view = polar_angle(theta_r, "theta_r", dtype)
     tilt = np.sin(light) * np.sin(view) * np.cos(delta_phi)
     tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(light), np.cos(view)), tilt)
+    spread = (ALBEDO_SPAN - albedo_shape(light)) * (ALBEDO_SPAN - albedo_shape(view))
+    # numpy 1.26 promotes scalars on the way.
+    return np.asarray(tilt, dtype), np.asarray(spread / MEAN_SPAN, dtype)
+
+
+def _lobe(roughness: Array, tilt: Array, spread: Array) -> Lobe:
+    """Compute A, B and D of r = c (A + c² B / (1 - c D)), each with an axis for the channels.
+
+    The closure weight multiplies a term that already holds c², hence c³ in the second term.
+    Written so that roughness 0 is not 0/0: 1 - E = a s (k - G) with k the albedo span.
+    """
+    dtype = roughness.dtype
     a = 1 / (np.pi + roughness * dtype.type(ALBEDO_SPAN))
     single = np.pi * a * (1 + roughness * tilt)
     lost = a * roughness
     mean_lost = lost * dtype.type(MEAN_SPAN)
-    multiple = (
-        lost
-        * (ALBEDO_SPAN - albedo_shape(light))
-        * (ALBEDO_SPAN - albedo_shape(view))
-        * (1 - mean_lost)
-        / dtype.type(MEAN_SPAN)
-    )
+    multiple = lost * (1 - mean_lost) * spread
     # numpy 1.26 promotes scalars on the way.
     return (
-        np.asarray(single, dtype),
-        np.asarray(multiple, dtype),
-        np.asarray(mean_lost, dtype),
+        np.asarray(single, dtype)[..., np.newaxis],
+        np.asarray(multiple, dtype)[..., np.newaxis],
+        np.asarray(mean_lost, dtype)[..., np.newaxis],
     )
+
+
+def _reflected(color: Array, lobe: Lobe) -> Array:
+    single, multiple, ratio = lobe
+    # An infinite color is NaN there, and needs no warning beside it.
+    with np.errstate(invalid="ignore"):
+        return np.asarray(color * (single + color * color * multiple / (1 - color * ratio)))
+
+
+def _color(r: Array, lobe: Lobe) -> Array:
+    """Invert `_reflected` by Newton's method.
+
+    r (1 - D c) = A c (1 - D c) + B c³. The start lies above the root and the cubic is convex there,
+    so Newton comes down to the root without overshooting.
+    """
+    single, multiple, ratio = lobe
+    c = r / single
+    # The step after one this small is below the last place: Newton doubles the digits.
+    settled, moving = np.sqrt(np.finfo(r.dtype).eps) / 8, np.True_
+    with np.errstate(invalid="ignore"):
+        square, line = -single * ratio, single + r * ratio
+        slope_cube, slope_square = 3 * multiple, 2 * square
+
+        def step(c: Array) -> Array:
+            value = ((multiple * c + square) * c + line) * c - r
+            return np.asarray(value / ((slope_cube * c + slope_square) * c + line))
+
+        for _ in range(_SURE_STEPS):
+            c = c - step(c)
+        for _ in range(_NEWTON_STEPS - _SURE_STEPS):
+            last = np.where(moving, step(c), 0)
+            c = c - last
+            moving = np.abs(last) > settled * np.abs(c)
+            if not np.count_nonzero(moving):
+                break
+    return np.asarray(c)
 
 
 def albedo_shape(theta: Array) -> Array:

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from .arrays import Array
@@ -16,6 +18,7 @@ _PLASTIC = 1.2207440846057596
 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018)."""
 
 
+@lru_cache(maxsize=16)
 def hemisphere(count: int, steepest: float = STEEPEST) -> tuple[Array, Array, Array]:
     """Spread light and view directions over the hemisphere, each with density cos θ.
 
@@ -31,10 +34,13 @@ def hemisphere(count: int, steepest: float = STEEPEST) -> tuple[Array, Array, Ar
     Returns
     -------
     θi, θr, Δφ
-        Radians, each of shape (count,); Δφ in [0, π].
+        Radians, each of shape (count,), read-only; Δφ in [0, π].
     """
     steps = _PLASTIC ** -np.arange(1.0, 4.0)
     u = (0.5 + np.arange(1, count + 1)[:, np.newaxis] * steps) % 1.0
     # sin² θ is uniform when directions have density cos θ.
     theta = np.arcsin(np.sqrt(u[:, :2]) * np.sin(steepest))
-    return theta[:, 0], theta[:, 1], np.pi * u[:, 2]
+    found = theta[:, 0], theta[:, 1], np.pi * u[:, 2]
+    for angles in found:
+        angles.setflags(write=False)
+    return found

@@ -185,15 +185,10 @@ def _predict(
     single = f1[..., np.newaxis] * flat
     wanted = truth @ weights
     margin = np.where(np.isfinite(missed), missed, 0)[..., np.newaxis]
-    seen = np.stack(
-        (
-            np.broadcast_to(flat, wanted.shape),
-            single,
-            single + f2[..., np.newaxis] * squared,
-            closed @ weights,
-            wanted * (1 + margin),
-        )
-    )
+    seen = np.empty((len(RUNGS), *wanted.shape))
+    rungs = (flat, single, single + f2[..., np.newaxis] * squared, closed @ weights)
+    for row, color in enumerate((*rungs, wanted * (1 + margin))):
+        seen[row] = color
     # (rungs, materials, geometries, lights)
     whites = weights.sum(axis=0).reshape(-1, 3)
     seen, wanted = (xyz.reshape(*xyz.shape[:-1], *whites.shape) for xyz in (seen, wanted))

@@ -11,13 +11,15 @@ qualitative model and 2/π - 1 of the 1993 fit belong to other models and are no
 
 from __future__ import annotations
 
+from math import prod
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, polar_angle, precision, slope_deviation, spectrum
-from .blocks import apply_in_blocks, blocks, part
+from .blocks import ELEMENTS, apply_in_blocks, blocks, part
+from .remembered import remembered
 
 _BEYOND = {4: -4.371139000186241e-08, 8: 6.123233995736766e-17}
 """π/2 minus its nearest float32 and float64, by size in bytes: the rest of π/2 - β."""
@@ -69,6 +71,8 @@ def factors(
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
     geometry = _checked(theta_i, theta_r, delta_phi, sigma, dtype)
     shape = np.broadcast_shapes(*(array.shape for array in geometry))
+    if prod(shape) <= ELEMENTS:
+        return _factors(*geometry)
     f1, f2 = np.empty(shape, dtype), np.empty(shape, dtype)
     for index in blocks(shape):
         f1[index], f2[index] = _factors(*(part(array, index, len(shape)) for array in geometry))
@@ -139,13 +143,24 @@ def _checked(
 
 
 def _factors(light: Array, view: Array, delta_phi: Array, sigma: Array) -> tuple[Array, Array]:
-    """F1 and F2 of checked arguments.
+    """F1 and F2 of checked arguments."""
+    dtype = light.dtype
+    tilted, slanted, second = _directions(light, view, delta_phi)
+    s2 = sigma * sigma
+    share = s2 / (s2 + 0.09)
+    f1 = first_bounce_at_normal(s2) + 0.45 * share * tilted + 0.125 * share * slanted
+    # numpy 1.26 promotes scalars on the way.
+    return np.asarray(f1, dtype), np.asarray(second_bounce_at_normal(s2) * second, dtype)
+
+
+@remembered
+def _directions(light: Array, view: Array, delta_phi: Array) -> tuple[Array, ...]:
+    """Give what multiplies C2 and C3 of the model in F1, but for their part in σ, and F2.
 
     The half-angle tangent is written with sines and cosines, which are needed anyway: numpy's
     float32 tangent costs several times its sine.
     """
     dtype = light.dtype
-    s2 = sigma * sigma
     with np.errstate(invalid="ignore"):  # an infinite azimuth is NaN, like a missing one
         cos_phi = np.cos(delta_phi)
     alpha, beta = np.maximum(light, view), np.minimum(light, view)
@@ -161,11 +176,9 @@ def _factors(light: Array, view: Array, delta_phi: Array, sigma: Array) -> tuple
     # have a form without a difference of rounded numbers.
     steepness = (dtype.type(np.pi / 2) - beta + dtype.type(_BEYOND[dtype.itemsize])) * two_over_pi
     backward = steepness * (1 + slant + squared) - cos_alpha * cos_alpha / (1 + sin_alpha)
-    c2 = 0.45 * s2 / (s2 + 0.09) * np.where(cos_phi < 0, backward, sin_alpha)
-    c3 = 0.125 * s2 / (s2 + 0.09) * dtype.type(4 / np.pi**2) * (alpha * alpha * squared)
+    tilted = cos_phi * np.where(cos_phi < 0, backward, sin_alpha) * (sin_beta / cos_beta)
     half_angle = (sin_alpha + sin_beta) / (cos_alpha + cos_beta)
-    f1 = first_bounce_at_normal(s2) + cos_phi * c2 * (sin_beta / cos_beta)
-    f1 = f1 + (1 - np.abs(cos_phi)) * c3 * half_angle
-    f2 = second_bounce_at_normal(s2) * (1 - cos_phi * squared)
+    shadow = dtype.type(4 / np.pi**2) * (alpha * alpha * squared)
+    slanted = (1 - np.abs(cos_phi)) * shadow * half_angle
     # numpy 1.26 promotes scalars on the way.
-    return np.asarray(f1, dtype), np.asarray(f2, dtype)
+    return tuple(np.asarray(found, dtype) for found in (tilted, slanted, 1 - cos_phi * squared))

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -29,15 +29,13 @@ import numpy.typing as npt
 
 from . import yardstick_table as table
 from .arrays import Array, polar_angle, slope_deviation, spectrum
+from .remembered import remembered
 
 LARGEST_ANGLE = np.radians(table.POLAR[-1])
 """Polar angles up to here are tabulated; beyond, `bound` is infinite."""
 
 _CUBIC = 4
 """Nodes of a local cubic."""
-
-_REMEMBERED = 256
-"""Directions up to which the terms of a scene are kept: 40 kB at most."""
 
 _SAFETY = 1.3
 """The bound over the largest error that was found. In as many other directions, drawn the same way,
@@ -74,12 +72,14 @@ def reflectance(
     """
     rho = spectrum(albedo, "the albedo").astype(np.float64, copy=False)
     spread = np.broadcast_to(slope_deviation(sigma, rho.dtype), rho.shape[:1])
-    shares = _terms(theta_i, theta_r, delta_phi)
+    [shares] = _terms(*_as_arrays(theta_i, theta_r, delta_phi))
     # Outside 0 to 1 the reference goes on as r(1) ρ and r'(0) ρ; so does this.
-    place = 1 - np.sqrt(1 - np.clip(rho, 0, 1))
+    place = 1 - np.sqrt(1 - np.minimum(np.maximum(rho, 0), 1))
     index, weight = _local(table.SIGMA, np.degrees(spread))
     basis = np.einsum("mi,mikp->mkp", weight, _basis()[index])
-    powers = place[:, np.newaxis] ** np.arange(basis.shape[-1])[:, np.newaxis]
+    powers = np.ones((len(rho), basis.shape[-1], rho.shape[-1]))
+    for power in range(1, basis.shape[-1]):
+        np.multiply(powers[:, power - 1], place, out=powers[:, power])
     out = np.exp(shares @ basis @ powers)
     out *= rho[:, np.newaxis]
     return np.asarray(out)
@@ -95,51 +95,45 @@ def bound(
 
     0 where σ = 0, infinite beyond `LARGEST_ANGLE`.
     """
-    larger, _, azimuth = _folded(theta_i, theta_r, delta_phi)
+    polar, azimuth, beyond = _bins(*_as_arrays(theta_i, theta_r, delta_phi))
     spread = np.asarray(sigma, np.float64)
-    known = np.array(table.BOUND) * 1e-5 * _SAFETY
-    found = known[
-        _bin(table.BOUND_POLAR, larger),
-        _bin(table.BOUND_AZIMUTH, azimuth),
-        _bin(table.BOUND_SIGMA, spread),
-    ]
-    # A rounded 85° is still 85°.
-    found = np.where(larger > LARGEST_ANGLE * (1 + 1e-6), np.inf, found)
+    found = _known_bounds()[polar, azimuth, _bin(table.BOUND_SIGMA, spread)]
+    found = np.where(beyond, np.inf, found)
     return np.asarray(np.where(spread == 0, 0.0, found))
 
 
-def _folded(
-    theta_i: npt.ArrayLike, theta_r: npt.ArrayLike, delta_phi: npt.ArrayLike
-) -> tuple[Array, Array, Array]:
+@remembered
+def _bins(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
+    """Where in the table of bounds directions lie, and which of them are beyond it."""
+    larger, _, azimuth = _folded(theta_i, theta_r, delta_phi)
+    # A rounded 85° is still 85°.
+    beyond = np.asarray(larger > LARGEST_ANGLE * (1 + 1e-6))
+    return _bin(table.BOUND_POLAR, larger), _bin(table.BOUND_AZIMUTH, azimuth), beyond
+
+
+@lru_cache(maxsize=1)
+def _known_bounds() -> Array:
+    return np.array(table.BOUND) * 1e-5 * _SAFETY
+
+
+def _as_arrays(*angles: npt.ArrayLike) -> Iterator[Array]:
+    return (np.asarray(angle, np.float64) for angle in angles)
+
+
+def _folded(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, Array, Array]:
     """Larger polar angle, smaller over larger, azimuth in 0 to π: symmetries leave no more."""
     dtype = np.dtype(np.float64)
     light, view = polar_angle(theta_i, "theta_i", dtype), polar_angle(theta_r, "theta_r", dtype)
     larger, smaller = np.maximum(light, view), np.minimum(light, view)
     ratio = smaller / np.maximum(larger, np.finfo(dtype).tiny)
-    azimuth = np.arccos(np.cos(np.asarray(delta_phi, dtype)))
+    azimuth = np.arccos(np.cos(delta_phi))
     return larger, ratio, azimuth
 
 
-def _terms(theta_i: npt.ArrayLike, theta_r: npt.ArrayLike, delta_phi: npt.ArrayLike) -> Array:
-    """G_k of geometries (...,), shape (..., terms); a few at a time are remembered.
-
-    While σ is dragged, the same directions come again and again.
-    """
-    angles = [np.asarray(angle, np.float64) for angle in (theta_i, theta_r, delta_phi)]
-    if max(angle.size for angle in angles) > _REMEMBERED:
-        return _geometry_terms(*_folded(*angles))
-    return _remembered_terms(*((angle.tobytes(), angle.shape) for angle in angles))
-
-
-@lru_cache(maxsize=64)
-def _remembered_terms(*angles: tuple[bytes, tuple[int, ...]]) -> Array:
-    found = _geometry_terms(*_folded(*(np.frombuffer(b).reshape(shape) for b, shape in angles)))
-    found.setflags(write=False)
-    return found
-
-
-def _geometry_terms(larger: Array, ratio: Array, azimuth: Array) -> Array:
-    """G_k of geometries (...,): shape (..., terms)."""
+@remembered
+def _terms(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
+    """G_k of geometries (...,): shape (..., terms), and nothing else."""
+    larger, ratio, azimuth = _folded(theta_i, theta_r, delta_phi)
     larger, ratio, azimuth = np.broadcast_arrays(np.minimum(larger, LARGEST_ANGLE), ratio, azimuth)
     i, by_polar = _local(table.POLAR, np.degrees(larger))
     j, by_ratio = _local(table.RATIO, ratio)
@@ -151,17 +145,22 @@ def _geometry_terms(larger: Array, ratio: Array, azimuth: Array) -> Array:
     ].reshape(*larger.shape, _CUBIC**3, -1)
     weight = by_polar[..., :, np.newaxis, np.newaxis] * by_ratio[..., np.newaxis, :, np.newaxis]
     weight = weight * by_azimuth[..., np.newaxis, np.newaxis, :]
-    return np.asarray((weight.reshape(*larger.shape, 1, _CUBIC**3) @ corner)[..., 0, :])
+    return (np.asarray((weight.reshape(*larger.shape, 1, _CUBIC**3) @ corner)[..., 0, :]),)
 
 
 def _local(nodes: Sequence[float], at: Array) -> tuple[Array, Array]:
     """Find the four nodes around each place and the weights of their cubic: (..., 4)."""
     places, scale = _cubics(tuple(nodes))
-    first = np.clip(np.searchsorted(places, at) - _CUBIC // 2, 0, places.size - _CUBIC)
+    below = places.searchsorted(at) - _CUBIC // 2
+    first = np.minimum(np.maximum(below, 0), places.size - _CUBIC)
     index = first[..., np.newaxis] + np.arange(_CUBIC)
-    a, b, c, d = np.moveaxis(at[..., np.newaxis] - places[index], -1, 0)
+    apart = at[..., np.newaxis] - places[index]
+    # Of each node, the product of the distances to the other three.
+    weight = np.empty_like(apart)
+    a, b, c, d = (apart[..., node] for node in range(_CUBIC))
     lower, upper = a * b, c * d
-    weight = np.stack((b * upper, a * upper, lower * d, lower * c), axis=-1)
+    for node, product in enumerate((b * upper, a * upper, lower * d, lower * c)):
+        weight[..., node] = product
     weight *= scale[first]
     return index, weight
 
@@ -177,7 +176,7 @@ def _cubics(nodes: tuple[float, ...]) -> tuple[Array, Array]:
 
 def _bin(edges: tuple[float, ...], at: Array) -> Array:
     """Which interval between edges (degrees) an angle lies in; NaN and what is beyond: the last."""
-    return np.minimum(np.searchsorted(np.radians(edges[1:]), at), len(edges) - 2)
+    return np.asarray(np.minimum(np.searchsorted(np.radians(edges[1:]), at), len(edges) - 2))
 
 
 @lru_cache(maxsize=1)

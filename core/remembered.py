@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Remember what depends on directions alone, which come again while everything else changes.
+
+While σ is dragged a material is computed at every step for the same few directions, and most of the
+time of so few goes into calling numpy. Of many directions nothing is kept: there the time goes into
+the numbers, and keeping them costs memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache, wraps
+
+import numpy as np
+
+from .arrays import Array
+
+FEW = 256
+"""Directions up to which results are remembered."""
+
+_KEPT = 32
+"""Sets of directions that are remembered of one function, the latest."""
+
+_Key = tuple[bytes, tuple[int, ...], str]
+
+Directions = Callable[[Array, Array, Array], tuple[Array, ...]]
+"""A function of θi, θr and Δφ that depends on nothing else."""
+
+
+def remembered(function: Directions) -> Directions:
+    """Let a function of θi, θr and Δφ remember its results, which are read-only then."""
+
+    @lru_cache(maxsize=_KEPT)
+    def of_bytes(*keys: _Key) -> tuple[Array, ...]:
+        light, view, azimuth = (
+            np.frombuffer(data, dtype).reshape(shape) for data, shape, dtype in keys
+        )
+        found = function(light, view, azimuth)
+        for array in found:
+            array.setflags(write=False)
+        return found
+
+    @wraps(function)
+    def of_arrays(light: Array, view: Array, azimuth: Array) -> tuple[Array, ...]:
+        angles = (light, view, azimuth)
+        if max(light.size, view.size, azimuth.size) > FEW:
+            return function(*angles)
+        return of_bytes(*((angle.tobytes(), angle.shape, angle.dtype.char) for angle in angles))
+
+    return of_arrays
