@@ -29,8 +29,11 @@ _E308_STEPS = (5, 10, 20)
 _DARK = (6 / 29) ** 3
 """Below this share of the white, CIE Lab goes on as a straight line."""
 _TURN = 2 * np.pi
-_SHIFTS = np.radians([30, 6, 63])
-_HUE_SHIFTS = np.cos(_SHIFTS).tolist(), np.sin(_SHIFTS).tolist()
+_HUE_TERMS = tuple(
+    part * complex(np.exp(1j * np.radians(shift)))
+    for part, shift in ((-0.17, -30), (0.24, 0), (0.32, 6), (-0.20, -63))
+)
+"""Of cos h, cos 2h, cos 3h and cos 4h in `_hue_weight`, with their shifts."""
 _BRADFORD = np.array(
     [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]]
 )
@@ -188,17 +191,14 @@ def _hues(h_1: Array, h_2: Array, product: Array, cross: Array) -> tuple[Array, 
 def _hue_weight(hue: Array) -> Array:
     """1 - 0.17 cos(h - 30°) + 0.24 cos 2h + 0.32 cos(3h + 6°) - 0.20 cos(4h - 63°).
 
-    By the addition theorems: four cosines would take a third of the whole time.
+    As the real part of a polynomial in exp(ih): four cosines would take a third of the whole time.
     """
-    cos, sin = np.cos(hue), np.sin(hue)
-    cos_2, sin_2 = cos * cos - sin * sin, 2 * sin * cos
-    cos_3, sin_3 = cos_2 * cos - sin_2 * sin, sin_2 * cos + cos_2 * sin
-    cos_4, sin_4 = cos_2 * cos_2 - sin_2 * sin_2, 2 * sin_2 * cos_2
-    (cos_30, cos_6, cos_63), (sin_30, sin_6, sin_63) = _HUE_SHIFTS
-    weight = 1 - 0.17 * cos_30 * cos - 0.17 * sin_30 * sin + 0.24 * cos_2
-    weight += 0.32 * cos_6 * cos_3 - 0.32 * sin_6 * sin_3
-    weight -= 0.20 * cos_63 * cos_4 + 0.20 * sin_63 * sin_4
-    return np.asarray(weight)
+    turned = np.empty(hue.shape, np.complex128)
+    turned.real, turned.imag = np.cos(hue), np.sin(hue)
+    once, twice, thrice, four_times = _HUE_TERMS
+    return np.asarray(
+        1 + (turned * (once + turned * (twice + turned * (thrice + turned * four_times)))).real
+    )
 
 
 def _saturation(chroma: Array) -> Array:

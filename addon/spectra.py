@@ -23,8 +23,24 @@ _LARGEST = 90.0
 def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
     """Give readings and albedos, each (materials, bands), of requests that `alike` put together.
 
-    An albedo is above 1 where the reading is more than white facets give.
+    An albedo is above 1 where the reading is more than white facets give. Those of a single request
+    are read-only.
     """
+    if len(requests) == 1:
+        return _of_one(requests[0])
+    return _of_all(requests)
+
+
+@lru_cache(maxsize=16)
+def _of_one(request: Request) -> tuple[Array, Array]:
+    """Compute one material once: while a slider is dragged, its pictures need the same again."""
+    found = _of_all([request])
+    for values in found:
+        values.setflags(write=False)
+    return found
+
+
+def _of_all(requests: list[Request]) -> tuple[Array, Array]:
     model = requests[0].model
     rho = albedos(requests, model)
     if model == "lambert":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -126,7 +127,6 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
     DomainError
         If a spectrum does not cover the visible range, or σ or illuminant is unknown.
     """
-    hemisphere = geometry.hemisphere(CHOICE_GEOMETRIES)
 
     def difference(seen: Array, wanted: Array, white: Array) -> Array:
         lab_seen, lab_wanted = (colorimetry.xyz_to_lab(xyz, white) for xyz in (seen, wanted))
@@ -137,7 +137,7 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
         first = requests[members[0]]
         with spectra.naming(first.sample):
             lights = [colorimetry.weights(first.sample.wavelengths, first.illuminant)]
-        geometries = _with_instrument(hemisphere)
+        geometries = _everywhere(CHOICE_GEOMETRIES)
         if first.scene is not None:
             geometries = _with_instrument(first.scene.angles)
             lights = [light.weights(first.sample.wavelengths) for light in first.scene.lights]
@@ -197,7 +197,7 @@ def _solve(
     matched, roughness = cycles.match(readings, targets, geometries, perceive, colorimetry.delta_e)
     color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
-    everywhere = _with_instrument(geometries)
+    everywhere = _everywhere(MATCH_GEOMETRIES)
     wanted = perceive(np.concatenate((targets, readings[:, np.newaxis]), axis=1))
     rough = cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *everywhere)
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
@@ -213,7 +213,7 @@ def _solve(
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert], met[is_lambert] = lambert[is_lambert], met_smooth[is_lambert]
-    high = np.percentile(over_hemisphere, 95, axis=1)
+    high = _percentile(over_hemisphere, 0.95)
     return [
         Solution(
             color=color[i],
@@ -308,6 +308,21 @@ def _colors(
     # that is negative in the reading itself is out of gamut, which is another matter.
     targets = np.where(readings[:, None] >= 0, np.maximum(targets, 0), targets)
     return readings, targets
+
+
+@lru_cache(maxsize=8)
+def _everywhere(count: int) -> tuple[Array, Array, Array]:
+    """Give directions all over the hemisphere, and the virtual instrument's."""
+    return _with_instrument(geometry.hemisphere(count))
+
+
+def _percentile(values: Array, share: float) -> Array:
+    """Percentile of each row, between the two next to it: numpy's own takes 0.2 ms for a row."""
+    ordered = np.sort(values, axis=1)
+    at = share * (ordered.shape[1] - 1)
+    below = int(at)
+    above = min(below + 1, ordered.shape[1] - 1)
+    return np.asarray(ordered[:, below] + (at - below) * (ordered[:, above] - ordered[:, below]))
 
 
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:

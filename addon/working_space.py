@@ -37,25 +37,39 @@ class WorkingSpace:
         """XYZ of RGB (1, 1, 1), shape (3,)."""
         return np.asarray(np.linalg.solve(self.from_xyz, np.ones(3)))
 
+    @property
+    def _bytes(self) -> bytes:
+        return np.asarray(self.from_xyz, np.float64).tobytes()
+
     def rgb_weights(self, wavelengths: Array, illuminant: str) -> Array:
-        """Give the matrix, shape (bands, 3), that turns reflectance into scene-linear RGB.
+        """Give the matrix, shape (bands, 3), read-only, from reflectance to scene-linear RGB.
 
         Seen by the 2° observer under `illuminant` and adapted with Bradford, so that a neutral
         spectrum has equal R, G and B. Scene RGB is always of the 2° observer: 10° values passed
         through a 2° matrix are another color.
         """
-        weights = colorimetry.weights(wavelengths, illuminant, observer=2)
-        adapt = colorimetry.adaptation(weights.sum(axis=0), self.white)
-        return np.asarray(weights @ (self.from_xyz @ adapt).T)
+        bands = np.asarray(wavelengths, np.float64)
+        return _rgb_weights(bands.tobytes(), self._bytes, illuminant)
 
     def to_xyz(self, rgb: Array, illuminant: str) -> Array:
         """XYZ (2° observer, Y = 1 for white) of scene-linear RGB (..., 3) under `illuminant`."""
-        matrix = _to_xyz(np.asarray(self.from_xyz, np.float64).tobytes(), illuminant)
+        matrix = _to_xyz(self._bytes, illuminant)
         return np.asarray(np.asarray(rgb, np.float64) @ matrix)
 
     def to_lab(self, rgb: Array, illuminant: str) -> Array:
         """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
         return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
+
+
+@lru_cache(maxsize=32)
+def _rgb_weights(wavelengths: bytes, from_xyz: bytes, illuminant: str) -> Array:
+    """Matrix of `rgb_weights`, for the bytes of its arguments."""
+    weights = colorimetry.weights(np.frombuffer(wavelengths), illuminant, observer=2)
+    matrix = np.frombuffer(from_xyz).reshape(3, 3)
+    adapt = colorimetry.adaptation(weights.sum(axis=0), np.linalg.solve(matrix, np.ones(3)))
+    found = np.asarray(weights @ (matrix @ adapt).T)
+    found.setflags(write=False)
+    return found
 
 
 @lru_cache(maxsize=32)
