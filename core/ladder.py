@@ -131,18 +131,21 @@ def choose_model(
     """
     rho = np.atleast_2d(spectrum(albedos, "the albedo")).astype(np.float64, copy=False)
     count, bands = rho.shape
-    spread = np.broadcast_to(np.asarray(sigma, np.float64), (count,))
-    allowed = np.broadcast_to(np.asarray(tolerance, np.float64), (count,))
-    angles = np.broadcast_arrays(*(np.asarray(angle, np.float64) for angle in geometries))
-    occurs = np.broadcast_to(np.isfinite(angles).all(axis=0), (count, angles[0].shape[-1]))
+    spread, allowed = (np.full(count, values, np.float64) for values in (sigma, tolerance))
+    angles = [np.asarray(angle, np.float64) for angle in geometries]
+    if len({angle.shape for angle in angles}) > 1:
+        angles = list(np.broadcast_arrays(*angles))
+    light, view, azimuth = angles
+    # A sum is finite where all its parts are.
+    occurs = np.broadcast_to(np.isfinite(light + view + azimuth), (count, light.shape[-1]))
     directions = occurs.sum(axis=-1)
     if not lights or not directions.all():
         msg = "A choice needs at least one light, and one direction for every material."
         raise DomainError(msg)
-    matrices = [np.asarray(light, np.float64) for light in lights]
+    matrices = [np.asarray(matrix, np.float64) for matrix in lights]
 
     errors = np.empty((len(_APPROXIMATE), count))
-    step = max(1, _CHUNK // (angles[0].shape[-1] * bands))
+    step = max(1, _CHUNK // (light.shape[-1] * bands))
     for start in range(0, count, step):
         part = slice(start, start + step)
         own = [angle[part] if angle.ndim > 1 else angle for angle in angles]

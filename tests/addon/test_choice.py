@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, presets, readings, stamp, target
+from rough_spectra.addon import assign, presets, readings, stamp, target, working_space
 from rough_spectra.core import ladder
 
 
@@ -56,3 +56,29 @@ def test_bake_predicts_with_the_model_that_was_assigned():
     wanted = ladder.reflectance("reference", presets.load("19").values, *at_45_0)
     # 1 %: how far the closure is from the reference.
     np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
+
+
+def test_percentile_is_numpys():
+    """The predictions' own is quicker for a single row, and the same number."""
+    values = np.random.default_rng(2).exponential(size=(7, target.MATCH_GEOMETRIES))
+    for row in (values, values[:1], values[:, :1]):
+        expected = np.percentile(row, 95, axis=1)
+        np.testing.assert_allclose(target._percentile(row, 0.95), expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("model", ["lambert", "first-order", "closure", "reference", "auto"])
+def test_a_material_solved_alone_is_the_one_solved_among_others(model):
+    """Alone, its spectra are kept from one step of a slider to the next; that changes nothing."""
+    requests = [
+        target.Request(presets.load(number), math.radians(degrees), model)
+        for number, degrees in (("13", 20), ("14", 35), ("14", 36), ("19", 60))
+    ]
+    together = target.solve(requests, working_space.current())
+    for request, among in zip(requests, together, strict=True):
+        for _ in range(2):
+            [alone] = target.solve([request], working_space.current())
+            # Matrix products of one row and of many round differently.
+            np.testing.assert_allclose(alone.color, among.color, rtol=1e-12)
+            assert alone.roughness == pytest.approx(among.roughness, abs=1e-9)
+            assert alone.warnings == among.warnings
+            assert alone.delta_e_95 == pytest.approx(among.delta_e_95, rel=1e-9)
