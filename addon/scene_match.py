@@ -9,9 +9,8 @@ at 45°/0° is then no longer met by itself: what the material reads there follo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 
 import numpy as np
 
@@ -26,13 +25,18 @@ _ELSEWHERE = 12
 """Directions all over the hemisphere, which decide what the scene leaves open."""
 _WEIGHT_ELSEWHERE = 0.03
 """Their part in the mean: the scene's directions win wherever they have a say."""
-_ROUGHNESSES = (0.1, 0.5, 0.9)
-"""Cycles' roughnesses that the search starts from."""
+_STARTS = (0.1, 0.5, 0.9, 0.0)
+"""Cycles' roughnesses that the search starts from; the last is of the material without any."""
+_FREE = [[True, True, True, start > 0] for start in _STARTS]
+"""What may change from each of `_STARTS`: red, green, blue and roughness."""
 FLAT = "lambert: the render engine ignores diffuse roughness; the color is right for its scene."
 _ENOUGH = 1e-4
 """Overshoot of the gamut that nobody sees."""
 _FAINT = 0.01
 """Part of a light's strongest channel below which its color hangs on almost nothing."""
+_INSTRUMENT = "45a:0"
+_KEPT = 32
+"""Views of which `_Places` are kept, some 100 kB each: a dragged slider asks for them again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,32 +90,22 @@ def match(
     rough, lambert, target
         The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
     """
-    places = _Places.of(view, space)
-    wanted_xyz = places.under_lights(_reflected(albedo, model, sigma, places), bands)
-    ratio = places.to_ratio(wanted_xyz)
-    # Rows of the search: several roughnesses, and last the material without any.
-    roughness = np.array([*_ROUGHNESSES, 0.0])
-    mean = np.clip(places.weights @ ratio, 1e-4, 1)
-    color = np.clip(cycles.color_for_reading(np.tile(mean, (len(roughness), 1)), roughness), 0, 1)
-    free = np.ones((len(roughness), 4), bool)
-    free[-1, 3] = False
-    wanted = colorimetry.xyz_to_lab(wanted_xyz, places.whites)
-    found = compromise.fit(
-        places.distance_to(wanted_xyz, wanted),
-        places.weights,
-        np.column_stack((color, roughness)),
-        free,
-    )
-    apart = colorimetry.delta_e(places.perceive(found), wanted)
-    best = int(np.argmin((apart * places.weights).sum(axis=-1)[:-1]))
-    targets = [_read_under(light, read, bands, space) for light in view.lights]
-    two = [best, len(found) - 1]
-    at_instrument = _at_instrument(found[two], view, read, bands, space)
+    places = _places(view, _bytes(bands), _bytes(space.from_xyz))
+    wanted = places.relative(_reflected(albedo, model, sigma, places), read)
+    mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
+    roots, _ = colorimetry.roots(wanted)
+    lab = _lab(roots)
+    color = _within(cycles.color_for_reading(_within(mean, 1e-4, 1)[np.newaxis], _STARTS), 0, 1)
+    starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
+    found = compromise.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
+    apart = colorimetry.delta_e(places.perceive(found), lab)
+    searched, in_view = len(places.weights), len(view.place_weights)
+    best = int(np.argmin(apart[:-1, :searched] @ places.weights))
     rough, lambert = (
-        Match(found[row, :3], float(found[row, 3]), apart[row, : len(view.place_weights)], missed)
-        for row, missed in zip(two, at_instrument, strict=True)
+        Match(np.array(found[row][:3]), found[row][3], apart[row, :in_view], apart[row, searched:])
+        for row in (best, len(found) - 1)
     )
-    return rough, lambert, np.average(targets, axis=0, weights=_shares(view))
+    return rough, lambert, target
 
 
 def judge(
@@ -124,11 +118,11 @@ def judge(
     space: WorkingSpace,
 ) -> Array:
     """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
-    places = _Places.of(view, space)
-    wanted = places.under_lights(_reflected(albedo, model, sigma, places), bands)
-    seen = places.perceive(np.append(shader[0], shader[1]))
-    apart = colorimetry.delta_e(seen, colorimetry.xyz_to_lab(wanted, places.whites))
-    return np.asarray(apart[: len(view.place_weights)])
+    places = _places(view, _bytes(bands), _bytes(space.from_xyz))
+    wanted = places.relative(_reflected(albedo, model, sigma, places))
+    seen = places.perceive([[*shader[0].tolist(), shader[1]]])
+    roots, _ = colorimetry.roots(wanted)
+    return colorimetry.delta_e(seen[0, : len(wanted)], _lab(roots))[: len(view.place_weights)]
 
 
 def choose_shader(
@@ -146,7 +140,8 @@ def choose_shader(
     worst = float(lambert.over_scene.max())
     if worst <= tolerance:
         return lambert, f"lambert: at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
-    flat, bent = (np.average(m.over_scene, weights=view.place_weights) for m in (lambert, rough))
+    weights = view.place_weights / view.place_weights.sum()
+    flat, bent = (float(each.over_scene @ weights) for each in (lambert, rough))
     if bent <= flat:
         words = "rough: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
         return rough, words.format(bent, flat)
@@ -159,11 +154,10 @@ def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ..
 
     A place counts by the part of its light that comes from there; `apart` has shape (places,).
     """
-    of_row = apart[view.places]
     return tuple(
-        (light.name, float(np.average(of_row[mine], weights=view.weights[mine])))
-        for index, light in enumerate(view.lights)
-        if (mine := view.light_indices == index).any()
+        (light.name, float(parts @ apart))
+        for light, parts in zip(view.lights, view.light_parts, strict=True)
+        if parts.any()
     )
 
 
@@ -207,7 +201,7 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
 
 def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
     """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES["45a:0"])
+    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[_INSTRUMENT])
     return to_lab(seen, view.lights[0], space)
 
 
@@ -218,140 +212,188 @@ def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
 
 def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     """XYZ (Y = 1 for white) of a surface's reflectance (..., 3), rendered under a light."""
-    return np.asarray((rgb * light_rgb(light, space)) @ np.linalg.inv(space.from_xyz).T)
+    return np.asarray(rgb @ _rendered(light, _bytes(space.from_xyz)))
 
 
-def light_rgb(light: SceneLight, space: WorkingSpace) -> Array:
-    """Scene-linear RGB of a light with a luminance of 1; never negative, as in Blender."""
-    return np.maximum(space.from_xyz @ light.white, 0)
+@lru_cache(maxsize=_KEPT)
+def _rendered(light: SceneLight, from_xyz: bytes) -> Array:
+    """Matrix of `to_xyz`, for the bytes of the working space's."""
+    matrix = _matrix(from_xyz)
+    return np.asarray(light_rgb(light.white, matrix)[:, np.newaxis] * np.linalg.inv(matrix).T)
+
+
+def light_rgb(white: Array, from_xyz: Array) -> Array:
+    """Scene-linear RGB of lights of XYZ (..., 3); never negative, as in Blender."""
+    return np.maximum(white @ from_xyz.T, 0)
+
+
+def _bytes(values: Array) -> bytes:
+    """Numbers as a key of what is kept."""
+    return np.asarray(values, np.float64).tobytes()
+
+
+def _matrix(from_xyz: bytes) -> Array:
+    return np.frombuffer(from_xyz).reshape(3, 3)
 
 
 @dataclass(frozen=True, eq=False)
 class _Places:
-    """Places in a scene and, with little weight, one for each of some directions all around.
+    """Where materials are looked at in a scene, and all of it that no material changes.
 
-    `angles`, `index` of the light and `rgb` of it are those of the ways of light, (ways,);
-    `mixing`, (places, ways), is the part of each way in the light of a place.
+    First come the places of the view and, with little weight, one for each of some directions all
+    around: these are searched. Last comes 45°/0° under each of the lights.
+
+    Parameters
+    ----------
+    angles
+        θi, θr and Δφ of the ways of light to what is searched, shape (3, ways).
+    weights
+        Of what is searched, shape (searched,).
+    colors
+        From spectra to XYZ under each light, shape (bands, 3 lights).
+    own
+        Where each way and its light are in an array of (ways · lights), shape (ways,).
+    mixing
+        Part of each way in the light of what is searched, shape (searched, ways).
+    whites
+        XYZ of the light, shape (places, 3).
+    to_relative
+        From coefficients of Cycles' closure, by channel and function, to XYZ relative to white, by
+        place and X, Y or Z: shape (3 places, 9).
+    to_means
+        From XYZ relative to white to two means of RGB, by mean and channel: over what is searched,
+        and over the lights at 45°/0°. Shape (6, 3 places).
     """
 
-    angles: tuple[Array, Array, Array]
-    lights: tuple[SceneLight, ...]
-    index: Array
-    mixing: Array
+    angles: Array
     weights: Array
+    colors: Array
+    own: Array
+    mixing: Array
     whites: Array
-    rgb: Array
-    from_xyz: Array
-    to_xyz: Array
+    to_relative: Array
+    to_means: Array
 
-    @classmethod
-    def of(cls, view: SceneView, space: WorkingSpace) -> _Places:
-        spread = geometry.hemisphere(_ELSEWHERE)
-        light, view_angle, azimuth = map(np.append, view.angles, spread)
-        index = np.append(view.light_indices, np.zeros(_ELSEWHERE, int))
-        elsewhere = np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE)
-        scene = view.place_weights / view.place_weights.sum() * (1 - _WEIGHT_ELSEWHERE)
-        weights = np.append(scene, elsewhere)
-        mixing = np.zeros((len(weights), len(index)))
-        count, ways = len(scene), len(view.weights)
-        mixing[view.places, np.arange(ways)] = view.weights / view.place_weights[view.places]
-        mixing[np.arange(count, len(weights)), np.arange(ways, len(index))] = 1
-        whites = mixing @ np.stack([lamp.white for lamp in view.lights])[index]
-        rgb = np.stack([light_rgb(lamp, space) for lamp in view.lights])[index]
-        angles, to_xyz = (light, view_angle, azimuth), np.linalg.inv(space.from_xyz).T
-        return cls(angles, view.lights, index, mixing, weights, whites, rgb, space.from_xyz, to_xyz)
+    def relative(self, reflected: Array, read: Array | None = None) -> Array:
+        """XYZ relative to white of spectra (ways, bands) and a reading (bands,): (places, 3).
 
-    @cached_property
-    def to_relative(self) -> Array:
-        """Turns coefficients of Cycles' closure into XYZ relative to white.
-
-        Shape (9, 3 places): channel and function of the closure; X, Y or Z and place.
+        Without a reading, only of what is searched.
         """
-        # (ways, channel, function), then (places, …): mixed, then as XYZ relative to white.
-        functions = cycles_slopes.functions(*self.angles).T
-        ways = self.rgb[..., np.newaxis] * functions[:, np.newaxis]
-        mixed = (self.mixing @ ways.reshape(len(ways), 9)).reshape(-1, 3, 3)
-        to_xyz = self.to_xyz / self.whites[:, np.newaxis]
-        return np.einsum("pcx,pcf->cfxp", to_xyz, mixed).reshape(9, -1)
+        xyz = self.mixing @ (reflected @ self.colors).reshape(-1, 3).take(self.own, axis=0)
+        if read is not None:
+            xyz = np.concatenate((xyz, (read @ self.colors).reshape(-1, 3)))
+        return np.asarray(xyz / self.whites[: len(xyz)])
 
-    def under_lights(self, reflected: Array, bands: Array) -> Array:
-        """XYZ of each place, shape (places, 3), from the spectra (ways, bands) of its ways."""
-        matrices = np.stack([light.weights(bands) for light in self.lights])
-        return np.asarray(self.mixing @ np.einsum("gb,gbx->gx", reflected, matrices[self.index]))
+    def perceive(self, parameters: list[compromise.Numbers]) -> Array:
+        """Lab, shape (materials, places, 3), of materials as `cycles_slopes` takes them."""
+        parts = cycles_slopes.coefficients(parameters)
+        relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
+        roots, _ = colorimetry.roots(relative.reshape(len(parameters), -1, 3))
+        return _lab(roots)
 
-    def to_ratio(self, xyz: Array) -> Array:
-        """Per-channel ratio to the light; where a light lacks a channel, that of its luminance."""
-        rgb, light = xyz @ self.from_xyz.T, self.mixing @ self.rgb
-        faint = light < _FAINT * light.max(axis=1, keepdims=True)
-        return np.where(faint, xyz[:, 1:2], rgb / np.where(faint, 1, light))
-
-    def perceive(self, parameters: Array) -> Array:
-        """Lab of Cycles' material with parameters (..., 4), color and roughness, in all places."""
-        color, roughness = parameters[..., np.newaxis, :3], parameters[..., np.newaxis, 3]
-        seen = cycles.reflectance(color, roughness, *self.angles)
-        return colorimetry.xyz_to_lab(self.mixing @ ((seen * self.rgb) @ self.to_xyz), self.whites)
-
-    def distance_to(self, xyz: Array, lab: Array) -> Callable[[Array], tuple[Array, Array]]:
+    def distance_to(self, roots: Array, lab: Array) -> compromise.Distance:
         """Give what `compromise.fit` searches: how far materials are from wanted colors.
 
         Parameters
         ----------
-        xyz, lab
+        roots, lab
             The same colors in all places, each of shape (places, 3).
         """
-        metric = compromise.whitener(lab, colorimetry.delta_e) @ colorimetry.LAB_FROM_ROOTS
-        # One for X, Y and Z each, (3, places): the place comes last, where numpy is fast.
-        of_x, of_y, of_z = np.ascontiguousarray(metric.transpose(2, 1, 0))
-        roots, _ = colorimetry.roots(np.ascontiguousarray((xyz / self.whites).T))
+        count = len(self.weights)
+        wanted, to_relative = roots[:count, :, np.newaxis], self.to_relative[: 3 * count]
+        metric = compromise.whitener(lab[:count], colorimetry.delta_e) @ colorimetry.LAB_FROM_ROOTS
 
-        def distance(parameters: Array) -> tuple[Array, Array]:
-            parts = cycles_slopes.coefficients(parameters[:, :3], parameters[:, 3])
-            relative = parts.reshape(-1, 9) @ self.to_relative
-            relative = relative.reshape(len(parameters), 5, 3, -1)
-            bent, slope = colorimetry.roots(relative[:, 0])
-            relative[:, 0] = bent - roots
-            relative[:, 1:] *= slope[:, np.newaxis]
-            x, y, z = (relative[:, :, i : i + 1] for i in range(3))
-            found = of_x * x + of_y * y + of_z * z
-            return found[:, 0], found[:, 1:]
+        def distance(parameters: list[compromise.Numbers]) -> Array:
+            parts = cycles_slopes.coefficients(parameters)
+            found = (to_relative @ parts.reshape(-1, 9).T).reshape(count, 3, len(parameters), -1)
+            bent, slope = colorimetry.roots(found[..., 0])
+            np.subtract(bent, wanted, out=found[..., 0])
+            found[..., 1:] *= slope[..., np.newaxis]
+            return (metric @ found.reshape(count, 3, -1)).reshape(found.shape)
 
         return distance
 
 
+@lru_cache(maxsize=_KEPT)
+def _places(view: SceneView, bands: bytes, from_xyz: bytes) -> _Places:
+    """Make them, for the bytes of wavelengths and of the working space's matrix."""
+    matrix, wavelengths = _matrix(from_xyz), np.frombuffer(bands)
+    angles, lights, mixing = _ways(view)
+    white = np.stack([light.white for light in view.lights])[lights]
+    rgb = light_rgb(white, matrix)
+    whites = mixing @ white
+    functions = cycles_slopes.functions(*angles).T
+    mixed = mixing @ (rgb[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
+    to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
+
+    scene = view.place_weights / view.place_weights.sum() * (1 - _WEIGHT_ELSEWHERE)
+    weights = np.append(scene, np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE))
+    searched, ways = len(weights), len(view.weights) + _ELSEWHERE
+    share = np.array([light.share for light in view.lights])
+    means = np.zeros((2, len(mixing)))
+    means[0, :searched], means[1, searched:] = weights, share / share.sum()
+    to_ratio = _to_ratio(matrix, mixing @ rgb) * whites[:, np.newaxis]
+    return _Places(
+        angles=angles[:, :ways],
+        weights=weights,
+        colors=np.concatenate([light.weights(wavelengths) for light in view.lights], axis=1),
+        own=np.arange(ways) * len(view.lights) + lights[:ways],
+        mixing=mixing[:searched, :ways],
+        whites=whites,
+        to_relative=np.einsum("pcx,pcf->pxcf", to_xyz, mixed.reshape(-1, 3, 3)).reshape(-1, 9),
+        to_means=np.einsum("mp,pcx->mcpx", means, to_ratio).reshape(6, -1),
+    )
+
+
+def _ways(view: SceneView) -> tuple[Array, Array, Array]:
+    """Give the ways of light to all places of `_Places`.
+
+    Returns
+    -------
+    angles, lights, mixing
+        θi, θr and Δφ, shape (3, ways); index of the light, shape (ways,); and the part of each way
+        in the light of each place, shape (places, ways).
+    """
+    count = len(view.lights)
+    instrument = np.repeat(
+        np.array(reading.INSTRUMENT_ANGLES[_INSTRUMENT])[:, np.newaxis], count, 1
+    )
+    angles = np.concatenate((view.angles, geometry.hemisphere(_ELSEWHERE), instrument), axis=1)
+    elsewhere = np.zeros(_ELSEWHERE, int)
+    lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
+    # Beyond the view each way has a place of its own.
+    places, ways = len(view.place_weights), len(view.weights)
+    mixing = np.zeros((places + _ELSEWHERE + count, len(lights)))
+    mixing[view.places, np.arange(ways)] = view.weights / view.place_weights[view.places]
+    mixing[places:, ways:] = np.eye(_ELSEWHERE + count)
+    return angles, lights, mixing
+
+
+def _to_ratio(from_xyz: Array, light: Array) -> Array:
+    """Matrices, shape (places, 3, 3), from XYZ to the per-channel ratio to the light.
+
+    Where a light lacks a channel, to that of its luminance.
+    """
+    faint = (light < _FAINT * light.max(axis=1, keepdims=True))[..., np.newaxis]
+    luminance = np.array((0.0, 1.0, 0.0))
+    return np.where(faint, luminance, from_xyz / np.where(faint, 1, light[..., np.newaxis]))
+
+
+def _lab(roots: Array) -> Array:
+    """L*a*b* of what `colorimetry.roots` gives, (..., 3)."""
+    lab = roots @ colorimetry.LAB_FROM_ROOTS.T
+    lab[..., 0] -= 16
+    return np.asarray(lab)
+
+
+def _within(values: Array, low: float, high: float) -> Array:
+    """`np.clip` of few numbers, at half the time."""
+    return np.minimum(np.maximum(values, low), high)
+
+
 def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
-    spread = ladder.reflectance(model, np.minimum(albedo, 1), *places.angles, sigma)
+    light, view, azimuth = places.angles
+    spread = ladder.reflectance(model, np.minimum(albedo, 1), light, view, azimuth, sigma)
     # The published model turns negative at grazing opposite directions; no surface does. Facets
     # that return more light than reaches them are kept in proportion, as in `target`.
     return np.maximum(spread * np.maximum(albedo, 1), np.minimum(albedo, 0))
-
-
-def _read_under(light: SceneLight, read: Array, bands: Array, space: WorkingSpace) -> Array:
-    rgb = light_rgb(light, space)
-    xyz = read @ light.weights(bands)
-    faint = rgb < _FAINT * rgb.max()
-    return np.where(faint, xyz[1], space.from_xyz @ xyz / np.where(faint, 1, rgb))
-
-
-def _at_instrument(
-    shaders: Array, view: SceneView, read: Array, bands: Array, space: WorkingSpace
-) -> Array:
-    """ΔE00 at 45°/0° of shaders (shaders, 4) under each of the lights, (shaders, lights)."""
-    angles = reading.INSTRUMENT_ANGLES["45a:0"]
-    seen = cycles.reflectance(shaders[:, :3], shaders[:, 3], *angles)[:, np.newaxis]
-    rgb, whites, wanted = (
-        np.stack(rows)
-        for rows in zip(
-            *(
-                (light_rgb(light, space), light.white, read @ light.weights(bands))
-                for light in view.lights
-            ),
-            strict=True,
-        )
-    )
-    xyz = (seen * rgb) @ np.linalg.inv(space.from_xyz).T
-    labs = (colorimetry.xyz_to_lab(color, whites) for color in (xyz, wanted))
-    return colorimetry.delta_e(*labs)
-
-
-def _shares(view: SceneView) -> Array:
-    return np.array([light.share for light in view.lights])

@@ -73,6 +73,14 @@ class SceneView:
     lights: tuple[SceneLight, ...]
     geometries: tuple[tuple[float, ...], ...]
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """Of hundreds of numbers, made once: what is kept of a view is looked up by it."""
+        return hash((self.scene, self.lights, self.geometries))
+
     @cached_property
     def angles(self) -> tuple[Array, Array, Array]:
         """θi, θr and Δφ, each of shape (geometries,)."""
@@ -100,6 +108,14 @@ class SceneView:
     def place_weights(self) -> Array:
         """Weight of each place, shape (places,); they add up to 1."""
         return np.bincount(self.places, self.weights)
+
+    @cached_property
+    def light_parts(self) -> Array:
+        """Part of each light's own light that falls on each place, shape (lights, places)."""
+        parts = np.zeros((len(self.lights), len(self.place_weights)))
+        np.add.at(parts, (self.light_indices, self.places), self.weights)
+        # A light may have no direction left, and its row is 0 then.
+        return parts / np.maximum(parts.sum(axis=1, keepdims=True), np.finfo(float).tiny)
 
     def to_json(self) -> str:
         """Give the text that `from_json` reads; equal views give equal text."""

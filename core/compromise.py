@@ -12,7 +12,9 @@ Bound Optimization Methods", 2003).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,6 +29,7 @@ _LONGER = 1.3
 _LONGEST = 4.0
 _DAMPING = 1e-5
 """Of the first step, as a share of the trace; a tenth after each that gains, eight times if not."""
+_MOST_DAMPED = 1e3
 _METRIC_PROBE = 0.02
 """Step in Lab within which a color difference is a quadratic form."""
 _KINK = 0.01
@@ -34,87 +37,165 @@ _KINK = 0.01
 _SETTLED = 1e-4
 """Gain below which a search ends. With ten times as much, some end over 0.02 above the least."""
 
+_WAYS = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 0, 1], [0, 1, 1]], np.float64)
+"""Along each axis, and between two each: the six numbers of a quadratic form."""
+_FORM = np.array(
+    # By the polarization identity: half of what the way between two axes has over both of them.
+    [
+        [[2, -1, -1], [-1, 0, 0], [-1, 0, 0]],
+        [[0, -1, 0], [-1, 2, -1], [0, -1, 0]],
+        [[0, 0, -1], [0, 0, -1], [-1, -1, 2]],
+        [[0, 1, 0], [1, 0, 0], [0, 0, 0]],
+        [[0, 0, 1], [0, 0, 0], [1, 0, 0]],
+        [[0, 0, 0], [0, 0, 1], [0, 1, 0]],
+    ]
+)
+"""Twice the matrix of the form that is 1 along one of `_WAYS` and 0 along the others."""
+
+Numbers = list[float]
+"""Of one search: in plain numbers, because for so few calling numpy takes several times as long as
+computing them."""
+
+Distance = Callable[[list[Numbers]], Array]
+"""See `fit`."""
+
 
 def fit(
-    distance: Callable[[Array], tuple[Array, Array]], weights: Array, starts: Array, free: Array
-) -> Array:
+    distance: Distance, weights: Array, starts: list[Numbers], free: list[list[bool]]
+) -> list[Numbers]:
     """Search from several starts at once.
 
     Parameters
     ----------
     distance
         How far all places are from what is wanted, in a space where color differences are plain
-        distances (see `whitener`), for parameters within 0 and 1, and its derivatives by them:
-        (starts, n) -> (starts, 3, places) and (starts, n, 3, places).
+        distances (see `whitener`), for n parameters within 0 and 1 of each search; then its
+        derivatives by them. Shape (places, 3, searches, 1 + n).
     weights
         Of the places, shape (places,).
     starts
-        Parameters to start from, shape (starts, n).
+        n parameters to start from, for each search.
     free
-        Which of them may change, shape (starts, n).
+        Which of them may change.
 
     Returns
     -------
-    Parameters, shape (starts, n).
+    n parameters for each start.
     """
-    found = np.array(starts, np.float64)
-    cost, gradient, bend = _squares(*distance(found), weights)
-    damping, length = np.full(len(found), _DAMPING), np.ones(len(found))
-    searching = np.arange(len(found))
+    squares = _squares(distance(starts), weights)
+    found = [_Search(*each) for each in zip(starts, free, *squares, strict=True)]
+    searching = found
     for number in range(1, _STEPS + 1):
-        at, pull, curve = found[searching], gradient[searching], bend[searching]
-        step = _step(at, pull, curve, damping[searching], free[searching])
-        relaxed = length[searching]
-        to = np.clip(at + step * relaxed[:, np.newaxis], 0, 1)
-        new_cost, new_gradient, new_bend = _squares(*distance(to), weights)
-        gained = cost[searching] - new_cost
-        better = gained > 0
-        kept = searching[better]
-        found[kept], cost[kept] = to[better], new_cost[better]
-        gradient[kept], bend[kept] = new_gradient[better], new_bend[better]
-        # Where a step gains nothing, what it promised tells whether there is more to find; one that
-        # was longer is tried again at its own length first.
-        step = to - at
-        promised = -((pull + (curve @ step[..., np.newaxis])[..., 0] / 2) * step).sum(axis=1)
-        promised = np.where(better, gained, np.where(relaxed > 1, np.inf, promised))
-        damping[searching] *= np.where(better, 0.1, np.where(relaxed > 1, 1, 8))
-        length[searching] = np.where(better, np.minimum(relaxed * _LONGER, _LONGEST), 1)
-        going = (promised >= _SETTLED) & (damping[searching] <= 1e3)
+        tried = [search.step() for search in searching]
+        moves = zip(searching, tried, *_squares(distance(tried), weights), strict=True)
+        searching = [
+            search
+            for search, to, cost, gradient, bend in moves
+            if search.take(to, cost, gradient, bend)
+        ]
         if number == _SIFTED:
-            going &= _best_of_their_kind(cost, free)[searching]
-        searching = searching[going]
-        if not searching.size:
+            searching = [search for search in searching if search.is_best_of_its_kind(found)]
+        if not searching:
             break
-    return found
+    return [search.at for search in found]
 
 
-def _best_of_their_kind(cost: Array, free: Array) -> Array:
-    """Whether each start is the best of those that are free in the same parameters."""
-    alike = (free[:, np.newaxis] == free).all(axis=-1)
-    return np.asarray(cost <= np.where(alike, cost, np.inf).min(axis=1))
+@dataclass
+class _Search:
+    """Where one search is, the sum there with the squares that touch it, and how it goes on."""
+
+    at: Numbers
+    free: list[bool]
+    cost: float
+    gradient: Numbers
+    bend: list[Numbers]
+    damping: float = _DAMPING
+    length: float = 1.0
+
+    def step(self) -> Numbers:
+        """Tell where a step leads to the least of the squares, damped, of what is free to move."""
+        # What already lies at its bound and would leave it stays there.
+        moving = [
+            i
+            for i, (at, slope) in enumerate(zip(self.at, self.gradient, strict=True))
+            if self.free[i] and (at > 0 if slope > 0 else at < 1)
+        ]
+        most = self.damping * sum(row[i] for i, row in enumerate(self.bend))
+        bowl = [[row[j] for j in moving] for i, row in enumerate(self.bend) if i in moving]
+        for i, row in enumerate(bowl):
+            row[i] += most
+        to = self.at.copy()
+        for i, step in zip(moving, _solve(bowl, [-self.gradient[i] for i in moving]), strict=True):
+            to[i] = min(max(to[i] + step * self.length, 0.0), 1.0)
+        return to
+
+    def take(self, to: Numbers, cost: float, gradient: Numbers, bend: list[Numbers]) -> bool:
+        """Go there if that gains anything, and tell whether there is more to find."""
+        promised = self.cost - cost
+        if promised > 0:
+            self.at, self.cost, self.gradient, self.bend = to, cost, gradient, bend
+            self.damping *= 0.1
+            self.length = min(self.length * _LONGER, _LONGEST)
+        elif self.length > 1:
+            # A longer step is tried again at its own length first.
+            self.length = 1.0
+            return True
+        else:
+            promised = self._promised([b - a for a, b in zip(self.at, to, strict=True)])
+            self.damping *= 8
+        return promised >= _SETTLED and self.damping <= _MOST_DAMPED
+
+    def _promised(self, step: Numbers) -> float:
+        """Tell what the squares lose in a step."""
+        return -sum(
+            (slope + _dot(row, step) / 2) * way
+            for slope, row, way in zip(self.gradient, self.bend, step, strict=True)
+        )
+
+    def is_best_of_its_kind(self, others: list[_Search]) -> bool:
+        """Whether none that is free in the same parameters is better."""
+        return all(self.cost <= other.cost for other in others if other.free == self.free)
 
 
-def _squares(apart: Array, slopes: Array, weights: Array) -> tuple[Array, Array, Array]:
-    """Sum of differences (starts,), and the squares that touch it there.
+def _dot(one: Numbers, other: Numbers) -> float:
+    return sum(a * b for a, b in zip(one, other, strict=True))
 
-    Their gradient (starts, n) and curvature (starts, n, n).
+
+def _solve(rows: list[Numbers], right: Numbers) -> Numbers:
+    """Solve for the least of damped squares, by elimination; changes what it is given.
+
+    Such squares need no pivoting. Where rounding leaves no curvature, nothing moves.
     """
-    starts, n = slopes.shape[:2]
-    lengths = np.sqrt((apart * apart).sum(axis=1) + _KINK**2)
-    rows = (slopes * (weights / lengths)[:, np.newaxis, np.newaxis]).reshape(starts, n, -1)
-    gradient = (rows @ apart.reshape(starts, -1, 1))[..., 0]
-    return lengths @ weights, gradient, rows @ np.swapaxes(slopes.reshape(starts, n, -1), 1, 2)
+    count = len(right)
+    for i, row in enumerate(rows):
+        if not row[i] > 0:
+            row[i] = math.inf
+        for j in range(i + 1, count):
+            other = rows[j]
+            share = other[i] / row[i]
+            for k in range(i + 1, count):
+                other[k] -= share * row[k]
+            right[j] -= share * right[i]
+    for i in reversed(range(count)):
+        row = rows[i]
+        for k in range(i + 1, count):
+            right[i] -= row[k] * right[k]
+        right[i] /= row[i]
+    return right
 
 
-def _step(at: Array, gradient: Array, bend: Array, damping: Array, free: Array) -> Array:
-    """Step to the least of the squares, damped, of what is free to move."""
-    one = np.eye(at.shape[1])
-    # What already lies at its bound and would leave it stays there.
-    moving = free & np.where(gradient > 0, at > 0, at < 1)
-    both = moving[:, :, np.newaxis] & moving[:, np.newaxis]
-    most = damping * np.trace(bend, axis1=1, axis2=2)
-    bowl = np.where(both, bend, 0) + one * np.where(moving, most[:, np.newaxis], 1)[:, np.newaxis]
-    return np.asarray(np.linalg.solve(bowl, (moving * -gradient)[..., np.newaxis])[..., 0])
+def _squares(apart: Array, weights: Array) -> tuple[Numbers, list[Numbers], list[list[Numbers]]]:
+    """Sum of differences (searches,), and the squares that touch it there.
+
+    Their gradient (searches, n) and curvature (searches, n, n), of distances as `fit` takes them.
+    """
+    away = apart[..., 0]
+    lengths = np.sqrt(np.einsum("pxs,pxs->ps", away, away) + _KINK**2)
+    shares = weights[:, np.newaxis] / lengths
+    weighted = apart * shares[:, np.newaxis, :, np.newaxis]
+    rows = apart.reshape(-1, *apart.shape[2:])
+    products = weighted.reshape(rows.shape).transpose(1, 2, 0) @ rows.transpose(1, 0, 2)
+    return (weights @ lengths).tolist(), products[:, 0, 1:].tolist(), products[:, 1:, 1:].tolist()
 
 
 def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
@@ -131,19 +212,19 @@ def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
     -------
     Shape (places, 3, 3), from colors to the space of distances.
     """
-    squares, axes = np.linalg.eigh(_metric(at, difference))
-    return np.asarray(np.sqrt(np.maximum(squares, 0))[..., np.newaxis] * np.swapaxes(axes, 1, 2))
+    metric = _metric(at, difference)
+    try:
+        return np.swapaxes(np.linalg.cholesky(metric), 1, 2)
+    except np.linalg.LinAlgError:
+        # The form is never negative, but its rounding is.
+        squares, axes = np.linalg.eigh(metric)
+        return np.asarray(
+            np.sqrt(np.maximum(squares, 0))[..., np.newaxis] * np.swapaxes(axes, 1, 2)
+        )
 
 
 def _metric(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
     """Quadratic form of the difference around colors of shape (places, 3): (places, 3, 3)."""
-    axes = np.eye(3)
-    pairs = [(i, j) for i in range(3) for j in range(i, 3)]
-    ways = np.stack([axes[i] + (axes[j] if i != j else 0) for i, j in pairs]) * _METRIC_PROBE
-    squares = (difference(at + ways[:, np.newaxis], at) / _METRIC_PROBE) ** 2
-    by_pair = dict(zip(pairs, squares, strict=True))
-    metric = np.empty((len(at), 3, 3))
-    for i, j in pairs:
-        cross = by_pair[i, j] if i == j else (by_pair[i, j] - by_pair[i, i] - by_pair[j, j]) / 2
-        metric[:, i, j] = metric[:, j, i] = cross
-    return metric
+    near = at + (_METRIC_PROBE * _WAYS)[:, np.newaxis]
+    squares = (difference(near, at) / _METRIC_PROBE) ** 2
+    return np.asarray((squares.T @ _FORM.reshape(6, 9) / 2).reshape(-1, 3, 3))

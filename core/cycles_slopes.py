@@ -14,6 +14,9 @@ import numpy as np
 from .arrays import Array
 from .cycles import ALBEDO_SPAN, MEAN_SPAN, albedo_shape
 
+_OTHERS = (0.0,) * 9
+"""Between the derivatives of one channel by its color, and of the next by its own."""
+
 
 def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     """Give 1, the tilt of the facets and the light that single scattering lost.
@@ -30,46 +33,44 @@ def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     tilt = np.sin(theta_i) * np.sin(theta_r) * np.cos(delta_phi)
     tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(theta_i), np.cos(theta_r)), tilt)
     lost = (ALBEDO_SPAN - albedo_shape(theta_i)) * (ALBEDO_SPAN - albedo_shape(theta_r))
-    return np.stack((np.ones_like(tilt), tilt, lost / MEAN_SPAN**2))
+    # With a = 1 / (π + s k) single scattering is c a (π + π s t), which is c + c s a (π t - k).
+    bent = (np.pi * tilt - ALBEDO_SPAN) / MEAN_SPAN
+    return np.stack((np.ones_like(tilt), bent, lost / MEAN_SPAN**2))
 
 
-def coefficients(color: Array, roughness: Array) -> Array:
+def coefficients(materials: list[list[float]]) -> Array:
     """Give what the three functions are multiplied with, and its derivatives.
+
+    In plain numbers: a search has so few materials at once that calling numpy would take several
+    times as long as computing them.
 
     Parameters
     ----------
-    color
-        Scene-linear RGB, shape (materials, 3).
-    roughness
-        Cycles' roughness, shape (materials,).
+    materials
+        Red, green and blue, scene-linear, and Cycles' roughness of each.
 
     Returns
     -------
     Shape (materials, 5, 3, 3): the value, its derivatives by red, green, blue and roughness; then
     channel; then function. `found[:, 0] @ functions(…)` is the reflectance factor.
     """
-    s = roughness[:, np.newaxis]
-    a = 1 / (np.pi + s * ALBEDO_SPAN)
-    # a' = -a² k with k the albedo span, so (s a)' = π a².
-    rise = np.pi * a * a
-    ratio = MEAN_SPAN * s * a
-    left = ratio - ratio * ratio
-    rest = 1 / (1 - color * ratio)
-    square = color * color * rest
-    found = np.zeros((len(color), 5, 3, 3))
-    by_color = np.empty((*color.shape, 3))
-    by_color[..., 0] = np.pi * a
-    by_color[..., 1] = np.pi * s * a
-    # With b the color times ratio: (c³ / (1 - b))' = c² (3 - 2b) / (1 - b)².
-    by_color[..., 2] = square * (2 + rest) * left
-    found[:, (1, 2, 3), (0, 1, 2)] = by_color
-    cube = color * square
-    value = color[..., np.newaxis] * by_color
-    value[..., 2] = cube * left
-    found[:, 0] = value
-    turn = rise * color
-    by_roughness = found[:, 4]
-    by_roughness[..., 0] = -ALBEDO_SPAN * turn
-    by_roughness[..., 1] = np.pi * turn
-    by_roughness[..., 2] = MEAN_SPAN * rise * cube * (1 - 2 * ratio + left * color * rest)
-    return found
+    found: list[float] = []
+    for *color, s in materials:
+        a = 1 / (np.pi + s * ALBEDO_SPAN)
+        # a' = -a² k with k the albedo span, so (s a)' = π a².
+        ratio, rise = MEAN_SPAN * s * a, MEAN_SPAN * np.pi * a * a
+        other = 1 - ratio
+        left = ratio * other
+        slopes: list[float] = []
+        turns: list[float] = []
+        for c in color:
+            rest = 1 / (1 - c * ratio)
+            square = c * c * rest
+            found += (c, c * ratio, c * square * left)
+            # With b the color times ratio: (c³ / (1 - b))' = c² (3 - 2b) / (1 - b)². It is only
+            # its own color that moves a channel.
+            slopes += (1.0, ratio, square * (2 + rest) * left, *_OTHERS)
+            turns += (0.0, rise * c, rise * c * square * (other * rest - ratio))
+        found += slopes[: -len(_OTHERS)]
+        found += turns
+    return np.array(found).reshape(-1, 5, 3, 3)

@@ -27,7 +27,7 @@ from rough_spectra.addon import (
     working_space,
 )
 from rough_spectra.addon.scene_analysis import sampling
-from rough_spectra.core import compromise, cycles, geometry
+from rough_spectra.core import cycles, geometry, reading
 from rough_spectra.core.errors import InputError, MaterialError
 
 from tools import judge_scene, make_room
@@ -214,6 +214,49 @@ def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
                 both, shader, sample.values, "closure", SIGMA, sample.wavelengths, space
             )
             assert mean <= np.average(apart, weights=both.weights) + 0.02
+
+
+def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
+    """In the scene and at 45°/0°; also when the view was used before, with other bands."""
+    view = view_of(light_of((1, 0.6, 0.25), "Warm", 0.7), light_of((0.02, 1, 0.03), "Lime", 0.3))
+    space, sample = working_space.current(), colorchecker[5]
+    read, bands = 0.9 * sample.values, sample.wavelengths
+    arguments = (read, "closure", SIGMA, bands, space)
+    first = scene_match.match(view, sample.values, *arguments)
+    half = (read[::2], "closure", SIGMA, bands[::2], space)
+    scene_match.match(view, sample.values[::2], *half)
+    again = scene_match.match(scene_view.from_json(view.to_json()), sample.values, *arguments)
+    for found, same in zip(first[:2], again[:2], strict=True):
+        assert (found.color == same.color).all()
+        shader = (found.color, found.roughness)
+        over = scene_match.judge(view, shader, sample.values, *arguments[1:])
+        assert found.over_scene == pytest.approx(over, abs=1e-9)
+        seen = cycles.reflectance(*shader, *reading.INSTRUMENT_ANGLES["45a:0"])
+        for light, apart in zip(view.lights, found.instrument.tolist(), strict=True):
+            wanted = colorimetry.xyz_to_lab(read @ light.weights(bands), light.white)
+            own = colorimetry.delta_e(scene_match.to_lab(seen, light, space), wanted)
+            assert apart == pytest.approx(float(own), abs=1e-9)
+
+
+def test_means_are_of_the_lights_that_shine():
+    """One of them has no direction left."""
+    names = ("Warm", "Cold", "Gone")
+    lights = tuple(
+        light_of((1, 0.6, 0.25), name, share)
+        for name, share in zip(names, (0.6, 0.4, 0), strict=True)
+    )
+    rows = ((0.1, 0.2, 0.3, 0, 0.2, 0), (0.4, 0.2, 0.3, 1, 0.4, 0), (0.1, 0.5, 0.3, 0, 0.4, 1))
+    view = scene_view.SceneView("Scene", lights, rows)
+    means = dict(scene_match.mean_of_lights(view, np.array([3.0, 6.0])))
+    assert means == {"Warm": pytest.approx(5.0), "Cold": pytest.approx(3.0)}
+
+
+def test_equal_views_are_one_key():
+    view = view_of(light_of((1, 1, 1)))
+    same = scene_view.SceneView(view.scene, view.lights, view.geometries)
+    other = replace(view, scene="Other")
+    assert {view: 1}[same] == 1
+    assert other not in {view: 1}
 
 
 def test_a_place_holds_its_lights_in_their_parts():
@@ -435,16 +478,3 @@ def test_verb_prints_lights_and_saves(plate, tmp_path, capsys):
     assert bpy.data.materials["Plate"].rough_spectra.use_scene
     assert command_line.main(["analyze", "--scene", "Nowhere"]) == 2
     assert "no scene 'Nowhere'" in capsys.readouterr().err
-
-
-def test_search_stays_within_its_bounds():
-    """A target that no parameter reaches ends at the bound nearest to it."""
-
-    def distance(parameters):
-        slopes = np.broadcast_to([[[[100.0], [0], [0]]]], (len(parameters), 1, 3, 1))
-        apart = parameters[..., np.newaxis] * [[100.0], [0], [0]] - [[120.0], [0], [0]]
-        return apart, slopes
-
-    starts = np.array([[0.2], [0.9]])
-    found = compromise.fit(distance, np.ones(1), starts, np.ones((2, 1), bool))
-    assert found == pytest.approx(1.0)

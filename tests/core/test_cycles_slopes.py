@@ -19,9 +19,10 @@ def test_values_and_slopes_are_those_of_the_closure():
         return cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *angles)
 
     functions = cycles_slopes.functions(*angles)
+    materials = np.column_stack((color, roughness)).tolist()
     # The closure's value and its derivatives: materials, directions, channels.
     seen, *by_channel, by_roughness = (
-        np.swapaxes(cycles_slopes.coefficients(color, roughness) @ functions, 2, 3)
+        np.swapaxes(cycles_slopes.coefficients(materials) @ functions, 2, 3)
     ).swapaxes(0, 1)
     assert seen == pytest.approx(plain(color, roughness), abs=1e-14)
     steeper = plain(color + STEP, roughness) - plain(color - STEP, roughness)
@@ -35,7 +36,6 @@ def test_values_and_slopes_are_those_of_the_closure():
 
 def test_ends_of_the_domain_are_finite():
     angles = (np.array([0.0, np.pi / 2]), np.array([np.pi / 2, np.pi / 2]), np.zeros(2))
-    ends = np.array([0.0, 1.0])
-    color = np.repeat(ends[:, np.newaxis], 3, axis=1)
     assert np.isfinite(cycles_slopes.functions(*angles)).all()
-    assert np.isfinite(cycles_slopes.coefficients(color, ends)).all()
+    ends = cycles_slopes.coefficients([[0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0]])
+    assert np.isfinite(ends).all()
