@@ -6,7 +6,8 @@
 
 Needs the bpy module. Processor time, which other programs disturb less than wall time; the least
 and the median of many runs. Drawing goes onto a layout that does nothing, so that what is measured
-is ours and not Blender's.
+is ours and not Blender's. The cores of a shared server are at times half as fast as at others:
+beside each group stands what a fixed piece of plain Python took then.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ def main() -> None:
     import bpy
 
     print(f"Blender {bpy.app.version_string}; milliseconds of processor time: least (median)")
+    pace()
     row("register", [timed(extension.register)])
     thing = lit_plane()
     first = timed(lambda: assign(thing, "first"))
@@ -52,9 +54,11 @@ def main() -> None:
     drawing(thing)
     for model in MODELS:
         dragging(material, model)
+    pace()
     print(bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT"), "to the scene's lights")
     for model in MODELS:
         dragging(material, model)
+    pace()
     icons = importlib.import_module("rough_spectra.addon.preview.icons")
     icons.clear()
     extension.unregister()
@@ -167,6 +171,11 @@ def dragging(material: Any, model: str) -> None:
 
         times = [timed(partial(drag, 0.3 + 0.5 * i / STEPS)) for i in range(STEPS)]
         row(f"drag σ, {model}, scale {scale}", times[1:])
+
+
+def pace() -> None:
+    """Print how fast this core is now."""
+    row("a million numbers in Python", [timed(lambda: sum(range(1_000_000))) for _ in range(20)])
 
 
 def timed(work: Callable[[], object]) -> float:
