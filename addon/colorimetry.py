@@ -118,10 +118,11 @@ def roots(relative: Array) -> tuple[Array, Array]:
     """Cube roots of X, Y or Z relative to white, straight near black as in L*a*b*; and slopes."""
     root = np.cbrt(relative)
     dark = relative <= _DARK
-    if not dark.any():
+    if not np.count_nonzero(dark):
         return root, root / (3 * relative)
-    bent = _bent(relative, root)
-    return bent, np.where(dark, 841 / 108, root / (3 * np.where(dark, 1, relative)))
+    slope = np.full_like(root, 841 / 108)
+    np.divide(root, 3 * relative, out=slope, where=~dark)
+    return _bent(relative, root), slope
 
 
 def _bent(relative: Array, root: Array) -> Array:
