@@ -17,6 +17,7 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from . import readers
+from .readers import preset as preset_file
 from .sample import Sample
 
 
@@ -81,6 +82,10 @@ def load(preset: str | os.PathLike[str]) -> Sample:
     """
     given = os.fspath(preset)
     path = Path(given) if given.lower().endswith(".json") else path_of(given)
+    document = readers.open_document(path)
+    # Without asking every format, which would import them all for the first preset of a session.
+    if preset_file.sniff(document):
+        return preset_file.read(document)[0]
     return readers.read(path)[0]
 
 

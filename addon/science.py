@@ -13,7 +13,6 @@ from __future__ import annotations
 import sys
 import warnings
 from types import ModuleType
-from unittest import mock
 
 import numpy as np
 
@@ -23,6 +22,9 @@ def colour() -> ModuleType:
     loaded = sys.modules.get("colour")
     if loaded is not None:
         return loaded
+    # It brings asyncio along, which a material's first color needs as little.
+    from unittest import mock
+
     before = set(sys.modules)
     print_options = np.get_printoptions()
     with warnings.catch_warnings():
