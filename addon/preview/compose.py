@@ -6,11 +6,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...core.arrays import Array
-from . import figures, raster
+from . import figures, lines
 
 if TYPE_CHECKING:
     from .data import Data
+    from .lines import Line
     from .theme import Look
 
 _STRIP = 28.0
@@ -33,17 +36,19 @@ def picture(figure: str, found: Data, side: int, look: Look) -> Array:
     side
         Pixels.
     """
-    canvas = raster.blank(side, side)
-    _DRAWN[figure](canvas, found, look)
+    # Whatever it holds: figures fill it.
+    canvas = np.empty((side, side, 4), np.uint8)
+    lines.draw(_DRAWN[figure](canvas, found, look))
     return canvas
 
 
-def _swatches(canvas: Array, found: Data, look: Look) -> None:
+def _swatches(canvas: Array, found: Data, look: Look) -> list[Line]:
     outside = (found.target.outside, found.blender.outside)
     figures.swatch_pair(canvas, found.target.color, found.blender.color, look, outside)
+    return []
 
 
-def _sheet(canvas: Array, found: Data, look: Look) -> None:
+def _sheet(canvas: Array, found: Data, look: Look) -> list[Line]:
     side = len(canvas)
     strip, gap = round(_STRIP * look.scale), round(_GAP * look.scale)
     plots = [_spectrum, _angles]
@@ -52,24 +57,29 @@ def _sheet(canvas: Array, found: Data, look: Look) -> None:
         # No room for both: the one that changes with σ.
         plots, high = [_angles], side - strip - gap
     figures.sigma_range(canvas[:strip], found.sigma, found.sigma_max, look)
-    row = strip + gap
+    row, curves = strip, []
     for plot in plots:
-        plot(canvas[row : row + high], found, look)
-        row += high + gap
+        canvas[row : row + gap] = 0
+        row += gap
+        curves += plot(canvas[row : row + high], found, look)
+        row += high
+    canvas[row:] = 0
+    return curves
 
 
-def _spectrum(canvas: Array, found: Data, look: Look) -> None:
-    figures.spectrum(canvas, found.wavelengths, found.albedo, found.reading, found.bars, look)
+def _spectrum(canvas: Array, found: Data, look: Look) -> list[Line]:
+    curves = (found.wavelengths, found.albedo, found.reading)
+    return figures.spectrum(canvas, *curves, found.bars, look)
 
 
-def _angles(canvas: Array, found: Data, look: Look) -> None:
+def _angles(canvas: Array, found: Data, look: Look) -> list[Line]:
     curves = (found.view, found.target_curve, found.blender_curve)
-    figures.angles(canvas, *curves, found.lambert, look, found.engine)
+    return figures.angles(canvas, *curves, found.lambert, look, found.engine)
 
 
-def _polar(canvas: Array, found: Data, look: Look) -> None:
+def _polar(canvas: Array, found: Data, look: Look) -> list[Line]:
     curves = (found.view, found.target_curve, found.blender_curve)
-    figures.angles_polar(canvas, *curves, look, found.engine)
+    return figures.angles_polar(canvas, *curves, look, found.engine)
 
 
 _DRAWN = {

@@ -8,8 +8,12 @@ of one pixel within 13 %, on exact diagonals. Only pixels that a line covers are
 
 from __future__ import annotations
 
+import math
+from collections import OrderedDict
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +24,60 @@ from .raster import Box, Color, lay
 _LEAST = 1e-9
 """Pixels; what is shorter is a point, and nothing is divided by less."""
 
+_BOUND = 16
+"""Lines whose pixels are kept."""
+
+
+class Line(NamedTuple):
+    """A line through points, with round joins and ends.
+
+    Parameters
+    ----------
+    canvas
+        Where to draw.
+    points
+        Pixels, (points, 2). A single point is a disc.
+    width
+        Pixels.
+    dash
+        Lengths of strokes and gaps in turn, pixels, ends of strokes included; empty for a solid
+        line.
+    within
+        Box of whole pixels outside of which nothing is drawn.
+    """
+
+    canvas: Array
+    points: npt.ArrayLike
+    color: Color
+    width: float = 1.5
+    dash: tuple[float, ...] = ()
+    within: Box | None = None
+
+
+class _Shape(NamedTuple):
+    """What the pixels of a line depend on; its points as bytes, first all x and then all y."""
+
+    points: bytes
+    width: float
+    dash: tuple[float, ...]
+    box: Box
+    size: tuple[int, int]
+
+
+class _Cover(NamedTuple):
+    """Pixels of a line, counted row by row: those it fills, the others, and the latter's share.
+
+    Shares are float32 and come once for each byte of a pixel.
+    """
+
+    full: Array
+    part: Array
+    share: Array
+
+
+_kept: OrderedDict[_Shape, _Cover] = OrderedDict()
+"""Pixels of the lines drawn last, because not all curves of a picture change while σ is dragged."""
+
 
 def polyline(
     canvas: Array,
@@ -28,131 +86,159 @@ def polyline(
     width: float = 1.5,
     dash: Sequence[float] = (),
     within: Box | None = None,
-    alpha: float = 1,
 ) -> None:
-    """Draw a line through points, (points, 2), with round joins and ends.
-
-    Parameters
-    ----------
-    width
-        Pixels.
-    dash
-        Lengths of strokes and gaps in turn, pixels, ends of strokes included; empty for a solid
-        line. A single point is a disc.
-    within
-        Box of whole pixels outside of which nothing is drawn.
-    """
-    line = np.asarray(points, np.float64).reshape(-1, 2)
-    height, across = canvas.shape[:2]
-    box = within or (0, 0, across, height)
-    index, share = _covered(line.tobytes(), width, tuple(dash), box, (height, across))
-    lay(canvas, index, share, color, alpha)
+    """Draw one line, see `Line`."""
+    draw([Line(canvas, points, color, width, tuple(dash), within)])
 
 
-@lru_cache(maxsize=16)
-def _covered(
-    points: bytes, width: float, dash: tuple[float, ...], box: Box, shape: tuple[int, int]
-) -> tuple[Array, Array]:
-    """List the pixels that a line covers, counted row by row, and how much of each; float32.
+def draw(lines: Sequence[Line]) -> None:
+    """Draw lines, each over those before it; several at once take little longer than one."""
+    shapes = [_shape(line) for line in lines]
+    missing = [shape for shape in dict.fromkeys(shapes) if shape not in _kept]
+    if missing:
+        for shape, near in zip(missing, _near(missing), strict=True):
+            _kept[shape] = _cover(*near, math.prod(shape.size))
+    for line, shape in zip(lines, shapes, strict=True):
+        lay(line.canvas, *_kept[shape], line.color)
+        _kept.move_to_end(shape)
+    while len(_kept) > _BOUND:
+        _kept.popitem(last=False)
 
-    Kept, because of the curves of a picture not all change while σ is dragged.
-    """
-    line = np.frombuffer(points).reshape(-1, 2)
-    if dash:
-        start, end = _dashes(line, dash, width)
-    elif len(line) == 1:
-        start = end = line
-    else:
-        start, end = line[:-1], line[1:]
-    index, share = _near(start, end, width, box, shape[1])
+
+def _shape(line: Line) -> _Shape:
+    height, across = line.canvas.shape[:2]
+    box = line.within or (0, 0, across, height)
+    points = np.asarray(line.points, np.float64).reshape(-1, 2)
+    return _Shape(points.T.tobytes(), line.width, line.dash, box, (height, across))
+
+
+def _cover(index: Array, share: Array, pixels: int) -> _Cover:
+    """Make one of the pixels near a line, of which several pieces may each cover a share."""
+    full = index[(share >= 1).nonzero()[0]]
+    rest = (share < 1).nonzero()[0]
+    index, share = index[rest], share[rest]
     # Where pieces meet the one that covers most counts.
-    most = np.empty(shape[0] * shape[1], np.float32)
+    most = np.empty(pixels, np.float32)
     most[index] = 0
     np.maximum.at(most, index, share)
-    kept = np.flatnonzero((share > 0) & (share == most[index]))
-    return index[kept], share[kept]
+    most[full] = 1
+    kept = (share == most[index]).nonzero()[0]
+    return _Cover(full, index[kept], share[kept].repeat(4))
 
 
-def _near(start: Array, end: Array, width: float, box: Box, across: int) -> tuple[Array, Array]:
-    """List the pixels near pieces of a line, and how much of each the piece covers.
+def _near(shapes: Sequence[_Shape]) -> list[tuple[Array, Array]]:
+    """List the pixels near the pieces of each line, and how much of each the piece covers.
 
-    Parameters
-    ----------
-    start, end
-        Of the pieces, (pieces, 2).
-    box
-        Whole pixels outside of which nothing counts.
-    across
-        Pixels of a row.
+    All lines in one go: the time goes into calling numpy and not into the numbers.
 
     Returns
     -------
-    Number of the pixel, counted row by row, and its share, float32. Pixels come once a piece.
+    For each line numbers of pixels, counted row by row, and their shares, float32. Pixels come once
+    a piece.
     """
-    reach = width / 2 + 0.5
+    pieces = [_pieces(shape) for shape in shapes]
+    counts = [piece.shape[1] for piece in pieces]
+    ends = np.concatenate(pieces, axis=1)
+    start, end = ends[:2], ends[2:]
+    given = np.array([_given(shape) for shape in shapes]).T.repeat(counts, axis=1)
+    reach, limit, across = given[:3]
     along = end - start
-    length = np.sqrt(along[:, 0] ** 2 + along[:, 1] ** 2)
+    squares = along * along
+    length = np.sqrt(squares[0] + squares[1])
+    way = along / np.maximum(length, _LEAST)
     # A point is a piece along x.
-    along[length < _LEAST] = (_LEAST, 0)
-    ux, uy = (along / np.maximum(length, _LEAST)[:, np.newaxis]).T
-    left, top = (np.minimum(start, end) - reach).T
-    right, bottom = (np.maximum(start, end) + reach).T
+    np.copyto(way, ((1.0,), (0.0,)), where=length < _LEAST)
+    left, top = np.maximum(np.minimum(start, end) - reach, given[3:5])
+    right, bottom = np.minimum(np.maximum(start, end) + reach, given[5:])
     # Rows whose middle is near enough to a piece.
-    first, rows = _whole(top, bottom, box[1], box[3])
-    pieces = np.array((start[:, 0], start[:, 1], ux, uy, length, left, right))
-    x, y, ux, uy, length, left, right = pieces.repeat(rows, axis=1)
-    row = _count(first, rows)
+    first, rows = _whole(top, bottom)
+    row_sums = _sums(rows)
+    offset = first - row_sums[:-1]
+    table = np.array((*start, *way, length, left, right, reach, limit, across, offset))
+    x, y, ux, uy, length, left, right, reach, limit, across, offset = table.repeat(rows, axis=1)
     # Of each row the pixels between two lines along the piece, no further than its ends.
+    row = np.arange(row_sums[-1]) + offset
     down = row + 0.5 - y
     steep = np.maximum(np.abs(uy), _LEAST)
     middle, half = x + down * ux / np.copysign(steep, uy), reach / steep
-    left, right = np.maximum(left, middle - half), np.minimum(right, middle + half)
-    column, columns = _whole(left, right, box[0], box[2])
-    beside = column + 0.5 - x
+    column, columns = _whole(np.maximum(left, middle - half), np.minimum(right, middle + half))
+    sums = _sums(columns)
+    before = sums[:-1]
+    leftmost = (row * across + column).astype(np.intp)
+    index = np.arange(sums[-1]) + (leftmost - before).repeat(columns)
     # Of each pixel the way from the start of the piece, along it and across.
-    spans = np.array((beside * ux + down * uy, down * ux - beside * uy, ux, uy, length), np.float32)
-    ahead, aside, ux, uy, length = spans.repeat(columns, axis=1)
-    leftmost = row * across + column
-    index = _count(leftmost, columns)
-    step = (index - leftmost.repeat(columns)).astype(np.float32)
-    ahead += step * ux
-    aside -= step * uy
+    beside = column + 0.5 - x
+    ahead, aside = beside * ux + down * uy, down * ux - beside * uy
+    table = np.array((ahead, aside, ux, uy, length, reach, limit, before), np.float32)
+    # What belongs to a row lies side by side, which numpy copies at once.
+    ahead, aside, ux, uy, length, reach, limit, before = table.T.repeat(columns, axis=0).T
+    step = np.arange(sums[-1], dtype=np.float32) - before
+    ahead, aside = ahead + step * ux, aside - step * uy
     ahead -= np.minimum(np.maximum(ahead, 0), length)
     away = np.sqrt(ahead * ahead + aside * aside)
-    share = np.minimum(np.maximum(np.float32(reach) - away, 0), np.float32(min(width, 1.0)))
-    return index, share
+    share = np.minimum(np.maximum(reach - away, 0), limit)
+    bounds = sums[row_sums[[*accumulate(counts, initial=0)]]].tolist()
+    return [(index[i:j], share[i:j]) for i, j in pairwise(bounds)]
 
 
-def _whole(low: Array, high: Array, least: float, most: float) -> tuple[Array, Array]:
-    """Pixels whose middle lies between two places: the first of them, and how many."""
-    first = np.minimum(np.maximum(np.ceil(low - 0.5), least), most).astype(np.intp)
-    beyond = np.minimum(np.maximum(np.floor(high + 0.5), least), most).astype(np.intp)
-    return first, np.maximum(beyond - first, 0)
+def _given(shape: _Shape) -> tuple[float, ...]:
+    """How far a line reaches, its largest share, pixels of a row, and the box."""
+    return shape.width / 2 + 0.5, min(shape.width, 1.0), shape.size[1], *shape.box
 
 
-def _count(first: Array, counts: Array) -> Array:
-    """Count up from each number, as often as its count says."""
-    beyond = counts.cumsum()
-    return np.arange(beyond[-1] if beyond.size else 0) + (first - beyond + counts).repeat(counts)
+def _whole(low: Array, high: Array) -> tuple[Array, Array]:
+    """Pixels whose middle lies between two places: the first of them, a float, and how many."""
+    first = np.ceil(low - 0.5)
+    return first, np.maximum(np.floor(high + 0.5) - first, 0).astype(np.intp)
 
 
-def _dashes(line: Array, dash: Sequence[float], width: float) -> tuple[Array, Array]:
+def _sums(counts: Array) -> Array:
+    """Sum up from 0 on, one number more than there are counts."""
+    sums = np.zeros(counts.size + 1, np.intp)
+    counts.cumsum(out=sums[1:])
+    return sums
+
+
+def _pieces(shape: _Shape) -> Array:
+    """Straight pieces of a line: x and y of their starts, x and y of their ends; (4, pieces)."""
+    line = np.frombuffer(shape.points).reshape(2, -1)
+    if shape.dash:
+        return _dashes(line, shape.dash, shape.width)
+    if line.shape[1] == 1:
+        return np.concatenate((line, line))
+    return np.concatenate((line[:, :-1], line[:, 1:]))
+
+
+def _dashes(line: Array, dash: tuple[float, ...], width: float) -> Array:
     """Pieces of the strokes of a dashed line; round ends lengthen a stroke by the line's width."""
-    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
+    at = np.zeros(line.shape[1])
+    np.hypot(*(line[:, 1:] - line[:, :-1])).cumsum(out=at[1:])
     length = float(at[-1])
-    period = sum(dash)
-    turns = np.arange(int(length // period) + 1)[:, np.newaxis] * period
+    strokes = _strokes(dash, width, int(length // sum(dash)) + 1)
+    # Starts and ends in turn, up to the end of the line.
+    edges = np.minimum(strokes[: strokes[:, 0].searchsorted(length)], length).reshape(-1)
+    knots = np.concatenate((at, edges))
+    knots.sort()
+    drawn = (edges.searchsorted(knots[:-1], side="right") % 2).nonzero()[0]
+    path = _along(line, at, knots)
+    pieces = np.concatenate((path.take(drawn, axis=1), path.take(drawn + 1, axis=1)))
+    dots = edges[::2][edges[1::2] <= edges[::2]]
+    if not dots.size:
+        return pieces
+    points = _along(line, at, dots)
+    return np.concatenate((pieces, np.concatenate((points, points))), axis=1)
+
+
+@lru_cache(maxsize=16)
+def _strokes(dash: tuple[float, ...], width: float, turns: int) -> Array:
+    """Where strokes start and end, (strokes, 2), without the round ends; a short one is a dot."""
+    turn = np.arange(turns)[:, np.newaxis] * sum(dash)
     offsets = np.concatenate(([0.0], np.cumsum(dash)))
-    starts = (turns + offsets[:-1:2]).ravel() + width / 2
-    ends = np.maximum((turns + offsets[1::2]).ravel() - width / 2, starts)
-    inside = starts < length
-    starts, ends = starts[inside], np.minimum(ends[inside], length)
-    knots = np.sort(np.concatenate((at, starts, ends)))
-    drawn = np.searchsorted(starts, knots[:-1], side="right") > np.searchsorted(
-        ends, knots[:-1], side="right"
-    )
-    dots = starts[ends <= starts]
-    x, y = (np.interp(knots, at, line[:, i]) for i in (0, 1))
-    path = np.stack((x, y), axis=1)
-    points = np.stack([np.interp(dots, at, line[:, i]) for i in (0, 1)], axis=1)
-    return np.concatenate((path[:-1][drawn], points)), np.concatenate((path[1:][drawn], points))
+    starts = (turn + offsets[:-1:2]).ravel() + width / 2
+    ends = np.maximum((turn + offsets[1::2]).ravel() - width / 2, starts)
+    return np.stack((starts, ends), axis=1)
+
+
+def _along(line: Array, at: Array, knots: Array) -> Array:
+    """Points of a line, (2, knots), after some of its length."""
+    return np.array([np.interp(knots, at, line[i]) for i in (0, 1)])

@@ -7,6 +7,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +16,8 @@ import numpy.typing as npt
 from ...core.arrays import Array
 from . import lines, raster, text
 from .theme import Look
+
+_Numbers = TypeVar("_Numbers", float, Array)
 
 Size = tuple[int, int]
 """Width and height, pixels."""
@@ -45,10 +49,17 @@ class Axes:
 
     def place(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
         """Give pixels (points, 2) of numbers (points,)."""
-        across = (np.asarray(x, float) - self.x[0]) / (self.x[1] - self.x[0])
-        up = (np.asarray(y, float) - self.y[0]) / (self.y[1] - self.y[0])
-        wide, high = self.right - self.left, self.bottom - self.top
-        return np.array((self.left + across * wide, self.bottom - up * high)).T
+        return np.array((self.across(np.asarray(x, float)), self.down(np.asarray(y, float)))).T
+
+    def across(self, x: _Numbers) -> _Numbers:
+        """Give pixels from the left of numbers along x."""
+        low, high = self.x
+        return self.left + (x - low) / (high - low) * (self.right - self.left)
+
+    def down(self, y: _Numbers) -> _Numbers:
+        """Give pixels from the top of numbers along y."""
+        low, high = self.y
+        return self.bottom - (y - low) / (high - low) * (self.bottom - self.top)
 
 
 @dataclass(frozen=True)
@@ -89,15 +100,23 @@ def margin(axis: Sequence[float], look: Look) -> int:
     return math.ceil(widest + 5 * look.scale)
 
 
+@lru_cache(maxsize=16)
+def axes_of(size: Size, look: Look, x: tuple[float, float], top: float, foot: int) -> Axes:
+    """Place axes from 0 to `top` between a legend above and `foot` rows below."""
+    width, height = size
+    left = 1 if is_small(size, look) else margin((0, top / 2, top), look)
+    head = legend_height(look) + round(2 * look.scale)
+    return Axes(left, head, width - 1, height - foot, x, (0.0, top))
+
+
 def draw_grid(
     canvas: Array, axes: Axes, ticks: Sequence[float], look: Look, *, named: bool
 ) -> None:
     """Draw level lines with their values, the lowest one stronger."""
     thin = max(1, round(look.scale))
     for value in ticks:
-        [[_, y]] = axes.place([axes.x[0]], [value])
         # Whole pixels: a thin line between two rows would be a gray band.
-        row = min(round(float(y)), axes.bottom - thin)
+        row = min(round(axes.down(value)), axes.bottom - thin)
         strong = value == ticks[0]
         color = look.faint if strong else look.grid
         raster.rectangle(canvas, (axes.left, row, axes.right, row + thin), color)
@@ -114,7 +133,7 @@ def name_below(
     for step in range(1, len(ticks) + 1):
         kept = ticks[::-1][::step][::-1]
         halves = [text.width(name, look.font) / 2 for _, name in kept]
-        places = axes.place([value for value, _ in kept], [axes.y[0]] * len(kept))[:, 0].tolist()
+        places = [axes.across(value) for value, _ in kept]
         middles = [
             min(max(x, half + 1), canvas.shape[1] - half - 2)
             for x, half in zip(places, halves, strict=True)
@@ -153,18 +172,25 @@ def draw_legend(canvas: Array, keys: Sequence[Key], left: float, look: Look) -> 
         if x + width > end:
             return
         reach = key.width * look.scale / 2
-        line = [(x + reach, middle), (x + length - reach, middle)]
-        dash = [part * look.scale for part in key.dash]
-        lines.polyline(canvas, line, key.color, key.width * look.scale, dash)
+        ends = np.array(((x + reach, middle), (x + length - reach, middle)))
+        lines.draw([line(canvas, ends, key, look)])
         text.draw(canvas, name, x + length + space, base, look.font, key.color)
         x += width + gap
 
 
-def draw_curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Look) -> None:
-    """Draw a line as its entry in the legend shows, cut at the sides of the plot."""
+def curve(canvas: Array, axes: Axes, x: Array, y: Array, key: Key, look: Look) -> lines.Line:
+    """Give a line as its entry in the legend shows it, cut at the sides of the plot."""
     # Half a line may cross the border, so that a curve along it does not thin out.
     spare = math.ceil(key.width * look.scale / 2) + 1
     within = (axes.left, max(axes.top - spare, 0), axes.right, axes.bottom + spare)
-    dash = [part * look.scale for part in key.dash]
-    points = axes.place(x, np.clip(y, *axes.y))
-    lines.polyline(canvas, points, key.color, key.width * look.scale, dash, within)
+    low, high = axes.y
+    inside = np.minimum(np.maximum(y, low), high)
+    return line(canvas, axes.place(x, inside), key, look, within)
+
+
+def line(
+    canvas: Array, points: Array, key: Key, look: Look, within: raster.Box | None = None
+) -> lines.Line:
+    """Give a line through pixels, (points, 2), as its entry in the legend shows it."""
+    dash = tuple(part * look.scale for part in key.dash)
+    return lines.Line(canvas, points, key.color, key.width * look.scale, dash, within)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -41,16 +42,24 @@ def paint(
 
     What lies outside the canvas is left out.
     """
+    _blend(canvas, coverage.repeat(4, axis=1), left, top, color, alpha)
+
+
+def _blend(
+    canvas: Array, share: Array, left: int, top: int, color: Color, alpha: float = 1
+) -> None:
+    """Lay a color over the canvas, of which each byte has its share.
+
+    The bytes of a row one after the other: numpy is slow over the four of a pixel.
+    """
     height, width = canvas.shape[:2]
     x0, y0 = max(left, 0), max(top, 0)
-    inside = coverage[y0 - top : max(height - top, 0), x0 - left : max(width - left, 0)]
-    rows, columns = inside.shape
-    # The bytes of a row one after the other: numpy is slow over the four of a pixel.
-    part = canvas.reshape(height, 4 * width)[y0 : y0 + rows, 4 * x0 : 4 * (x0 + columns)]
-    share = inside.repeat(4, axis=1)
+    share = share[y0 - top : max(height - top, 0), 4 * (x0 - left) : 4 * max(width - left, 0)]
+    rows, columns = share.shape
+    part = canvas.reshape(height, 4 * width)[y0 : y0 + rows, 4 * x0 : 4 * x0 + columns]
     if alpha < 1:
-        share *= np.float32(alpha)
-    part[:] = _mixed(part, share, _row(color, columns))
+        share = share * np.float32(alpha)
+    part[:] = _mixed(part, share, _row(color, columns // 4))
 
 
 def _mixed(below: Array, share: Array, ink: Array) -> Array:
@@ -65,33 +74,30 @@ def _mixed(below: Array, share: Array, ink: Array) -> Array:
 
 def _row(color: Color, pixels: int) -> Array:
     """Give the bytes of opaque pixels, float32."""
-    ink = np.empty((pixels, 4), np.float32)
-    ink[:] = [255 * c for c in (*color, 1.0)]
-    return ink.reshape(-1)
+    return _ink(color).repeat(pixels).view(np.float32)
 
 
-def lay(canvas: Array, index: Array, share: Array, color: Color, alpha: float) -> None:
-    """Lay a color over pixels, counted row by row, each covered by its share, float32."""
-    pixels = _pixels(canvas)
-    if alpha < 1:
-        share = share * np.float32(alpha)
-    full = share >= 1
-    pixels[index[np.flatnonzero(full)]] = _opaque(color)
-    part = np.flatnonzero(~full)
-    if not part.size:
-        return
-    index, share = index[part], share[part].repeat(4)
-    mixed = _mixed(pixels[index].view(np.uint8), share, _row(color, part.size))
-    pixels[index] = mixed.astype(np.uint8).view(np.uint32)
+@lru_cache(maxsize=64)
+def _ink(color: Color) -> Array:
+    """Give the bytes of an opaque pixel, four float32 in one number."""
+    return np.array([255 * c for c in (*color, 1.0)], np.float32).view(np.complex128)
 
 
-def _pixels(canvas: Array) -> Array:
-    """Give the pixels one after the other, four bytes in one number; writing there draws."""
-    return canvas.view(np.uint32).reshape(-1)
-
-
+@lru_cache(maxsize=64)
 def _opaque(color: Color) -> Array:
+    """Give an opaque pixel, four bytes in one number."""
     return np.array([int(255 * c + 0.5) for c in (*color, 1.0)], np.uint8).view(np.uint32)
+
+
+def lay(canvas: Array, full: Array, part: Array, share: Array, color: Color) -> None:
+    """Fill pixels, counted row by row, and others in part.
+
+    `share`, float32, has four equal numbers for each of the latter.
+    """
+    pixels = canvas.view(np.uint32).reshape(-1)
+    pixels[full] = _opaque(color)
+    mixed = _mixed(pixels[part].view(np.uint8), share, _row(color, part.size))
+    pixels[part] = mixed.astype(np.uint8).view(np.uint32)
 
 
 def rectangle(canvas: Array, box: Box, color: Color, alpha: float = 1) -> None:
@@ -99,21 +105,20 @@ def rectangle(canvas: Array, box: Box, color: Color, alpha: float = 1) -> None:
     left, top, right, bottom = box
     if left >= right or top >= bottom:
         return
+    if alpha == 1 and all(edge == int(edge) for edge in box):
+        x0, y0, x1, y1 = (max(int(edge), 0) for edge in box)
+        canvas.view(np.uint32)[y0:y1, x0:x1, 0] = _opaque(color)
+        return
     x0, across = _interval(left, right)
     y0, down = _interval(top, bottom)
-    if alpha == 1 and across.min() == down.min() == 1:
-        rows, columns = (
-            slice(max(at, 0), max(at + n, 0)) for at, n in ((y0, down.size), (x0, across.size))
-        )
-        canvas.view(np.uint32)[rows, columns, 0] = _opaque(color)
-        return
-    paint(canvas, down[:, np.newaxis] * across, x0, y0, color, alpha)
+    _blend(canvas, down[:, np.newaxis] * across.repeat(4), x0, y0, color, alpha)
 
 
 def _interval(start: float, stop: float) -> tuple[int, Array]:
     """Give the first pixel of an interval, and the shares of its pixels."""
     first, last = math.floor(start), math.ceil(stop)
-    covered = np.ones(last - first, np.float32)
+    covered = np.empty(last - first, np.float32)
+    covered.fill(1)
     covered[0] -= start - first
     covered[-1] -= last - stop
     return first, covered
@@ -124,14 +129,21 @@ def dashes(
 ) -> None:
     """Fill a rectangle in strokes along x, as long as `dash` says, with gaps between them."""
     left, top, right, bottom = box
-    x0, stroke, period = math.floor(left), dash[0], sum(dash)
     y0, down = _interval(top, bottom)
+    share = down[:, np.newaxis] * _strokes(left, right, dash)
+    _blend(canvas, share, math.floor(left), y0, color, alpha)
+
+
+@lru_cache(maxsize=16)
+def _strokes(left: float, right: float, dash: tuple[float, float]) -> Array:
+    """Give each byte's share of a row of strokes, float32."""
+    stroke, period = dash[0], sum(dash)
     # Strokes up to each edge between pixels; the difference is each pixel's share.
-    at = np.minimum(np.maximum(np.arange(x0, math.ceil(right) + 1) - left, 0), right - left)
+    at = np.arange(math.floor(left), math.ceil(right) + 1) - left
+    at = np.minimum(np.maximum(at, 0), right - left)
     turns = np.floor(at / period)
     filled = turns * stroke + np.minimum(at - turns * period, stroke)
-    across = (filled[1:] - filled[:-1]).astype(np.float32)
-    paint(canvas, down[:, np.newaxis] * across, x0, y0, color, alpha)
+    return (filled[1:] - filled[:-1]).astype(np.float32).repeat(4)
 
 
 def pointer(canvas: Array, tip: tuple[float, int], top: int, reach: float, color: Color) -> None:
@@ -142,7 +154,7 @@ def pointer(canvas: Array, tip: tuple[float, int], top: int, reach: float, color
     x, bottom = tip
     x0 = math.floor(x - reach)
     edge = np.arange(x0, math.ceil(x + reach) + 1) - x
-    half = np.linspace(reach, 0, bottom - top + 1)[:, np.newaxis]
+    half = _falling(reach, bottom - top + 1)
     # How far each row is filled from the middle to an edge between pixels: the mean of the lesser
     # of the edge's and the side's distance, of which the latter falls evenly along the row.
     near = np.minimum(np.abs(edge), half)
@@ -150,6 +162,12 @@ def pointer(canvas: Array, tip: tuple[float, int], top: int, reach: float, color
     filled = (sums[:-1] - sums[1:]) * ((bottom - top) / reach) * np.sign(edge)
     coverage = filled[:, 1:] - filled[:, :-1]
     paint(canvas, coverage.astype(np.float32), x0, top, color)
+
+
+@lru_cache(maxsize=16)
+def _falling(reach: float, rows: int) -> Array:
+    """Half the width of a triangle between its rows, one below the other."""
+    return np.linspace(reach, 0, rows)[:, np.newaxis]
 
 
 def frame(canvas: Array, box: Box, color: Color, width: float = 1, alpha: float = 1) -> None:

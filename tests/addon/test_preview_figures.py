@@ -11,6 +11,7 @@ from rough_spectra.addon.preview import (
     compose,
     data,
     figures,
+    lines,
     plot,
     raster,
     text,
@@ -38,7 +39,7 @@ def drawn(figure, size, *numbers):
     """Shares of a figure on a canvas that was used before: it has to fill all of it."""
     canvas = raster.blank(size[1], size[0])
     canvas[:] = (1, 2, 3, 255)
-    figure(canvas, *numbers)
+    lines.draw(figure(canvas, *numbers) or ())
     return canvas / np.float32(255)
 
 

@@ -150,6 +150,31 @@ def test_dashes_cover_their_share_and_leave_gaps():
     assert (covered.max(axis=0)[5:245] == 0).sum() >= 24 * 3
 
 
+def test_lines_drawn_at_once_are_as_one_after_the_other():
+    """On canvases of several sizes, over each other, of one point, in dots, and nowhere."""
+    wave = np.stack((np.linspace(-4, 70, 30), 18 + 15 * np.sin(np.arange(30) / 3)), axis=1)
+    shapes = (
+        (0, wave, RED, 3.0),
+        (1, wave[::-1], RED, 0.7, (5.0, 3.0)),
+        (0, wave + 2, (0.0, 0.5, 1.0), 1.6, (2.0, 6.0)),
+        (0, wave - 99, RED),
+        (1, wave[9:10], (0.0, 1.0, 0.0), 9.0, (), (5, 3, 20, 16)),
+        (0, wave, RED, 3.0),
+    )
+    alone = [raster.blank(*size) for size in ((40, 60), (20, 33))]
+    at_once = [canvas.copy() for canvas in alone]
+    for number, *rest in shapes:
+        lines.polyline(alone[number], *rest)
+    lines._kept.clear()
+    lines.draw([lines.Line(at_once[number], *rest) for number, *rest in shapes])
+    for one, other in zip(alone, at_once, strict=True):
+        assert one.any()
+        np.testing.assert_array_equal(one, other)
+    before = at_once[1].copy()
+    lines.draw([lines.Line(at_once[1], wave - 99, RED), lines.Line(at_once[1], wave - 88, RED)])
+    np.testing.assert_array_equal(at_once[1], before)
+
+
 def test_nothing_is_drawn_outside_the_canvas_or_the_box():
     canvas = raster.blank(20, 30)
     lines.polyline(canvas, [(-50, -20), (80, 40)], RED, 3)

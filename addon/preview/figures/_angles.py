@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from ....core.arrays import Array
 from .. import lines, plot, raster, text
+from ..lines import Line
 from ..plot import Axes, Key, Size
 from ..theme import Look
 
@@ -23,12 +24,8 @@ _ANGLE_TICKS = (-60, -30, 0, 30, 60)
 
 def angles_axes(size: Size, look: Look, peak: float) -> Axes:
     """Where `angles` draws."""
-    width, height = size
-    top = plot.ceiling(peak)
-    left = 1 if plot.is_small(size, look) else plot.margin((0, top / 2, top), look)
     below = math.ceil(5 * look.scale + text.height(look.font))
-    head = plot.legend_height(look) + round(2 * look.scale)
-    return Axes(left, head, width - 1, height - below, (-STEEPEST, STEEPEST), (0.0, top))
+    return plot.axes_of(size, look, (-STEEPEST, STEEPEST), plot.ceiling(peak), below)
 
 
 def angles(
@@ -39,8 +36,8 @@ def angles(
     lambert: float,
     look: Look,
     engine: str = "Cycles",
-) -> None:
-    """Draw the reflectance factor over the view angle, with light from 45° on the left.
+) -> list[Line]:
+    """Show the reflectance factor over the view angle, with light from 45° on the left.
 
     Parameters
     ----------
@@ -52,20 +49,26 @@ def angles(
         The same of the smooth material with the same reading.
     engine
         What draws for Blender, as the legend names it.
+
+    Returns
+    -------
+    The curves, which are not drawn yet.
     """
     size = canvas.shape[1], canvas.shape[0]
     axes = angles_axes(size, look, max(float(target.max()), float(blender.max()), lambert))
     canvas[:] = _angles_ground(axes, size, look, engine)
     for_target, for_blender, for_lambert = _angle_keys(look, engine)
-    [[_, y]] = axes.place([0], [max(lambert, 0.0)])
-    half = for_lambert.width * look.scale / 2
+    y, half = axes.down(max(lambert, 0.0)), for_lambert.width * look.scale / 2
     stroke, gap = for_lambert.dash
-    box = (axes.left, float(y) - half, axes.right, float(y) + half)
+    box = (axes.left, y - half, axes.right, y + half)
     raster.dashes(canvas, box, (stroke * look.scale, gap * look.scale), for_lambert.color)
-    plot.draw_curve(canvas, axes, view, target, for_target, look)
-    plot.draw_curve(canvas, axes, view, blender, for_blender, look)
+    return [
+        plot.curve(canvas, axes, view, target, for_target, look),
+        plot.curve(canvas, axes, view, blender, for_blender, look),
+    ]
 
 
+@lru_cache(maxsize=8)
 def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
     return (
         Key("Target", look.target, 2.6),
@@ -84,8 +87,7 @@ def _angles_ground(axes: Axes, size: Size, look: Look, engine: str) -> Array:
     plot.name_below(canvas, axes, [(t, f"{plot.label(t)}°") for t in _ANGLE_TICKS], row, look)
     plot.draw_legend(canvas, _angle_keys(look, engine), axes.left, look)
     if axes.bottom - axes.top >= 36 * look.scale:
-        [[x, _]] = axes.place([-LIGHT_ANGLE], [0])
-        _sun(canvas, float(x), axes.bottom - 8 * look.scale, look)
+        _sun(canvas, axes.across(-LIGHT_ANGLE), axes.bottom - 8 * look.scale, look)
     return canvas
 
 
@@ -108,15 +110,15 @@ def angles_polar(
     blender: Array,
     look: Look,
     engine: str = "Cycles",
-) -> None:
-    """Draw the same as `angles` around the point that is looked at: distance is reflectance."""
+) -> list[Line]:
+    """Show the same as `angles` around the point that is looked at: distance is reflectance."""
     size = canvas.shape[1], canvas.shape[0]
     top = plot.ceiling(max(float(target.max()), float(blender.max())))
     canvas[:] = _polar_ground(size, look, engine)
-    for values, key in zip((target, blender), _angle_keys(look, engine), strict=False):
-        dash = [part * look.scale for part in key.dash]
-        points = polar_place(size, look, view, values / top)
-        lines.polyline(canvas, points, key.color, key.width * look.scale, dash)
+    return [
+        plot.line(canvas, polar_place(size, look, view, values / top), key, look)
+        for values, key in zip((target, blender), _angle_keys(look, engine), strict=False)
+    ]
 
 
 def polar_place(size: Size, look: Look, degrees: npt.ArrayLike, share: npt.ArrayLike) -> Array:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ....core.arrays import Array
 from .. import plot, raster, text
+from ..lines import Line
 from ..plot import Axes, Key, Size
 from ..theme import Look
 
@@ -24,12 +25,8 @@ _BAND = 5.0
 
 def spectrum_axes(size: Size, look: Look, peak: float) -> Axes:
     """Where `spectrum` draws."""
-    width, height = size
-    top = plot.ceiling(peak)
-    left = 1 if plot.is_small(size, look) else plot.margin((0, top / 2, top), look)
     below = math.ceil((_BAND + 5) * look.scale + text.height(look.font))
-    head = plot.legend_height(look) + round(2 * look.scale)
-    return Axes(left, head, width - 1, height - below, VISIBLE_NM, (0.0, top))
+    return plot.axes_of(size, look, VISIBLE_NM, plot.ceiling(peak), below)
 
 
 def spectrum(
@@ -39,8 +36,8 @@ def spectrum(
     reading: Array,
     bars: Sequence[tuple[float, float, float]],
     look: Look,
-) -> None:
-    """Draw albedo and reading over wavelength, and the three numbers that Blender keeps.
+) -> list[Line]:
+    """Show albedo and reading over wavelength, and the three numbers that Blender keeps.
 
     Parameters
     ----------
@@ -50,22 +47,32 @@ def spectrum(
         Fractions, shape (bands,).
     bars
         First and last wavelength, and value, of blue, green and red: see `data.rgb_bars`.
+
+    Returns
+    -------
+    The curves, which are not drawn yet.
     """
     shown = (wavelengths > VISIBLE_NM[0] - 50) & (wavelengths < VISIBLE_NM[1] + 50)
     peak = max(*(float(c[shown].max(initial=0)) for c in (albedo, reading)), *(b[2] for b in bars))
     size = canvas.shape[1], canvas.shape[0]
     axes = spectrum_axes(size, look, peak)
     canvas[:] = _spectrum_ground(axes, size, look)
-    keys = _spectrum_keys(look)
-    half = keys[2].width * look.scale / 2
-    for start, end, value in bars:
-        (left, y), (right, _) = axes.place(np.clip((start, end), *axes.x), [max(value, 0.0)] * 2)
-        raster.rectangle(canvas, (left, y - half, right, y + half), keys[2].color)
+    for_reading, for_albedo, for_bars = _spectrum_keys(look)
+    half = for_bars.width * look.scale / 2
+    first, last = axes.x
+    spans = np.array(bars, np.float64).reshape(-1, 3).T
+    left, right = axes.across(np.minimum(np.maximum(spans[:2], first), last))
+    y = axes.down(np.maximum(spans[2], 0.0))
+    for box in zip(left, y - half, right, y + half, strict=True):
+        raster.rectangle(canvas, box, for_bars.color)
     nm = _thinned(wavelengths[shown], axes)
-    for values, key in ((albedo, keys[1]), (reading, keys[0])):
-        plot.draw_curve(canvas, axes, nm, np.interp(nm, wavelengths, values), key, look)
+    return [
+        plot.curve(canvas, axes, nm, np.interp(nm, wavelengths, values), key, look)
+        for values, key in ((albedo, for_albedo), (reading, for_reading))
+    ]
 
 
+@lru_cache(maxsize=8)
 def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     return (
         Key("Reading", look.target, 1.6),
@@ -92,7 +99,8 @@ def _spectrum_ground(axes: Axes, size: Size, look: Look) -> Array:
 def _thinned(nm: Array, axes: Axes) -> Array:
     """Bands to draw: all of them, or one for every other pixel where there are more."""
     most = (axes.right - axes.left) // 2
-    inside = np.clip(nm, *axes.x)
+    first, last = axes.x
+    inside = np.minimum(np.maximum(nm, first), last)
     return inside if nm.size <= most else np.linspace(inside[0], inside[-1], most)
 
 
