@@ -29,6 +29,7 @@ _E308_STEPS = (5, 10, 20)
 _DARK = (6 / 29) ** 3
 """Below this share of the white, CIE Lab goes on as a straight line."""
 _TURN = 2 * np.pi
+_BLUE, _BLUE_WIDTH = np.radians(275), np.radians(25)
 _HUE_TERMS = tuple(
     part * complex(np.exp(1j * np.radians(shift)))
     for part, shift in ((-0.17, -30), (0.24, 0), (0.32, 6), (-0.20, -63))
@@ -150,20 +151,21 @@ def delta_e(lab_a: npt.ArrayLike, lab_b: npt.ArrayLike) -> Array:
     l_1, a_1, b_1 = one[..., 0], one[..., 1], one[..., 2]
     l_2, a_2, b_2 = other[..., 0], other[..., 1], other[..., 2]
     # Blue-green grays are stretched along a*.
-    plain = (np.sqrt(a_1 * a_1 + b_1 * b_1) + np.sqrt(a_2 * a_2 + b_2 * b_2)) / 2
+    square_1, square_2 = b_1 * b_1, b_2 * b_2
+    plain = (np.sqrt(a_1 * a_1 + square_1) + np.sqrt(a_2 * a_2 + square_2)) / 2
     stretch = 1.5 - 0.5 * _saturation(plain)
     a_1, a_2 = stretch * a_1, stretch * a_2
-    c_1, c_2 = np.sqrt(a_1 * a_1 + b_1 * b_1), np.sqrt(a_2 * a_2 + b_2 * b_2)
-    mean_l, mean_c, product = (l_1 + l_2) / 2, (c_1 + c_2) / 2, c_1 * c_2
-    turn, hue = _hues(_angle(a_1, b_1), _angle(a_2, b_2), product, a_1 * b_2 - a_2 * b_1)
+    c_1, c_2 = np.sqrt(a_1 * a_1 + square_1), np.sqrt(a_2 * a_2 + square_2)
+    mean_c, product = (c_1 + c_2) / 2, c_1 * c_2
+    half_turn, hue = _hues(_angle(a_1, b_1), _angle(a_2, b_2), a_1 * b_2 - a_2 * b_1)
 
-    darkness = (mean_l - 50) ** 2
+    darkness = ((l_1 + l_2) / 2 - 50) ** 2
     lightness = (l_2 - l_1) / (1 + 0.015 * darkness / np.sqrt(20 + darkness))
     chroma = (c_2 - c_1) / (1 + 0.045 * mean_c)
-    across = 2 * np.sqrt(product) * np.sin(turn / 2) / (1 + 0.015 * mean_c * _hue_weight(hue))
-    blue = np.exp(-(((hue - np.radians(275)) / np.radians(25)) ** 2))
+    across = 2 * np.sqrt(product) * np.sin(half_turn) / (1 + 0.015 * mean_c * _hue_weight(hue))
+    blue = np.exp(-(((hue - _BLUE) / _BLUE_WIDTH) ** 2))
     rotation = -2 * _saturation(mean_c) * np.sin(np.pi / 3 * blue)
-    squared = lightness**2 + chroma**2 + across**2 + rotation * chroma * across
+    squared = lightness**2 + chroma**2 + across * (across + rotation * chroma)
     # The form is never negative, but its rounding is.
     return np.asarray(np.sqrt(np.maximum(squared, 0)))
 
@@ -174,19 +176,20 @@ def _angle(a: Array, b: Array) -> Array:
     return np.asarray(np.where(angle < 0, angle + _TURN, angle))
 
 
-def _hues(h_1: Array, h_2: Array, product: Array, cross: Array) -> tuple[Array, Array]:
-    """Give the turn from one hue to the other, and the hue halfway on the shorter arc.
+def _hues(h_1: Array, h_2: Array, cross: Array) -> tuple[Array, Array]:
+    """Give half the turn from one hue to the other, and the hue there, on the shorter arc.
 
     `cross` is the cross product of the two, and says which arc that is: for opposite hues, such as
     (2.49, -0.001) and (-2.49, 0.001), it is 0, while the rounding of the angles, which differs
     between processors, would decide by chance, and by as much as ΔE00 0.04.
+
+    A gray has no hue, and leaves the other's; where there is one, hues weigh nothing.
     """
-    turn = h_2 - h_1
-    over = (np.abs(turn) > np.pi / 2) & (cross * turn < 0)
-    turn = np.where(over, turn - np.copysign(_TURN, turn), turn)
-    # A gray has no hue, and leaves the other's.
-    hue = np.where(product != 0, h_1 + turn / 2, h_1 + h_2)
-    return turn, np.where(hue < 0, hue + _TURN, np.where(hue >= _TURN, hue - _TURN, hue))
+    half_turn = (h_2 - h_1) / 2
+    over = (np.abs(half_turn) > np.pi / 4) & (cross * half_turn < 0)
+    half_turn = np.where(over, half_turn - np.copysign(np.pi, half_turn), half_turn)
+    hue = h_1 + half_turn
+    return half_turn, np.where(hue < 0, hue + _TURN, np.where(hue >= _TURN, hue - _TURN, hue))
 
 
 def _hue_weight(hue: Array) -> Array:
