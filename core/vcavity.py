@@ -34,6 +34,7 @@ these numbers, but white facets can: integrated over the view hemisphere they re
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
@@ -186,21 +187,29 @@ def series(
     weights = vcavity_slopes.weights(sigmas, resolution.slopes)
 
     width = bounces + vcavity_series.TAIL_RATIOS.size
-    found = np.empty((np.count_nonzero(known), width))
-    members = np.split(
-        np.argsort(which.ravel(), kind="stable"),
-        np.cumsum(np.bincount(which.ravel(), minlength=len(geometries)))[:-1],
-    )
-    for start in range(0, len(geometries), _CHUNK):
-        chunk = geometries[start : start + _CHUNK]
-        rows = _response(chunk.tobytes(), bounces, resolution)
-        for row, member in zip(rows, members[start : start + _CHUNK], strict=True):
+    responses = _responses(geometries, bounces, resolution)
+    if len(sigmas) == 1:
+        found = np.concatenate([weights[0] @ rows for rows in responses])[which.ravel()]
+    else:
+        found = np.empty((np.count_nonzero(known), width))
+        members = np.split(
+            np.argsort(which.ravel(), kind="stable"),
+            np.cumsum(np.bincount(which.ravel(), minlength=len(geometries)))[:-1],
+        )
+        of_each = (row for rows in responses for row in rows)
+        for row, member in zip(of_each, members, strict=False):  # none has one empty member
             found[member] = weights[roughness.ravel()[member]] @ row
     found[spread[known] == 0] = np.eye(1, width)
 
     out = np.full((spread.size, width), np.nan)
     out[known] = found
     return out.reshape(*angles[0].shape, width)
+
+
+def _responses(geometries: Array, bounces: int, resolution: Resolution) -> Iterator[Array]:
+    """Give `response` of geometries (n, 3), some at a time."""
+    for start in range(0, len(geometries), _CHUNK):
+        yield _response(geometries[start : start + _CHUNK].tobytes(), bounces, resolution)
 
 
 @lru_cache(maxsize=_REMEMBERED)

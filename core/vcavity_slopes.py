@@ -56,7 +56,7 @@ def weights(sigma: Array, per_panel: int) -> Array:
     if sigma.size > _BLOCK:
         blocks = np.split(sigma, range(_BLOCK, sigma.size, _BLOCK))
         return np.concatenate([weights(block, per_panel) for block in blocks])
-    slopes = nodes(per_panel)
+    level, inner = _panels(per_panel)
     quadrature, quadrature_weights = _gauss(_WEIGHT_NODES)
     spread = np.maximum(sigma, np.finfo(np.float64).tiny)[:, np.newaxis, np.newaxis]
     # Axes: σ, panel, node of the quadrature.
@@ -67,15 +67,31 @@ def weights(sigma: Array, per_panel: int) -> Array:
     with np.errstate(over="ignore"):
         share = np.exp(-0.5 * (slope / spread) ** 2)
     share *= np.sin(slope) / spread * ((top - low) / spread) * quadrature_weights
-    # The first panel also has the level surface for a node.
-    level, inner = slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
-    first = np.einsum("nq,nqs->ns", share[:, 0], _lagrange(slope[:, 0], level))
-    others = np.einsum("npq,npqs->nps", share[:, 1:], _lagrange(slope[:, 1:], inner))
+    of_level, of_inner = _gaps(per_panel)
+    first = np.einsum("nq,nqs->ns", share[:, 0], _lagrange(slope[:, 0], level, of_level))
+    others = np.einsum("npq,npqs->nps", share[:, 1:], _lagrange(slope[:, 1:], inner, of_inner))
     out = np.concatenate((first, others.reshape(sigma.size, inner.size)), axis=1)
     return np.asarray(out / np.sum(out, axis=1, keepdims=True))
 
 
-def _lagrange(slope: Array, at: Array) -> Array:
+@lru_cache(maxsize=8)
+def _panels(per_panel: int) -> tuple[Array, Array]:
+    """Nodes of the first panel, which has the level surface too, and of the others, (panels, n)."""
+    slopes = nodes(per_panel)
+    return slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
+
+
+@lru_cache(maxsize=8)
+def _gaps(per_panel: int) -> tuple[Array, Array]:
+    """Give what the products of `_lagrange` are at their own nodes, in the shapes of `_panels`."""
+    level, inner = (
+        (at[..., :, np.newaxis] - at[..., np.newaxis, :] + np.eye(at.shape[-1])).prod(axis=-1)
+        for at in _panels(per_panel)
+    )
+    return level, inner
+
+
+def _lagrange(slope: Array, at: Array, gaps: Array) -> Array:
     """Lagrange polynomials of the nodes `at`, (..., nodes), evaluated at `slope`, (..., places).
 
     Shape (..., places, nodes). Each is a product of the nodes before it and of those after it.
@@ -84,5 +100,4 @@ def _lagrange(slope: Array, at: Array) -> Array:
     before, after = np.ones_like(away), np.ones_like(away)
     np.cumprod(away[..., :-1], axis=-1, out=before[..., 1:])
     np.cumprod(away[..., :0:-1], axis=-1, out=after[..., -2::-1])
-    gaps = at[..., :, np.newaxis] - at[..., np.newaxis, :] + np.eye(at.shape[-1])
-    return np.asarray(before * after / gaps.prod(axis=-1)[..., np.newaxis, :])
+    return np.asarray(before * after / gaps[..., np.newaxis, :])
