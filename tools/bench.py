@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How fast the main computations are, beside a copy, a plain product or the peer in the same run.
 
-A ratio within one run means the same on every machine, seconds don't. Each line also says how
+A ratio within one run says more of another machine than seconds do. Each line also says how
 exact the result is. Writes docs/data/benchmark.csv and docs/benchmark-table.md with --write, and
 prints the table in any case. Needs an environment with bpy:
 
@@ -249,7 +249,7 @@ def markdown(rows: list[Row]) -> str:
             ),
             "",
             f"Shortest of repeated runs in turns, one process; {environment()}. Rates are of one "
-            "machine, the ratios hold on others too.",
+            "machine; ratios differ less between machines, by how fast memory is beside the core.",
             "",
         ]
     )

@@ -17,10 +17,12 @@ import statistics
 import sys
 import time
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 MATERIALS = 500
 DRAWS = 200
@@ -54,10 +56,12 @@ def main() -> None:
     drawing(thing)
     for model in MODELS:
         dragging(material, model)
+    others(material)
     pace()
     print(bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT"), "to the scene's lights")
     for model in MODELS:
         dragging(material, model)
+    others(material)
     pace()
     icons = importlib.import_module("rough_spectra.addon.preview.icons")
     icons.clear()
@@ -154,12 +158,36 @@ def pictures(material: Any, scale: int) -> None:
     icons._work()
 
 
-def dragging(material: Any, model: str) -> None:
+def others(material: Any) -> None:
+    """Drag σ of samples that cost more than the preset: many bands, instruments, next to white."""
+    from rough_spectra.addon import assign as assigning
+    from rough_spectra.addon import storage
+    from rough_spectra.addon.request import Request
+    from rough_spectra.addon.sample import Sample
+
+    before = storage.load(material)
+    fine, coarse = np.arange(380.0, 781.0), np.arange(380.0, 781.0, 10.0)
+    for name, nm, low, high, settings in (
+        ("401 bands", fine, 0.1, 0.8, {}),
+        ("401 bands, albedo", fine, 0.1, 0.8, {"kind": "albedo"}),
+        ("sphere", coarse, 0.1, 0.6, {"instrument": "di:8"}),
+        ("dark", coarse, 0.03, 0.03, {}),
+        ("white", coarse, 0.95, 0.95, {}),
+    ):
+        step = low + (high - low) / (1 + np.exp((580 - nm) / 20))
+        sample = Sample(name=name, wavelengths=nm, values=step, **({"kind": "reading"} | settings))
+        for model in ("auto", "reference"):
+            assigning.assign([(material, Request(sample, 0.5, model))])
+            dragging(material, model, f"{name}, ", scales=(2,))
+    assigning.assign([(material, before)])
+
+
+def dragging(material: Any, model: str, what: str = "", scales: Sequence[int] = (1, 2)) -> None:
     """Drag σ: derive, write the sockets, make the pictures and hand them to Blender."""
     from rough_spectra.addon.preview import icons
 
     material.rough_spectra.model = model
-    for scale in (1, 2):
+    for scale in scales:
         icons.clear()
         pictures(material, scale)
 
@@ -169,8 +197,8 @@ def dragging(material: Any, model: str) -> None:
                 picture.drawn = time.monotonic()
             icons.refresh(material)
 
-        times = [timed(partial(drag, 0.3 + 0.5 * i / STEPS)) for i in range(STEPS)]
-        row(f"drag σ, {model}, scale {scale}", times[1:])
+        times = [timed(partial(drag, 0.1 + 1.3 * i / STEPS)) for i in range(STEPS)]
+        row(f"drag σ, {what}{model}, scale {scale}", times[1:])
 
 
 def pace() -> None:
@@ -187,7 +215,7 @@ def timed(work: Callable[[], object]) -> float:
 
 def row(name: str, times: list[float]) -> None:
     """Print the cost of one piece of work."""
-    print(f"{name:>36}  {min(times):8.2f}  ({statistics.median(times):.2f})", flush=True)
+    print(f"{name:>46}  {min(times):8.2f}  ({statistics.median(times):.2f})", flush=True)
 
 
 if __name__ == "__main__":
