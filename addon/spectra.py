@@ -78,7 +78,24 @@ def _as_printed(request: Request) -> bool:
 
 
 def albedos(requests: list[Request], model: str) -> Array:
-    """Albedos (materials, bands) by a model, of requests with the same bands and instrument."""
+    """Albedos (materials, bands) by a model, of requests with the same bands and instrument.
+
+    Those of a single request are read-only.
+    """
+    if len(requests) == 1:
+        return _albedo_of_one(requests[0].sample, requests[0].sigma, model)
+    return _albedos_of_all(requests, model)
+
+
+@lru_cache(maxsize=16)
+def _albedo_of_one(sample: Sample, sigma: float, model: str) -> Array:
+    """Compute it once: choosing a model takes it by one, and matching by the one chosen."""
+    found = _albedos_of_all([Request(sample, sigma, model)], model)
+    found.setflags(write=False)
+    return found
+
+
+def _albedos_of_all(requests: list[Request], model: str) -> Array:
     instrument = instruments.find(requests[0].sample.instrument).name
     values = np.stack([request.sample.reflectance for request in requests])
     is_albedo = np.array([request.sample.kind == "albedo" for request in requests])

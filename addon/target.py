@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -310,7 +309,6 @@ def _colors(
     return readings, targets
 
 
-@lru_cache(maxsize=8)
 def _everywhere(count: int) -> tuple[Array, Array, Array]:
     """Give directions all over the hemisphere, and the virtual instrument's."""
     return _with_instrument(geometry.hemisphere(count))
@@ -327,7 +325,8 @@ def _percentile(values: Array, share: float) -> Array:
 
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
     """Add the virtual instrument's direction at the end."""
-    light, view, azimuth = map(np.append, geometries, reading.INSTRUMENT_ANGLES[VIRTUAL])
+    instrument = reading.INSTRUMENT_ANGLES[VIRTUAL]
+    light, view, azimuth = np.concatenate((geometries, np.reshape(instrument, (3, 1))), axis=1)
     return light, view, azimuth
 
 

@@ -19,7 +19,7 @@ Where light and view are 45° apart and one of them is the normal, all of this i
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -59,6 +59,24 @@ def first_and_second(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Arra
 
 def closure_coefficients(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Array, Array]:
     """Coefficients b, a and g of the closure, float64: see `core.closure.coefficients`."""
+    spread = np.asarray(sigma)
+    if spread.size != 1 or spread.dtype == np.float32:
+        return _closure_coefficients(spread, instrument)
+    # White facets, a reading's albedo and what another instrument reads ask for the same σ.
+    one = _closure_of_one(float(spread.reshape(())), instrument)
+    single, walk, ratio = (coefficient.reshape(spread.shape) for coefficient in one)
+    return single, walk, ratio
+
+
+@lru_cache(maxsize=64)
+def _closure_of_one(sigma: float, instrument: str) -> tuple[Array, Array, Array]:
+    found = _closure_coefficients(np.array([sigma]), instrument)
+    for coefficient in found:
+        coefficient.setflags(write=False)
+    return found
+
+
+def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, Array]:
     if _is_ring(instrument):
         return closure.coefficients(np.asarray(sigma, np.float64))
     table, meeting = _closure_table(instrument)

@@ -162,20 +162,22 @@ def others(material: Any) -> None:
     """Drag σ of samples that cost more than the preset: many bands, instruments, next to white."""
     from rough_spectra.addon import assign as assigning
     from rough_spectra.addon import storage
-    from rough_spectra.addon.request import Request
-    from rough_spectra.addon.sample import Sample
+    from rough_spectra.addon.request import VIRTUAL, Request
+    from rough_spectra.addon.sample import Kind, Sample
 
     before = storage.load(material)
-    fine, coarse = np.arange(380.0, 781.0), np.arange(380.0, 781.0, 10.0)
-    for name, nm, low, high, settings in (
-        ("401 bands", fine, 0.1, 0.8, {}),
-        ("401 bands, albedo", fine, 0.1, 0.8, {"kind": "albedo"}),
-        ("sphere", coarse, 0.1, 0.6, {"instrument": "di:8"}),
-        ("dark", coarse, 0.03, 0.03, {}),
-        ("white", coarse, 0.95, 0.95, {}),
+    fine = np.arange(380, 781, dtype=np.float64)
+    kinds: tuple[Kind, Kind] = ("reading", "albedo")
+    reading, albedo = kinds
+    for name, nm, low, high, kind, instrument in (
+        ("401 bands", fine, 0.1, 0.8, reading, VIRTUAL),
+        ("401 bands, albedo", fine, 0.1, 0.8, albedo, VIRTUAL),
+        ("sphere", fine[::10], 0.1, 0.6, reading, "di:8"),
+        ("dark", fine[::10], 0.03, 0.03, reading, VIRTUAL),
+        ("white", fine[::10], 0.95, 0.95, reading, VIRTUAL),
     ):
         step = low + (high - low) / (1 + np.exp((580 - nm) / 20))
-        sample = Sample(name=name, wavelengths=nm, values=step, **({"kind": "reading"} | settings))
+        sample = Sample(name, nm, step, kind=kind, instrument=instrument)
         for model in ("auto", "reference"):
             assigning.assign([(material, Request(sample, 0.5, model))])
             dragging(material, model, f"{name}, ", scales=(2,))
