@@ -118,6 +118,7 @@ def judge(
     space: WorkingSpace,
 ) -> Array:
     """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
+    cycles.check_roughness(np.asarray(shader[1]))
     places = _places(view, _bytes(bands), _bytes(space.from_xyz))
     wanted = places.relative(_reflected(albedo, model, sigma, places))
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])

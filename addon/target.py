@@ -315,7 +315,7 @@ def _everywhere(count: int) -> tuple[Array, Array, Array]:
 
 
 def _percentile(values: Array, share: float) -> Array:
-    """Percentile of each row, between the two next to it: numpy's own takes 0.2 ms for a row."""
+    """Percentile of each row of numbers, no NaN: numpy's own takes 0.2 ms for a row."""
     ordered = np.sort(values, axis=1)
     at = share * (ordered.shape[1] - 1)
     below = int(at)

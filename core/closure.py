@@ -200,7 +200,9 @@ def _halved(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ..
         np.tan(np.minimum(polar_angle(angle, what, angle.dtype), LARGEST_ANGLE) / 2)
         for angle, what in ((theta_i, "theta_i"), (theta_r, "theta_r"))
     )
-    return tuple(np.broadcast_arrays(light, view, np.cos(delta_phi)))
+    with np.errstate(invalid="ignore"):  # an infinite azimuth is NaN, like a missing one
+        cosine = np.cos(delta_phi)
+    return tuple(np.broadcast_arrays(light, view, cosine))
 
 
 def reflectance(

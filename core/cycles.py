@@ -79,7 +79,7 @@ def reflectance(
     """
     c = spectrum(color, "the color")
     s, *angles = (np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
-    _check_roughness(s)
+    check_roughness(s)
     return _reflected(c, _lobe(s, *_directions(*angles)))
 
 
@@ -104,7 +104,7 @@ def color_for_reading(
     """
     r = spectrum(reading, "the reading")
     s, *angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
-    _check_roughness(s)
+    check_roughness(s)
     return _color(r, _lobe(s, *_directions(*angles)))
 
 
@@ -190,7 +190,14 @@ def _around_least(tried: Array, costs: Array) -> tuple[Array, Array]:
     return tried[row, column], costs[row, column]
 
 
-def _check_roughness(roughness: Array) -> None:
+def check_roughness(roughness: Array) -> None:
+    """Refuse what is no roughness of Cycles; NaN passes.
+
+    Raises
+    ------
+    DomainError
+        If one lies outside 0 to 1.
+    """
     outside = (roughness < 0) | (roughness > 1)
     if np.count_nonzero(outside):
         first = float(roughness[outside].flat[0])
@@ -207,7 +214,8 @@ def _directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array
     dtype = precision(theta_i, theta_r, delta_phi)
     light = polar_angle(theta_i, "theta_i", dtype)
     view = polar_angle(theta_r, "theta_r", dtype)
-    tilt = np.sin(light) * np.sin(view) * np.cos(delta_phi)
+    with np.errstate(invalid="ignore"):  # an infinite azimuth is NaN, like a missing one
+        tilt = np.sin(light) * np.sin(view) * np.cos(delta_phi)
     tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(light), np.cos(view)), tilt)
     spread = (ALBEDO_SPAN - albedo_shape(light)) * (ALBEDO_SPAN - albedo_shape(view))
     # numpy 1.26 promotes scalars on the way.

@@ -19,7 +19,9 @@ _OTHERS = (0.0,) * 9
 
 
 def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
-    """Give 1, the tilt of the facets and the light that single scattering lost.
+    """Give 1, what single scattering gains by the tilt of the facets or loses, and what was lost.
+
+    The three are independent of color and roughness, and scaled so that few terms are left.
 
     Parameters
     ----------

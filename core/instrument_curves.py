@@ -58,7 +58,10 @@ def first_and_second(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Arra
 
 
 def closure_coefficients(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Array, Array]:
-    """Coefficients b, a and g of the closure, float64: see `core.closure.coefficients`."""
+    """Coefficients b, a and g of the closure, float64: see `core.closure.coefficients`.
+
+    Arrays of the shape of `sigma`; those of a single σ are kept, and read-only.
+    """
     spread = np.asarray(sigma)
     if spread.size != 1 or spread.dtype == np.float32:
         return _closure_coefficients(spread, instrument)

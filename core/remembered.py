@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache, wraps
+from math import prod
 
 import numpy as np
 
@@ -44,8 +45,10 @@ def remembered(function: Directions) -> Directions:
     @wraps(function)
     def of_arrays(light: Array, view: Array, azimuth: Array) -> tuple[Array, ...]:
         angles = (light, view, azimuth)
-        if max(light.size, view.size, azimuth.size) > FEW:
+        shapes = {angle.shape for angle in angles}
+        # Of angles that broadcast against each other, the results are what would be kept.
+        if prod(shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)) > FEW:
             return function(*angles)
-        return of_bytes(*((angle.tobytes(), angle.shape, angle.dtype.char) for angle in angles))
+        return of_bytes(*((angle.tobytes(), angle.shape, angle.dtype.str) for angle in angles))
 
     return of_arrays

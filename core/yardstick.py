@@ -126,7 +126,8 @@ def _folded(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, Ar
     light, view = polar_angle(theta_i, "theta_i", dtype), polar_angle(theta_r, "theta_r", dtype)
     larger, smaller = np.maximum(light, view), np.minimum(light, view)
     ratio = smaller / np.maximum(larger, np.finfo(dtype).tiny)
-    azimuth = np.arccos(np.cos(delta_phi))
+    with np.errstate(invalid="ignore"):  # an infinite azimuth is NaN, like a missing one
+        azimuth = np.arccos(np.cos(delta_phi))
     return larger, ratio, azimuth
 
 

@@ -94,15 +94,19 @@ def polyline(
 def draw(lines: Sequence[Line]) -> None:
     """Draw lines, each over those before it; several at once take little longer than one."""
     shapes = [_shape(line) for line in lines]
-    missing = [shape for shape in dict.fromkeys(shapes) if shape not in _kept]
+    # Another thread may draw at the same time: what is kept may be gone at any moment.
+    covers = {shape: kept for shape in shapes if (kept := _kept.pop(shape, None)) is not None}
+    missing = [shape for shape in dict.fromkeys(shapes) if shape not in covers]
     if missing:
-        for shape, near in zip(missing, _near(missing), strict=True):
-            _kept[shape] = _cover(*near, math.prod(shape.size))
+        with np.errstate(invalid="ignore"):  # what is no number covers nothing
+            found = _near(missing)
+        for shape, near in zip(missing, found, strict=True):
+            covers[shape] = _cover(*near, math.prod(shape.size))
     for line, shape in zip(lines, shapes, strict=True):
-        lay(line.canvas, *_kept[shape], line.color)
-        _kept.move_to_end(shape)
-    while len(_kept) > _BOUND:
-        _kept.popitem(last=False)
+        lay(line.canvas, *covers[shape], line.color)
+    _kept.update(covers)
+    for shape in list(_kept)[:-_BOUND]:
+        _kept.pop(shape, None)
 
 
 def _shape(line: Line) -> _Shape:
@@ -189,7 +193,9 @@ def _given(shape: _Shape) -> tuple[float, ...]:
 def _whole(low: Array, high: Array) -> tuple[Array, Array]:
     """Pixels whose middle lies between two places: the first of them, a float, and how many."""
     first = np.ceil(low - 0.5)
-    return first, np.maximum(np.floor(high + 0.5) - first, 0).astype(np.intp)
+    count = np.maximum(np.floor(high + 0.5) - first, 0)
+    known = np.isfinite(count)
+    return np.where(known, first, 0), np.where(known, count, 0).astype(np.intp)
 
 
 def _sums(counts: Array) -> Array:
@@ -202,7 +208,8 @@ def _sums(counts: Array) -> Array:
 def _pieces(shape: _Shape) -> Array:
     """Straight pieces of a line: x and y of their starts, x and y of their ends; (4, pieces)."""
     line = np.frombuffer(shape.points).reshape(2, -1)
-    if shape.dash:
+    # Along a line with a gap nobody can tell where dashes are.
+    if shape.dash and np.isfinite(line).all():
         return _dashes(line, shape.dash, shape.width)
     if line.shape[1] == 1:
         return np.concatenate((line, line))

@@ -175,6 +175,26 @@ def test_lines_drawn_at_once_are_as_one_after_the_other():
     np.testing.assert_array_equal(at_once[1], before)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("dash", [(), (5.0, 3.0)])
+def test_what_is_no_number_leaves_a_gap_and_other_lines_whole(dash):
+    wave = np.stack((np.linspace(2, 58, 30), 18 + 15 * np.sin(np.arange(30) / 3)), axis=1)
+    for value, axis in itertools.product((np.nan, np.inf, -np.inf), (0, 1)):
+        torn = wave.copy()
+        torn[12, axis] = value
+        found, other = raster.blank(40, 60), raster.blank(40, 60)
+        lines._kept.clear()
+        lines.draw([lines.Line(found, torn, RED, 2.0, dash), lines.Line(other, wave, RED)])
+        expected = raster.blank(40, 60)
+        lines.polyline(expected, wave, RED)
+        np.testing.assert_array_equal(other, expected)
+        # Along a line with a gap nobody can tell where dashes are: it is drawn solid.
+        expected = raster.blank(40, 60)
+        for part in (wave[:12], wave[13:]):
+            lines.polyline(expected, part, RED, 2.0)
+        np.testing.assert_array_equal(found, expected)
+
+
 def test_nothing_is_drawn_outside_the_canvas_or_the_box():
     canvas = raster.blank(20, 30)
     lines.polyline(canvas, [(-50, -20), (80, 40)], RED, 3)

@@ -53,6 +53,24 @@ def test_of_many_directions_nothing_is_kept(sums):
     found[0] = 7
 
 
+def test_of_a_grid_of_few_by_few_directions_nothing_is_kept(sums):
+    add, runs = sums
+    light, view = np.full((FEW - 1, 1), 0.1), np.full(FEW - 1, 0.2)
+    for _ in range(2):
+        assert add(light, view, np.zeros(1))[0].shape == (FEW - 1, FEW - 1)
+    assert len(runs) == 2
+    for _ in range(2):
+        add(light, np.full(1, 0.2), np.zeros(()))
+    assert len(runs) == 3
+
+
+def test_bytes_in_the_other_order_are_other_numbers(sums):
+    add, _ = sums
+    angles = geometry.hemisphere(3)
+    swapped = [angle.astype(angle.dtype.newbyteorder()) for angle in angles]
+    np.testing.assert_array_equal(add(*swapped)[0], add(*angles)[0])
+
+
 @pytest.mark.parametrize(
     "of",
     [
@@ -74,7 +92,19 @@ def test_few_directions_give_what_they_give_among_many(of):
         np.testing.assert_array_equal(again, alone)
 
 
-def test_what_is_wrong_is_said_every_time():
+@pytest.mark.parametrize(
+    "of",
+    [
+        closure.factors,
+        oren_nayar.factors,
+        yardstick.bound,
+        lambda *angles: cycles.reflectance(np.full((1, 3), 0.4), angles[-1], *angles[:-1]),
+    ],
+    ids=["closure", "published", "bound", "cycles"],
+)
+def test_what_is_wrong_is_said_every_time(of):
+    """An infinite azimuth is no number, and needs no warning beside it, the first time or later."""
     for _ in range(2):
         with pytest.raises(DomainError, match="outside 0 to π/2"):
-            oren_nayar.factors(np.array([45.0]), np.array([0.0]), np.array([0.0]), 0.3)
+            of(np.array([45.0]), np.array([0.0]), np.array([0.0]), 0.3)
+        of(np.array([0.5]), np.array([0.4]), np.array([np.inf]), 0.3)

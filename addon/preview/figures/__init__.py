@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures: from numbers to pixels. Knows no Blender.
 
-Every figure fills the canvas (see `raster`) that it is given, and hands back its curves for
-`lines.draw`, which draws those of several figures at once in little more time than one. What stays
+Every figure fills the canvas (see `raster`) that it is given. A plot hands back its curves for
+`lines.draw`, which draws those of several plots at once in little more time than one. What stays
 the same while σ is dragged is drawn once and copied. Nothing is told by color alone: curves differ
 in dash and thickness and are named beside a sample.
 """
