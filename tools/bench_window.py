@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure what drawing the panel costs in a real window, Blender's own layout code included.
+"""Measure what drawing the panel and dragging σ cost in a real window.
 
     python tools/bench_window.py --blender BLENDER --zip build/rough_spectra-….zip
 
 BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there. The
-file has 500 materials with a spectrum, and all panels of the Material tab are open.
+file has 500 materials with a spectrum, and all panels of the Material tab are open. Of drawing,
+Blender's own layout code is included.
 """
 
 from __future__ import annotations

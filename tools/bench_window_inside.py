@@ -4,7 +4,7 @@
 
 Every `poll` and `draw` of the panels is timed where Blender calls it, in processor time of the
 thread, which other programs disturb less than wall time. What Blender does afterwards with what
-they drew, such as placing the buttons, is its own and not counted.
+they drew, such as placing the buttons, is its own and not counted. Then σ is dragged.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ import screenshots_states as states
 [ZIP] = sys.argv[sys.argv.index("--") + 1 :]
 MATERIALS = 500
 DRAWS = 150
+STEPS = 60
 STATES = ("assigned", "lit-by-several", "edited", "eevee")
 WIDTH = 440
 CLOSED = "source_open"
@@ -80,6 +81,21 @@ def _script() -> Iterator[float]:
         yield 0.5
         for how, shown in (("the same", others[:1]), ("another each time", others)):
             yield from _measure(f"{state}, {how}", shown)
+        if state != "edited":
+            yield from _drag(f"{state}, σ dragged")
+
+
+def _drag(what: str) -> Iterator[float]:
+    """Change σ as the slider does: color, sockets and pictures that are shown follow at once."""
+    material = bpy.context.view_layer.objects.active.active_material
+    times = []
+    for step in range(STEPS):
+        start = time.thread_time()
+        material.rough_spectra.sigma = 0.1 + 1.3 * step / STEPS
+        times.append(1e3 * (time.thread_time() - start))
+        yield 0.01
+    times = times[5:]
+    print(f"{what:>36}  {statistics.median(times):.2f}  ({min(times):.2f})", flush=True)
 
 
 def _measure(what: str, shown: list[Any]) -> Iterator[float]:
