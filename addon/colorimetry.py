@@ -108,7 +108,11 @@ LAB_FROM_ROOTS = np.array(((0.0, 116, 0), (500, -500, 0), (0, 200, -200)))
 def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
     """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
-    bent = _bent(ratio, np.cbrt(ratio))
+    return roots_to_lab(_bent(ratio, np.cbrt(ratio)))
+
+
+def roots_to_lab(bent: Array) -> Array:
+    """CIE 1976 L*a*b* of what `roots` gives of X, Y and Z, (..., 3); grays are exactly gray."""
     x, y, z = bent[..., 0], bent[..., 1], bent[..., 2]
     lab = np.empty_like(bent)
     lab[..., 0], lab[..., 1], lab[..., 2] = 116 * y - 16, 500 * (x - y), 200 * (y - z)

@@ -18,8 +18,9 @@ from ..core import compromise, cycles, cycles_slopes, geometry, ladder, reading
 from ..core.arrays import Array
 from . import colorimetry
 from .preview.words import SIDE_BY_SIDE
+from .request import VIRTUAL
 from .scene_view import SceneLight, SceneView
-from .working_space import WorkingSpace
+from .working_space import WorkingSpace, matrix_of
 
 _ELSEWHERE = 12
 """Directions all over the hemisphere, which decide what the scene leaves open."""
@@ -34,7 +35,6 @@ _ENOUGH = 1e-4
 """Overshoot of the gamut that nobody sees."""
 _FAINT = 0.01
 """Part of a light's strongest channel below which its color hangs on almost nothing."""
-_INSTRUMENT = "45a:0"
 _KEPT = 32
 """Views of which `_Places` are kept, some 100 kB each: a dragged slider asks for them again."""
 
@@ -90,12 +90,12 @@ def match(
     rough, lambert, target
         The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
     """
-    places = _places(view, _bytes(bands), _bytes(space.from_xyz))
+    places = _places(view, bands.tobytes(), space.key)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
     roots, _ = colorimetry.roots(wanted)
-    lab = _lab(roots)
-    color = _within(cycles.color_for_reading(_within(mean, 1e-4, 1)[np.newaxis], _STARTS), 0, 1)
+    lab = colorimetry.roots_to_lab(roots)
+    color = np.clip(cycles.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS), 0, 1)
     starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
     found = compromise.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
     apart = colorimetry.delta_e(places.perceive(found), lab)
@@ -119,11 +119,11 @@ def judge(
 ) -> Array:
     """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
     cycles.check_roughness(np.asarray(shader[1]))
-    places = _places(view, _bytes(bands), _bytes(space.from_xyz))
+    places = _places(view, bands.tobytes(), space.key)
     wanted = places.relative(_reflected(albedo, model, sigma, places))
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])
-    roots, _ = colorimetry.roots(wanted)
-    return colorimetry.delta_e(seen[0, : len(wanted)], _lab(roots))[: len(view.place_weights)]
+    lab = colorimetry.roots_to_lab(colorimetry.roots(wanted)[0])
+    return colorimetry.delta_e(seen[0, : len(wanted)], lab)[: len(view.place_weights)]
 
 
 def choose_shader(
@@ -202,7 +202,7 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
 
 def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
     """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[_INSTRUMENT])
+    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
     return to_lab(seen, view.lights[0], space)
 
 
@@ -213,28 +213,19 @@ def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
 
 def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     """XYZ (Y = 1 for white) of a surface's reflectance (..., 3), rendered under a light."""
-    return np.asarray(rgb @ _rendered(light, _bytes(space.from_xyz)))
+    return np.asarray(rgb @ _rendered(light, space.key))
 
 
 @lru_cache(maxsize=_KEPT)
-def _rendered(light: SceneLight, from_xyz: bytes) -> Array:
-    """Matrix of `to_xyz`, for the bytes of the working space's."""
-    matrix = _matrix(from_xyz)
+def _rendered(light: SceneLight, key: bytes) -> Array:
+    """Matrix of `to_xyz`, for a working space's key."""
+    matrix = matrix_of(key)
     return np.asarray(light_rgb(light.white, matrix)[:, np.newaxis] * np.linalg.inv(matrix).T)
 
 
 def light_rgb(white: Array, from_xyz: Array) -> Array:
     """Scene-linear RGB of lights of XYZ (..., 3); never negative, as in Blender."""
     return np.maximum(white @ from_xyz.T, 0)
-
-
-def _bytes(values: Array) -> bytes:
-    """Numbers as a key of what is kept."""
-    return np.asarray(values, np.float64).tobytes()
-
-
-def _matrix(from_xyz: bytes) -> Array:
-    return np.frombuffer(from_xyz).reshape(3, 3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,8 +280,8 @@ class _Places:
         """Lab, shape (materials, places, 3), of materials as `cycles_slopes` takes them."""
         parts = cycles_slopes.coefficients(parameters)
         relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
-        roots, _ = colorimetry.roots(relative.reshape(len(parameters), -1, 3))
-        return _lab(roots)
+        relative = relative.reshape(len(parameters), -1, 3)
+        return colorimetry.roots_to_lab(colorimetry.roots(relative)[0])
 
     def distance_to(self, roots: Array, lab: Array) -> compromise.Distance:
         """Give what `compromise.fit` searches: how far materials are from wanted colors.
@@ -316,9 +307,9 @@ class _Places:
 
 
 @lru_cache(maxsize=_KEPT)
-def _places(view: SceneView, bands: bytes, from_xyz: bytes) -> _Places:
-    """Make them, for the bytes of wavelengths and of the working space's matrix."""
-    matrix, wavelengths = _matrix(from_xyz), np.frombuffer(bands)
+def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
+    """Make them, for the bytes of wavelengths and a working space's key."""
+    matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
     white = np.stack([light.white for light in view.lights])[lights]
     rgb = light_rgb(white, matrix)
@@ -356,9 +347,7 @@ def _ways(view: SceneView) -> tuple[Array, Array, Array]:
         in the light of each place, shape (places, ways).
     """
     count = len(view.lights)
-    instrument = np.repeat(
-        np.array(reading.INSTRUMENT_ANGLES[_INSTRUMENT])[:, np.newaxis], count, 1
-    )
+    instrument = np.repeat(np.array(reading.INSTRUMENT_ANGLES[VIRTUAL])[:, np.newaxis], count, 1)
     angles = np.concatenate((view.angles, geometry.hemisphere(_ELSEWHERE), instrument), axis=1)
     elsewhere = np.zeros(_ELSEWHERE, int)
     lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
@@ -378,18 +367,6 @@ def _to_ratio(from_xyz: Array, light: Array) -> Array:
     faint = (light < _FAINT * light.max(axis=1, keepdims=True))[..., np.newaxis]
     luminance = np.array((0.0, 1.0, 0.0))
     return np.where(faint, luminance, from_xyz / np.where(faint, 1, light[..., np.newaxis]))
-
-
-def _lab(roots: Array) -> Array:
-    """L*a*b* of what `colorimetry.roots` gives, (..., 3)."""
-    lab = roots @ colorimetry.LAB_FROM_ROOTS.T
-    lab[..., 0] -= 16
-    return np.asarray(lab)
-
-
-def _within(values: Array, low: float, high: float) -> Array:
-    """`np.clip` of few numbers, at half the time."""
-    return np.minimum(np.maximum(values, low), high)
 
 
 def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:

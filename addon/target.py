@@ -212,7 +212,7 @@ def _solve(
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert], met[is_lambert] = lambert[is_lambert], met_smooth[is_lambert]
-    high = _percentile(over_hemisphere, 0.95)
+    high = np.percentile(over_hemisphere, 95, axis=1)
     return [
         Solution(
             color=color[i],
@@ -312,15 +312,6 @@ def _colors(
 def _everywhere(count: int) -> tuple[Array, Array, Array]:
     """Give directions all over the hemisphere, and the virtual instrument's."""
     return _with_instrument(geometry.hemisphere(count))
-
-
-def _percentile(values: Array, share: float) -> Array:
-    """Percentile of each row of numbers, no NaN: numpy's own takes 0.2 ms for a row."""
-    ordered = np.sort(values, axis=1)
-    at = share * (ordered.shape[1] - 1)
-    below = int(at)
-    above = min(below + 1, ordered.shape[1] - 1)
-    return np.asarray(ordered[:, below] + (at - below) * (ordered[:, above] - ordered[:, below]))
 
 
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:

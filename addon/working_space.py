@@ -38,7 +38,8 @@ class WorkingSpace:
         return np.asarray(np.linalg.solve(self.from_xyz, np.ones(3)))
 
     @property
-    def _bytes(self) -> bytes:
+    def key(self) -> bytes:
+        """Key of what is kept for a space; `matrix_of` gives `from_xyz` back."""
         return np.asarray(self.from_xyz, np.float64).tobytes()
 
     def rgb_weights(self, wavelengths: Array, illuminant: str) -> Array:
@@ -49,11 +50,11 @@ class WorkingSpace:
         through a 2° matrix are another color.
         """
         bands = np.asarray(wavelengths, np.float64)
-        return _rgb_weights(bands.tobytes(), self._bytes, illuminant)
+        return _rgb_weights(bands.tobytes(), self.key, illuminant)
 
     def to_xyz(self, rgb: Array, illuminant: str) -> Array:
         """XYZ (2° observer, Y = 1 for white) of scene-linear RGB (..., 3) under `illuminant`."""
-        matrix = _to_xyz(self._bytes, illuminant)
+        matrix = _to_xyz(self.key, illuminant)
         return np.asarray(np.asarray(rgb, np.float64) @ matrix)
 
     def to_lab(self, rgb: Array, illuminant: str) -> Array:
@@ -61,11 +62,16 @@ class WorkingSpace:
         return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
 
 
+def matrix_of(key: bytes) -> Array:
+    """Give a space's matrix from XYZ, shape (3, 3), of its `WorkingSpace.key`."""
+    return np.frombuffer(key).reshape(3, 3)
+
+
 @lru_cache(maxsize=32)
-def _rgb_weights(wavelengths: bytes, from_xyz: bytes, illuminant: str) -> Array:
-    """Matrix of `rgb_weights`, for the bytes of its arguments."""
+def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
+    """Matrix of `rgb_weights`, for the bytes of wavelengths and a space's key."""
     weights = colorimetry.weights(np.frombuffer(wavelengths), illuminant, observer=2)
-    matrix = np.frombuffer(from_xyz).reshape(3, 3)
+    matrix = matrix_of(key)
     adapt = colorimetry.adaptation(weights.sum(axis=0), np.linalg.solve(matrix, np.ones(3)))
     found = np.asarray(weights @ (matrix @ adapt).T)
     found.setflags(write=False)
@@ -73,9 +79,9 @@ def _rgb_weights(wavelengths: bytes, from_xyz: bytes, illuminant: str) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _to_xyz(from_xyz: bytes, illuminant: str) -> Array:
-    """Matrix of `to_xyz`, for the bytes of `from_xyz`: a match asks for it at every step."""
-    back = np.linalg.inv(np.frombuffer(from_xyz).reshape(3, 3))
+def _to_xyz(key: bytes, illuminant: str) -> Array:
+    """Matrix of `to_xyz`, for a space's key: a match asks for it at every step."""
+    back = np.linalg.inv(matrix_of(key))
     adapt = colorimetry.adaptation(back @ np.ones(3), colorimetry.white(illuminant))
     return np.asarray((adapt @ back).T)
 

@@ -55,9 +55,6 @@ def apply_in_blocks(formula: Callable[..., None], out: Array, *arrays: Array) ->
 
     The formula writes its first argument in place and keeps no other large array.
     """
-    if 0 < out.size <= ELEMENTS:
-        formula(out, *arrays)
-        return
     for index in blocks(out.shape):
         # A view even where the index is a single element of a one-dimensional array.
         formula(out[index], *(part(array, index, out.ndim) for array in arrays))

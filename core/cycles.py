@@ -80,7 +80,7 @@ def reflectance(
     c = spectrum(color, "the color")
     s, *angles = (np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
     check_roughness(s)
-    return _reflected(c, _lobe(s, *_directions(*angles)))
+    return _reflected(c, _lobe(s, *directions(*angles)))
 
 
 def color_for_reading(
@@ -105,7 +105,7 @@ def color_for_reading(
     r = spectrum(reading, "the reading")
     s, *angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
     check_roughness(s)
-    return _color(r, _lobe(s, *_directions(*angles)))
+    return _color(r, _lobe(s, *directions(*angles)))
 
 
 def match(
@@ -142,8 +142,8 @@ def match(
     """
     r = spectrum(reading, "the reading")
     wanted = spectrum(targets, "the targets")
-    directions, instrument = (
-        _directions(*(np.asarray(angles, r.dtype) for angles in where))
+    scene, instrument = (
+        directions(*(np.asarray(angles, r.dtype) for angles in where))
         for where in (geometries, INSTRUMENT_ANGLES[_RING])
     )
     roughness = np.empty(len(r), r.dtype)
@@ -153,7 +153,7 @@ def match(
 
         def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
             color = _color(of_chunk, _lobe(tried, *instrument))
-            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *directions))
+            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *scene))
             return np.asarray(difference(perceive(seen), goal).mean(axis=-1))
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
@@ -206,10 +206,10 @@ def check_roughness(roughness: Array) -> None:
 
 
 @remembered
-def _directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
+def directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
     """Tilt of the facets in a direction, and how much of the light lost elsewhere leaves there.
 
-    All that the closure takes from a geometry.
+    All that the closure takes from a geometry: θi, θr and Δφ in radians, which broadcast.
     """
     dtype = precision(theta_i, theta_r, delta_phi)
     light = polar_angle(theta_i, "theta_i", dtype)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import Array
-from .cycles import ALBEDO_SPAN, MEAN_SPAN, albedo_shape
+from .cycles import ALBEDO_SPAN, MEAN_SPAN, directions
 
 _OTHERS = (0.0,) * 9
 """Between the derivatives of one channel by its color, and of the next by its own."""
@@ -32,12 +32,10 @@ def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     -------
     Shape (3, directions).
     """
-    tilt = np.sin(theta_i) * np.sin(theta_r) * np.cos(delta_phi)
-    tilt = np.where(tilt > 0, tilt / np.maximum(np.cos(theta_i), np.cos(theta_r)), tilt)
-    lost = (ALBEDO_SPAN - albedo_shape(theta_i)) * (ALBEDO_SPAN - albedo_shape(theta_r))
+    tilt, spread = directions(theta_i, theta_r, delta_phi)
     # With a = 1 / (π + s k) single scattering is c a (π + π s t), which is c + c s a (π t - k).
     bent = (np.pi * tilt - ALBEDO_SPAN) / MEAN_SPAN
-    return np.stack((np.ones_like(tilt), bent, lost / MEAN_SPAN**2))
+    return np.stack((np.ones_like(tilt), bent, spread / MEAN_SPAN))
 
 
 def coefficients(materials: list[list[float]]) -> Array:

@@ -11,14 +11,13 @@ qualitative model and 2/π - 1 of the 1993 fit belong to other models and are no
 
 from __future__ import annotations
 
-from math import prod
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, polar_angle, precision, slope_deviation, spectrum
-from .blocks import ELEMENTS, apply_in_blocks, blocks, part
+from .blocks import apply_in_blocks, blocks, part
 from .remembered import remembered
 
 _BEYOND = {4: -4.371139000186241e-08, 8: 6.123233995736766e-17}
@@ -71,8 +70,6 @@ def factors(
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
     geometry = _checked(theta_i, theta_r, delta_phi, sigma, dtype)
     shape = np.broadcast_shapes(*(array.shape for array in geometry))
-    if prod(shape) <= ELEMENTS:
-        return _factors(*geometry)
     f1, f2 = np.empty(shape, dtype), np.empty(shape, dtype)
     for index in blocks(shape):
         f1[index], f2[index] = _factors(*(part(array, index, len(shape)) for array in geometry))

@@ -15,7 +15,7 @@ from ...core.arrays import Array
 from ...core.errors import MaterialError
 from .. import colorimetry, nodes, scene_match, spectra, stamp, storage
 from ..request import AUTO, VIRTUAL, Request
-from ..working_space import WorkingSpace
+from ..working_space import WorkingSpace, matrix_of
 from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
 from .shown import in_directions, under_main_light
@@ -162,8 +162,9 @@ def of_request(
 ) -> Data:
     """Compute the same from a request with a settled model, and what is in the shader node."""
     sample, light = request.sample, request.illuminant
-    bands, matrix = sample.wavelengths, space.from_xyz.astype(np.float64)
-    weights, luminance = _weights(bands.tobytes(), matrix.tobytes(), light)
+    bands = sample.wavelengths
+    weights = space.rgb_weights(bands, light)
+    luminance = colorimetry.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
     # Sockets may hold anything; what the closure does to a color above 1 is not defined.
     color = np.clip(color, 0, 1)
@@ -196,7 +197,7 @@ def of_request(
 
 def patch(rgb: Array, space: WorkingSpace) -> Patch:
     """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
-    linear = _to_screen(space.from_xyz.astype(np.float64).tobytes()) @ rgb
+    linear = _to_screen(space.key) @ rgb
     low, high = np.abs(linear), np.maximum(linear, 0)
     encoded = np.where(low <= 0.0031308, 12.92 * linear, 1.055 * high ** (1 / 2.4) - 0.055)
     shown = np.clip(encoded, 0, 1)
@@ -205,18 +206,11 @@ def patch(rgb: Array, space: WorkingSpace) -> Patch:
 
 
 @lru_cache(maxsize=16)
-def _to_screen(from_xyz: bytes) -> Array:
+def _to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
-    matrix = _TO_SRGB @ np.linalg.inv(np.frombuffer(from_xyz).reshape(3, 3))
+    matrix = _TO_SRGB @ np.linalg.inv(matrix_of(key))
     # `_TO_SRGB` is rounded to four places; white has to be white.
     return np.asarray(matrix / matrix.sum(axis=1, keepdims=True))
-
-
-@lru_cache(maxsize=16)
-def _weights(bands: bytes, from_xyz: bytes, illuminant: str) -> tuple[Array, Array]:
-    """Weights of scene-linear RGB, (bands, 3), and of luminance, (bands,)."""
-    space, nm = WorkingSpace("", np.frombuffer(from_xyz).reshape(3, 3)), np.frombuffer(bands)
-    return space.rgb_weights(nm, illuminant), colorimetry.weights(nm, illuminant)[:, 1]
 
 
 def rgb_bars(
@@ -227,7 +221,7 @@ def rgb_bars(
     Each stands over the wavelengths that its channel weighs more than the other two. No spectrum
     belongs to three numbers; for a gray one all three have its reflectance.
     """
-    spans = _spans(space.from_xyz.astype(np.float64).tobytes(), illuminant)
+    spans = _spans(space.key, illuminant)
     return tuple(
         (start, end, float(value)) for (start, end), value in zip(spans, rgb[::-1], strict=True)
     )
@@ -240,9 +234,9 @@ def spectra_of(request: Request) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=16)
-def _spans(matrix: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
+def _spans(key: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
     """First and last wavelength where blue, green and red weigh most."""
-    space = WorkingSpace("", np.frombuffer(matrix).reshape(3, 3))
+    space = WorkingSpace("", matrix_of(key))
     weights = space.rgb_weights(_GRID, illuminant)
     fine = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 0.5)
     shares = np.stack([np.interp(fine, _GRID, weights[:, i]) for i in range(3)])

@@ -58,14 +58,6 @@ def test_bake_predicts_with_the_model_that_was_assigned():
     np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
 
 
-def test_percentile_is_numpys():
-    """The predictions' own is quicker for a single row, and the same number."""
-    values = np.random.default_rng(2).exponential(size=(7, target.MATCH_GEOMETRIES))
-    for row in (values, values[:1], values[:, :1]):
-        expected = np.percentile(row, 95, axis=1)
-        np.testing.assert_allclose(target._percentile(row, 0.95), expected, rtol=1e-14)
-
-
 @pytest.mark.parametrize("model", ["lambert", "first-order", "closure", "reference", "auto"])
 def test_a_material_solved_alone_is_the_one_solved_among_others(model):
     """Alone, its spectra are kept from one step of a slider to the next; that changes nothing."""
