@@ -142,7 +142,7 @@ def match(
     """
     r = spectrum(reading, "the reading")
     wanted = spectrum(targets, "the targets")
-    scene, instrument = (
+    others, instrument = (
         directions(*(np.asarray(angles, r.dtype) for angles in where))
         for where in (geometries, INSTRUMENT_ANGLES[_RING])
     )
@@ -153,7 +153,7 @@ def match(
 
         def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
             color = _color(of_chunk, _lobe(tried, *instrument))
-            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *scene))
+            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *others))
             return np.asarray(difference(perceive(seen), goal).mean(axis=-1))
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
