@@ -3,6 +3,7 @@
 """The model and the material are chosen by themselves, and say so where the user looks."""
 
 import math
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -58,11 +59,12 @@ def test_bake_predicts_with_the_model_that_was_assigned():
     np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
 
 
+@pytest.mark.parametrize("kind", ["reading", "albedo"])
 @pytest.mark.parametrize("model", ["lambert", "first-order", "closure", "reference", "auto"])
-def test_a_material_solved_alone_is_the_one_solved_among_others(model):
+def test_a_material_solved_alone_is_the_one_solved_among_others(model, kind):
     """Alone, its spectra are kept from one step of a slider to the next; that changes nothing."""
     requests = [
-        target.Request(presets.load(number), math.radians(degrees), model)
+        target.Request(replace(presets.load(number), kind=kind), math.radians(degrees), model)
         for number, degrees in (("13", 20), ("14", 35), ("14", 36), ("19", 60))
     ]
     together = target.solve(requests, working_space.current())

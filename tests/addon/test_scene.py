@@ -238,6 +238,21 @@ def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
             assert apart == pytest.approx(float(own), abs=1e-9)
 
 
+def test_the_target_of_a_match_is_the_mean_over_the_lights_by_their_shares(colorchecker):
+    """Each channel of the reading over that of the light, as a renderer multiplies them."""
+    view = view_of(light_of((1, 0.6, 0.25), "Warm", 0.7), light_of((0.5, 0.7, 1), "Cold", 0.3))
+    space, sample = working_space.current(), colorchecker[5]
+    bands = sample.wavelengths
+    arguments = (sample.values, "closure", SIGMA, bands, space)
+    *_, found = scene_match.match(view, sample.values, *arguments)
+    ratios = [
+        (space.from_xyz @ (sample.values @ light.weights(bands))) / (space.from_xyz @ light.white)
+        for light in view.lights
+    ]
+    assert np.abs(ratios[0] - ratios[1]).max() > 1e-3
+    assert found == pytest.approx(0.7 * ratios[0] + 0.3 * ratios[1], rel=1e-9)
+
+
 def test_means_are_of_the_lights_that_shine():
     """One of them has no direction left."""
     names = ("Warm", "Cold", "Gone")

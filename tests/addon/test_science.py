@@ -26,6 +26,13 @@ import rough_spectra
 rough_spectra.register()
 assert outsiders() == before == [], (before, outsiders())
 
+# The first preset of a session needs its own reader and no other.
+from rough_spectra.addon import presets
+assert presets.load("14").name
+formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.readers.")]
+own = {{"preset", "_document", "_preset_fields"}}
+assert {{name.rpartition(".")[2] for name in formats}} <= own, formats
+
 np.set_printoptions(precision=3, suppress=True)
 options, filters, errors = np.get_printoptions(), list(warnings.filters), np.geterr()
 show, hook = warnings.showwarning, sys.excepthook

@@ -92,6 +92,7 @@ def test_few_directions_give_what_they_give_among_many(of):
         np.testing.assert_array_equal(again, alone)
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
     "of",
     [
