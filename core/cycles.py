@@ -29,7 +29,7 @@ MEAN_SPAN = ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
 _NEWTON_STEPS = 12
 """Newton on a convex cubic from above needs at most 7 steps to full double precision for c ≤ 1."""
 _SURE_STEPS = 2
-"""Steps taken by all: to ask whether a color needs them costs as much as a step."""
+"""Steps taken by all: to ask whether a color needs them costs nearly as much as a step."""
 
 Lobe = tuple[Array, Array, Array]
 """A, B and D of `_lobe`."""
