@@ -9,45 +9,27 @@ Cheap to import; what computes is imported on the first change.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import bpy
 from bpy.app.handlers import persistent
 
+from . import changes
+
 _PATH = "rough_spectra."
 """How the data paths of animated settings begin."""
 
-_pauses: list[None] = []
 
-
-@contextmanager
-def paused() -> Iterator[None]:
-    """Derive nothing while several settings are written, until all of them are."""
-    _pauses.append(None)
-    try:
-        yield
-    finally:
-        _pauses.pop()
-
-
-def changed(group: Any, _context: Any) -> None:
-    """Derive color and roughness again after a setting was changed; update of the properties."""
-    if _pauses or not group.spectrum:
-        return
+def _on_setting(material: Any) -> None:
+    """Derive color and roughness again after a setting was changed."""
     from . import stamp
 
-    material = group.id_data
     if stamp.follows(material):
         from . import assign
 
-        with paused():
+        with changes.paused():
             assign.follow([(material, material)])
-        if not bpy.app.background:
-            from .preview import icons
-
-            icons.refresh(material)
+        changes.derived.announce(material)
 
 
 def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
@@ -82,7 +64,7 @@ def _on_frame(_scene: Any, depsgraph: Any) -> None:
     if found:
         from . import assign
 
-        with paused():
+        with changes.paused():
             assign.follow(found)
 
 
@@ -94,7 +76,8 @@ def _on_update(scene: Any, depsgraph: Any) -> None:
 
 
 def register() -> None:
-    """Follow animation from now on, in every file."""
+    """Follow settings and animation from now on, in every file."""
+    changes.setting_changed.subscribe(_on_setting)
     bpy.app.handlers.frame_change_post.append(_on_frame)
     bpy.app.handlers.depsgraph_update_post.append(_on_update)
 
@@ -103,3 +86,4 @@ def unregister() -> None:
     """Undo `register`."""
     bpy.app.handlers.depsgraph_update_post.remove(_on_update)
     bpy.app.handlers.frame_change_post.remove(_on_frame)
+    changes.setting_changed.unsubscribe(_on_setting)

@@ -20,7 +20,7 @@ from bpy.props import (
 )
 from bpy.types import Material, PropertyGroup
 
-from . import live
+from . import changes
 
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
@@ -105,13 +105,13 @@ class RoughSpectraMaterial(PropertyGroup):
     sample_name: StringProperty(name="Sample", description="Name of the measured sample")
     source: StringProperty(name="Source", description="File or citation of the spectrum")
     kind: EnumProperty(
-        name="Kind", description="What the spectrum is", items=KIND_ITEMS, update=live.changed
+        name="Kind", description="What the spectrum is", items=KIND_ITEMS, update=changes.on_setting
     )
     instrument: EnumProperty(
         name="Instrument",
         description="Geometry of the reading",
         items=INSTRUMENT_ITEMS,
-        update=live.changed,
+        update=changes.on_setting,
     )
     spectrum: StringProperty(name="Spectrum", description="Wavelengths and values, as JSON")
     details: StringProperty(name="Details", description="What else the file said, as JSON")
@@ -123,14 +123,14 @@ class RoughSpectraMaterial(PropertyGroup):
         step=100,
         min=0.0,
         max=pi / 2,
-        update=live.changed,
+        update=changes.on_setting,
     )
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
     illuminant: EnumProperty(
         name="Illuminant",
         description="Light under which the color is right",
         items=ILLUMINANT_ITEMS,
-        update=live.changed,
+        update=changes.on_setting,
     )
     observer: EnumProperty(
         name="Observer", description="Observer of the reports", items=OBSERVER_ITEMS
@@ -140,10 +140,10 @@ class RoughSpectraMaterial(PropertyGroup):
         description="How light between facets is counted",
         items=MODEL_ITEMS,
         default="auto",
-        update=live.changed,
+        update=changes.on_setting,
     )
     shader: EnumProperty(
-        name="Shader", description="Node that is set", items=SHADER_ITEMS, update=live.changed
+        name="Shader", description="Node that is set", items=SHADER_ITEMS, update=changes.on_setting
     )
     tolerance: FloatProperty(
         name="Tolerance",
@@ -153,14 +153,14 @@ class RoughSpectraMaterial(PropertyGroup):
         soft_max=5.0,
         max=20.0,
         precision=2,
-        update=live.changed,
+        update=changes.on_setting,
     )
     use_scene: BoolProperty(
         name="Light from the Scene",
         description="Be right under the lights and in the directions that Analyze Scene found, "
         "instead of under the illuminant",
         default=False,
-        update=live.changed,
+        update=changes.on_setting,
     )
     scene_view: StringProperty(name="Scene", description="What the analysis found, as JSON")
     stamp: StringProperty(name="Stamp", description="What was derived and from what, as JSON")

@@ -4,11 +4,9 @@
 
 from __future__ import annotations
 
-import sys
-
 import bpy
 
-from . import command_line, live, panels, preferences, properties
+from . import changes, command_line, live, panels, preferences, properties
 from .operators import (
     analyze_scene,
     assign_file,
@@ -56,10 +54,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
-    # Imported only once a picture was asked for.
-    icons = sys.modules.get(f"{__package__}.preview.icons")
-    if icons is not None:
-        icons.clear()
+    changes.unregistering.announce()
     command_line.unregister()
     live.unregister()
     panels.unregister_menus()

@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from ..core.errors import InputError, MaterialError
-from . import facts, live, nodes, scene_view
+from . import changes, facts, nodes, scene_view
 from .facts import elsewhere, engine_is_flat, has_scene, sigma, tolerance
 from .properties import SCHEMA
 from .sample import Sample
@@ -33,7 +33,7 @@ _SENTENCES = ("notes", "altered")
 def store(material: Any, request: Request, shader: str) -> None:
     """Write the spectrum and all settings of a request into the material."""
     sample, group = request.sample, material.rough_spectra
-    with live.paused():
+    with changes.paused():
         group.schema = SCHEMA
         group.sample_name = sample.name
         group.source = sample.source

@@ -35,7 +35,7 @@ def main() -> None:
     extension.register()
     import bpy
     import numpy as np
-    from rough_spectra.addon import assign, facts, live, nodes, readers, target, working_space
+    from rough_spectra.addon import assign, changes, facts, nodes, readers, target, working_space
     from rough_spectra.addon.preview import compose, data, icons, theme
 
     material = bpy.data.materials.new("Bench")
@@ -47,7 +47,7 @@ def main() -> None:
     def drag() -> data.Data:
         """Set another σ, and the roughness in the node as if it followed."""
         sigma = float(np.radians(next(degrees)))
-        with live.paused():
+        with changes.paused():
             material.rough_spectra.sigma = sigma
         nodes.roughness_socket(nodes.shader_node(material)).default_value = sigma / 2
         return data.collect(material, space)

@@ -27,7 +27,7 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
-from .. import facts, stamp
+from .. import changes, facts, stamp
 from ..facts import Facts
 from . import theme
 
@@ -202,12 +202,17 @@ def clear() -> None:
     if _collection is not None:
         previews.remove(_collection)
         _collection = None
+        changes.derived.unsubscribe(refresh)
+        changes.unregistering.unsubscribe(clear)
 
 
 def _previews() -> Any:
     global _collection
     if _collection is None:
         _collection = previews.new()
+        # From the first picture on: before, there is nothing to draw anew, nor to forget.
+        changes.derived.subscribe(refresh)
+        changes.unregistering.subscribe(clear)
     return _collection
 
 

@@ -7,7 +7,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, facts, live, nodes, stamp, storage, working_space
+from rough_spectra.addon import assign, changes, facts, nodes, stamp, storage, working_space
 from rough_spectra.addon.sample import Sample
 from rough_spectra.core.errors import DomainError, MaterialError
 
@@ -269,7 +269,7 @@ def test_each_change_that_matters_is_told(make_material, colorchecker, request_f
     material = make_material(node="ShaderNodeBsdfPrincipled")
     assign.assign([(material, request_for(colorchecker[6]))], "PRINCIPLED")
     assert stamp.stale_reasons(material, SPACE) == []
-    with live.paused():  # else a setting would be followed at once
+    with changes.paused():  # else a setting would be followed at once
         change(material, what)
     assert stamp.stale_reasons(material, SPACE) == [reason]
 

@@ -6,7 +6,7 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, facts, live, nodes, ocio, stamp, storage, target
+from rough_spectra.addon import assign, changes, facts, nodes, ocio, stamp, storage, target
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ CHANGES = {
 def test_every_change_shows_and_nothing_else_does(material, change):
     before = facts.of(material)
     assert facts.of(material) == before
-    with live.paused():
+    with changes.paused():
         CHANGES[change](material)
     after = facts.of(material)
     assert after != before
@@ -60,7 +60,7 @@ def test_every_change_shows_and_nothing_else_does(material, change):
 
 
 def test_a_setting_that_is_no_number_is_equal_to_itself(material):
-    with live.paused():
+    with changes.paused():
         material.rough_spectra.sigma = material.rough_spectra.tolerance = math.nan
     assert facts.of(material) == facts.of(material)
 

@@ -7,7 +7,17 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, facts, live, nodes, stamp, storage, target, working_space
+from rough_spectra.addon import (
+    assign,
+    changes,
+    facts,
+    live,
+    nodes,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
 from rough_spectra.addon.openimageio import openimageio
 from rough_spectra.core import cycles
 
@@ -161,7 +171,7 @@ def test_dragging_and_undo_go_together(material):
 
 
 def test_loading_a_file_derives_nothing(material, tmp_path):
-    with live.paused():
+    with changes.paused():
         material.rough_spectra.sigma = 0.9
     material.use_fake_user = True
     before, written = sockets(material), material.rough_spectra.stamp
@@ -194,7 +204,7 @@ def wall(material):
 
 def animate(material):
     for frame, degrees in ((1, 5.0), (3, 45.0)):
-        with live.paused():
+        with changes.paused():
             material.rough_spectra.sigma = math.radians(degrees)
         assert material.rough_spectra.keyframe_insert("sigma", frame=frame)
 
@@ -257,7 +267,7 @@ def test_animation_spares_edits_by_hand_and_others(wall, make_material):
 def test_one_that_fails_does_not_hold_up_others(make_material, colorchecker, request_for):
     good, bad = make_material("good"), make_material("bad")
     assign.assign([(m, request_for(colorchecker[6])) for m in (good, bad)])
-    with live.paused():
+    with changes.paused():
         bad.rough_spectra.spectrum = "{}"
         good.rough_spectra.sigma = 0.2
     assign.follow([(bad, bad), (good, good)])

@@ -7,7 +7,7 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, live, nodes, stamp, storage
+from rough_spectra.addon import assign, changes, nodes, stamp, storage
 from rough_spectra.addon.properties import SCHEMA
 from rough_spectra.core.errors import MaterialError
 
@@ -110,7 +110,7 @@ def test_renewing_all_leaves_edits_and_what_cannot_be(make, make_material):
     storage.keep(kept)
     nodes.shader_node(broken).mute = True
     for material in (stale, kept):
-        with live.paused():
+        with changes.paused():
             material.rough_spectra.sigma = math.radians(40)
     before = sockets(fresh), sockets(plain)
     assert OPS.renew(scope="ALL_STALE") == {"FINISHED"}
@@ -327,7 +327,7 @@ def test_an_older_stamp_is_read_without_loss(make):
     details = json.loads(group.details)
     group.details = json.dumps({key: details[key] for key in ("license", "position", "notes")})
     assert kind(material) == "fresh"
-    with live.paused():
+    with changes.paused():
         group.sigma = math.radians(40)
     assert stamp.state(material).reasons == ("the spectrum or a setting was changed",)
     spectrum = group.spectrum
