@@ -10,7 +10,8 @@ from typing import Any
 from ..core.errors import MaterialError, RoughSpectraError
 from . import nodes, storage, target, working_space
 from .scene_view import SceneView
-from .target import Request, Solution
+from .solution import Solution
+from .target import Request
 
 
 def assign(pairs: Sequence[tuple[Any, Request]], shader: nodes.Shader = "AUTO") -> list[Solution]:

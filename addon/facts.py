@@ -15,12 +15,9 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import bpy
-from mathutils import Color
 
-from . import nodes, ocio
-
-DEFAULT_SPACE = "Linear Rec.709"
-"""The working space before Blender 5.0, unless a custom OCIO configuration has another."""
+from . import nodes
+from .working_space import working_space_name
 
 _USUAL_TOLERANCE = 1.0
 """ΔE00; that of all materials before it could be set."""
@@ -29,9 +26,6 @@ _FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
 _KEPT = 1024
 """Materials whose answers are kept; with an analyzed scene one has about 7 kB of texts."""
-
-_ASKED = (1.0, 2.0, 4.0)
-"""A color that every working space has another XYZ for."""
 
 
 class Inputs(NamedTuple):
@@ -150,16 +144,6 @@ def tolerance(group: Any) -> float:
     return round(group.tolerance, 5)
 
 
-def working_space_name() -> str:
-    """Name of the open file's working space."""
-    data = getattr(bpy.data, "colorspace", None)
-    if data is None:
-        return DEFAULT_SPACE
-    if ocio.warning():
-        return str(data.working_space)  # all spaces then have the XYZ of Rec.709
-    return _space_of(*Color(_ASKED).from_scene_linear_to_xyz_d65())
-
-
 def engine_is_flat() -> bool:
     """Whether the scene's render engine ignores diffuse roughness."""
     return _engine() in _FLAT_ENGINES
@@ -220,9 +204,3 @@ def _inputs(group: Any, analysis: str, engine: str) -> Inputs:
 def _engine() -> str:
     scene = bpy.context.scene
     return "" if scene is None else str(scene.render.engine)
-
-
-@lru_cache(maxsize=16)
-def _space_of(_x: float, _y: float, _z: float) -> str:
-    """Name of the working space in which a color has this XYZ: asking for it takes Blender long."""
-    return str(bpy.data.colorspace.working_space)

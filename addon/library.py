@@ -39,7 +39,6 @@ __all__ = [
     "remove",
     "rename",
     "search",
-    "user_folder",
 ]
 
 _Stamp = tuple[int, int, int]
@@ -117,25 +116,6 @@ class _File:
 _files: dict[Path, tuple[_Stamp, _File]] = {}
 _contents: dict[Path, tuple[object, Contents]] = {}
 _presets: list[_File] = []
-
-
-def user_folder() -> Path:
-    """Return the folder of the user's library; it need not be there yet.
-
-    The one of the preferences, or else Blender's folder for what an extension's user makes: an
-    upgrade leaves it alone.
-    """
-    import bpy
-
-    from . import preferences
-
-    chosen = preferences.defaults().library_folder
-    if chosen:
-        return Path(chosen)
-    try:
-        return Path(bpy.utils.extension_path_user(preferences.PACKAGE, path="library"))
-    except ValueError:  # run from a clone, not installed as an extension
-        return Path(bpy.utils.user_resource("DATAFILES", path="rough_spectra/library"))
 
 
 def contents(folder: Path) -> Contents:

@@ -40,7 +40,12 @@ def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
     Pairs of material and evaluated material. Rendering evaluates the scene apart from what the
     window shows, so that only the latter has the values of the frame.
     """
-    from . import facts, nodes, stamp
+    from . import (
+        derivation,
+        facts,
+        nodes,
+        stamp,
+    )
 
     found = []
     for material in bpy.data.materials:
@@ -50,8 +55,8 @@ def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
         if not any(curve.data_path.startswith(_PATH) for curve in nodes.curves(animation)):
             continue
         evaluated = material.evaluated_get(depsgraph)
-        last = stamp.get_stamp(material)
-        if last is None or last.inputs == stamp.inputs_digest(evaluated.rough_spectra):
+        last = derivation.get_stamp(material)
+        if last is None or last.inputs == derivation.inputs_digest(evaluated.rough_spectra):
             continue
         if stamp.follows(material):
             found.append((material, evaluated))

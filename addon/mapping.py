@@ -15,7 +15,12 @@ from typing import Any, cast
 import bpy
 
 from ..core.errors import InputError, MaterialError
-from . import library, readers, selection
+from . import (
+    library,
+    preferences,
+    readers,
+    selection,
+)
 from .request import Request
 from .sample import KINDS, Kind, Sample
 
@@ -45,7 +50,7 @@ def rows(options: argparse.Namespace) -> list[Row]:
             raise InputError(msg)
         return read_mapping(options.mapping)
     if options.preset is not None:
-        sample = library.load(options.preset, library.user_folder())
+        sample = library.load(options.preset, preferences.user_folder())
         if not options.material:
             msg = f"Name the materials that get {sample.name!r}, with --material NAME."
             raise InputError(msg)
@@ -192,7 +197,7 @@ def _sample(
 ) -> Sample:
     if not cells["file"]:
         try:
-            return library.load(cells["sample"], library.user_folder())
+            return library.load(cells["sample"], preferences.user_folder())
         except InputError as error:
             msg = f"{where}: {error}"
             raise InputError(msg) from error

@@ -8,6 +8,7 @@ batch does the same on every machine.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
@@ -90,6 +91,21 @@ def defaults() -> Defaults:
     chosen = addon.preferences
     folder = bpy.path.abspath(chosen.library_folder) if chosen.library_folder else ""
     return Defaults(chosen.illuminant, int(chosen.observer), round(chosen.tolerance, 5), folder)
+
+
+def user_folder() -> Path:
+    """Return the folder of the user's library; it need not be there yet.
+
+    The one of the preferences, or else Blender's folder for what an extension's user makes: an
+    upgrade leaves it alone.
+    """
+    chosen = defaults().library_folder
+    if chosen:
+        return Path(chosen)
+    try:
+        return Path(bpy.utils.extension_path_user(PACKAGE, path="library"))
+    except ValueError:  # run from a clone, not installed as an extension
+        return Path(bpy.utils.user_resource("DATAFILES", path="rough_spectra/library"))
 
 
 classes = (RoughSpectraPreferences,)

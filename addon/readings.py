@@ -19,7 +19,18 @@ import numpy as np
 
 from ..core.arrays import Array
 from ..core.errors import OutputError
-from . import colorimetry, facts, scene_match, stamp, storage, target, working_space
+from . import (
+    colorimetry,
+    derivation,
+    facts,
+    rgb_space,
+    scene_match,
+    solution,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
 from .spectrophotometer import measure
@@ -45,7 +56,7 @@ class Prepared:
     model_reason: str
     shader_reason: str
     warnings: tuple[str, ...]
-    promised: target.Solution | None = None
+    promised: solution.Solution | None = None
 
 
 def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
@@ -68,7 +79,7 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
         if facts.has_spectrum(material):
             request, model_reason = _settled(material)
             reasons = stamp.stale_reasons(material, space)
-            found = stamp.get_stamp(material)
+            found = derivation.get_stamp(material)
             warnings = [f"stale: {reason}" for reason in reasons]
             if found is not None:
                 warnings += found.warnings
@@ -81,7 +92,7 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     return prepared
 
 
-def _promised(material: Any, request: target.Request | None) -> target.Solution | None:
+def _promised(material: Any, request: target.Request | None) -> solution.Solution | None:
     """Match anew what follows its scene: its shader is what the measurement has to find."""
     if request is None or request.scene is None:
         return None
@@ -90,8 +101,8 @@ def _promised(material: Any, request: target.Request | None) -> target.Solution 
 
 def _settled(material: Any) -> tuple[target.Request, str]:
     """Give what the material stores with its model settled, as it was when it was assigned."""
-    request, found = storage.load(material), stamp.get_stamp(material)
-    if found is not None and found.inputs == stamp.inputs_digest(material.rough_spectra):
+    request, found = storage.load(material), derivation.get_stamp(material)
+    if found is not None and found.inputs == derivation.inputs_digest(material.rough_spectra):
         return replace(request, model=found.model), found.model_reason
     return target.settle([request])[0]
 
@@ -158,13 +169,13 @@ def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], 
 def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
     """Tell bakes apart: by what is read, and by the spectra and settings stored in it."""
     told = [
-        (surface, material.name, stamp.inputs_digest(material.rough_spectra))
+        (surface, material.name, derivation.inputs_digest(material.rough_spectra))
         for surface, material in surfaces
     ]
     return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]
 
 
-def _reading(item: Prepared, measured: Array | None, space: working_space.WorkingSpace) -> Reading:
+def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace) -> Reading:
     request = item.request
     illuminant = "D65" if request is None else request.illuminant
     scene = None if request is None else request.scene
@@ -205,7 +216,7 @@ def from_spectrum(item: Prepared, entry: Reading) -> float | None:
 
 
 def _predicted(
-    request: target.Request, model_reason: str, space: working_space.WorkingSpace
+    request: target.Request, model_reason: str, space: rgb_space.WorkingSpace
 ) -> Predicted:
     sample = request.sample
     values = target.target_reading(request)
@@ -228,7 +239,7 @@ def _predicted(
 
 def _measured(
     values: Array,
-    space: working_space.WorkingSpace,
+    space: rgb_space.WorkingSpace,
     illuminant: str,
     scene: SceneView | None = None,
 ) -> Measured:

@@ -19,8 +19,8 @@ from ..core.arrays import Array
 from . import colorimetry
 from .preview.words import SIDE_BY_SIDE
 from .request import VIRTUAL
+from .rgb_space import WorkingSpace, matrix_of
 from .scene_view import SceneLight, SceneView
-from .working_space import WorkingSpace, matrix_of
 
 _ELSEWHERE = 12
 """Directions all over the hemisphere, which decide what the scene leaves open."""

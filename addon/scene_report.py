@@ -13,7 +13,7 @@ import numpy as np
 from ..core.errors import InputError, MaterialError
 from . import assign, facts, nodes, stamp, storage, target, working_space
 from .scene_analysis import SceneReport
-from .target import Solution
+from .solution import Solution
 
 
 @dataclass(frozen=True)

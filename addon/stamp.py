@@ -8,77 +8,17 @@ What takes a material reads its `facts` and asks what takes those.
 
 from __future__ import annotations
 
-import hashlib
-import json
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 from . import facts, nodes
+from .derivation import DERIVATION, Stamp, parse, settings
 from .facts import Facts, Inputs, has_spectrum
 from .properties import SCHEMA, title
 
-DERIVATION = 1
-"""Raise when the same spectrum and settings come to give another color, beyond rounding; materials
-derived before are then stale."""
-
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
-
-
-class Stamp(NamedTuple):
-    """What was written to the shader node, and from what.
-
-    Parameters
-    ----------
-    inputs
-        Digest of spectrum and settings.
-    settings
-        The settings by their labels, and a digest of the spectrum; empty in older files.
-    working_space
-        Name of the working space the color is in.
-    node, color, roughness
-        The shader node and the values written to it.
-    model, model_reason
-        The model that gave the target, and why it was taken.
-    shader_reason
-        Whether the material is Lambertian or rough, and why.
-    delta_e_instrument, delta_e_mean, delta_e_95
-        Predicted ΔE00 at the instrument and over the hemisphere.
-    warnings
-        Sentences for the user.
-    delta_e_lights
-        Name and predicted mean ΔE00 of each of the scene's lights; empty without a scene.
-    scene_reason
-        What the scene decided, in a sentence; empty without a scene.
-    version, derivation
-        Of the extension that derived it; see `DERIVATION`.
-    kept
-        What the surface showed when the user chose to keep edits by hand, else an empty string.
-        The predictions are then not of what is shown.
-    sigma_max
-        Largest σ, degrees, that the reading allows; None where every σ fits.
-    """
-
-    inputs: str
-    working_space: str
-    node: str
-    color: tuple[float, float, float]
-    roughness: float
-    model: str
-    model_reason: str
-    shader_reason: str
-    delta_e_instrument: float
-    delta_e_mean: float
-    delta_e_95: float
-    warnings: tuple[str, ...]
-    settings: tuple[tuple[str, str], ...] = ()
-    delta_e_lights: tuple[tuple[str, float], ...] = ()
-    scene_reason: str = ""
-    version: str = ""
-    derivation: int = 1
-    kept: str = ""
-    sigma_max: float | None = None
 
 
 Kind = Literal["none", "fresh", "stale", "kept", "error", "linked"]
@@ -104,11 +44,6 @@ class State:
     kind: Kind
     reasons: tuple[str, ...] = ()
     stamp: Stamp | None = None
-
-
-def get_stamp(material: Any) -> Stamp | None:
-    """Give the stamp, or None where nothing was derived yet or it cannot be read."""
-    return parse(material.rough_spectra.stamp)
 
 
 def state(material: Any) -> State:
@@ -195,63 +130,7 @@ def shown(surface: nodes.Surface | None) -> str:
     return repr((surface.node, values, linked, list(surface.disturbing)))
 
 
-def settings(found: Inputs) -> dict[str, str]:
-    """Every setting that the color follows from, by its label, and a digest of the spectrum."""
-    return {
-        "spectrum": hashlib.sha256(found.spectrum.encode()).hexdigest()[:16],
-        "kind": found.kind,
-        "instrument": found.instrument,
-        "σ": f"{found.sigma_degrees:.5f}".rstrip("0").rstrip(".") + "°",
-        "illuminant": found.illuminant,
-        "model": found.model,
-        "shader": found.shader,
-        "tolerance": f"{found.tolerance:g}",
-        **_scene_settings(found),
-    }
-
-
-@lru_cache(maxsize=2048)
-def analyzed_scene(scene_view: str) -> str:
-    """Name of the scene that an analysis is of, from its text; empty if it cannot be read."""
-    try:
-        return str(json.loads(scene_view)["scene"])
-    except (ValueError, KeyError, TypeError):
-        return ""
-
-
-def inputs_digest(group: Any) -> str:
-    """Digest of the spectrum and of every setting that the color follows from."""
-    return facts.digest(facts.inputs(group))
-
-
 _NONE = State("none")
-_NUMBERS = ("roughness", "delta_e_instrument", "delta_e_mean", "delta_e_95")
-
-
-def _scene_settings(found: Inputs) -> dict[str, str]:
-    if not found.scene_view:
-        return {"light": "the illuminant's"}
-    analysis = hashlib.sha256(found.scene_view.encode()).hexdigest()[:6]
-    engine = facts.engine_words(found.flat)
-    return {"light": f"the scene's (analysis {analysis})", "render engine": engine}
-
-
-@lru_cache(maxsize=2048)
-def parse(text: str) -> Stamp | None:
-    """Read a stored stamp; None where it cannot be read."""
-    try:
-        data = json.loads(text)
-        # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.
-        data = {key: data[key] for key in Stamp._fields if key in data}
-        red, green, blue = map(float, data["color"])
-        data |= {"color": (red, green, blue), "warnings": tuple(map(str, data["warnings"]))}
-        data |= {key: float(data[key]) for key in _NUMBERS}
-        lights = data.get("delta_e_lights", ())
-        data["delta_e_lights"] = tuple((str(name), float(apart)) for name, apart in lights)
-        data["settings"] = tuple((str(k), str(v)) for k, v in data.get("settings", {}).items())
-        return Stamp(**data)
-    except (ValueError, KeyError, TypeError, AttributeError):
-        return None
 
 
 def _stale_reasons(found: Facts) -> list[str]:

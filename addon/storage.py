@@ -14,13 +14,21 @@ from functools import lru_cache
 from typing import Any
 
 from ..core.errors import InputError, MaterialError
-from . import changes, facts, nodes, scene_view
+from . import (
+    changes,
+    facts,
+    nodes,
+    scene_view,
+    working_space,
+)
+from .derivation import DERIVATION, get_stamp, settings
 from .facts import elsewhere, engine_is_flat, has_scene, sigma, tolerance
 from .properties import SCHEMA
 from .sample import Sample
 from .scene_view import SceneView
-from .stamp import DERIVATION, get_stamp, settings, shown
-from .target import Request, Solution
+from .solution import Solution
+from .stamp import shown
+from .target import Request
 from .version import version
 
 _DETAILS = (
@@ -208,7 +216,7 @@ def keep(material: Any) -> None:
         | {
             "inputs": facts.digest(inputs),
             "settings": settings(inputs),
-            "working_space": facts.working_space_name(),
+            "working_space": working_space.working_space_name(),
             "kept": shown(nodes.surface(material)),
         }
     )

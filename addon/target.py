@@ -8,7 +8,7 @@ The targets are computed spectrally and turned into RGB at the end: RGB(ρ²) is
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,8 +18,9 @@ from ..core.arrays import Array
 from ..core.choice import choose_shader
 from . import colorimetry, judgement, scene_match, spectra
 from .request import AUTO, TOLERANCE, VIRTUAL, Request
+from .rgb_space import WorkingSpace
 from .scene_view import SceneView
-from .working_space import WorkingSpace
+from .solution import Solution
 
 if TYPE_CHECKING:
     from ..core.ladder import Choice
@@ -32,7 +33,6 @@ __all__ = [
     "TOLERANCE",
     "VIRTUAL",
     "Request",
-    "Solution",
     "choose",
     "differences",
     "settle",
@@ -57,55 +57,6 @@ _CHUNK = 64
 
 _ENOUGH = 1e-6
 """Overshoot of gamut or albedo that is rounding, not a fact about the material."""
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """A matched material.
-
-    Parameters
-    ----------
-    color
-        Socket color in scene-linear RGB within 0 to 1, shape (3,).
-    roughness
-        Cycles' diffuse roughness.
-    target
-        RGB of the target reading at the instrument, unclipped, shape (3,).
-    model, model_reason
-        The model that gave the target, and why it was taken.
-    delta_e_instrument
-        ΔE00 predicted between target and Cycles at the instrument; in a scene, under its main
-        light.
-    delta_e_mean, delta_e_95
-        Mean and 95th percentile over the hemisphere below 80°, or over the scene's directions.
-    shader_reason
-        Whether the material is Lambertian or rough, and why.
-    delta_e_lambert
-        Mean of the same for the Lambertian material with the same reading.
-    warnings
-        Sentences about what could not be met.
-    sigma_max
-        Largest σ, degrees, at which white facets read no less than the sample; None without one.
-    delta_e_lights
-        Name and mean ΔE00 of each of the scene's lights; empty without a scene.
-    scene_reason
-        One sentence about what the scene decided; empty without a scene.
-    """
-
-    color: Array
-    roughness: float
-    target: Array
-    model: str
-    model_reason: str
-    delta_e_instrument: float
-    delta_e_mean: float
-    delta_e_95: float
-    delta_e_lambert: float
-    shader_reason: str
-    warnings: tuple[str, ...]
-    sigma_max: float | None = None
-    delta_e_lights: tuple[tuple[str, float], ...] = ()
-    scene_reason: str = ""
 
 
 def target_reading(request: Request) -> Array:

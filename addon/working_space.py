@@ -1,89 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scene-linear space that the .blend works in, as a matrix."""
+"""The scene-linear space that the open .blend works in. Asking for its name needs no numpy."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-import numpy as np
+import bpy
 from mathutils import Color
 
-from ..core.arrays import Array
-from . import colorimetry, facts, ocio
+from . import ocio
+
+if TYPE_CHECKING:
+    from .rgb_space import WorkingSpace
+
+DEFAULT_SPACE = "Linear Rec.709"
+"""The working space before Blender 5.0, unless a custom OCIO configuration has another."""
 
 
-@dataclass(frozen=True, eq=False)
-class WorkingSpace:
-    """A scene-linear RGB space.
-
-    Parameters
-    ----------
-    name
-        Blender's name of it, such as "Linear Rec.709" or "ACEScg".
-    from_xyz
-        Matrix, shape (3, 3): `xyz @ from_xyz.T` for XYZ seen under D65, Y = 1.
-    warning
-        What the user has to know about it, or an empty string.
-    """
-
-    name: str
-    from_xyz: Array
-    warning: str = ""
-
-    @property
-    def white(self) -> Array:
-        """XYZ of RGB (1, 1, 1), shape (3,)."""
-        return np.asarray(np.linalg.solve(self.from_xyz, np.ones(3)))
-
-    @property
-    def key(self) -> bytes:
-        """Key of what is kept for a space; `matrix_of` gives `from_xyz` back."""
-        return np.asarray(self.from_xyz, np.float64).tobytes()
-
-    def rgb_weights(self, wavelengths: Array, illuminant: str) -> Array:
-        """Give the matrix, shape (bands, 3), read-only, from reflectance to scene-linear RGB.
-
-        Seen by the 2° observer under `illuminant` and adapted with Bradford, so that a neutral
-        spectrum has equal R, G and B. Scene RGB is always of the 2° observer: 10° values passed
-        through a 2° matrix are another color.
-        """
-        bands = np.asarray(wavelengths, np.float64)
-        return _rgb_weights(bands.tobytes(), self.key, illuminant)
-
-    def to_xyz(self, rgb: Array, illuminant: str) -> Array:
-        """XYZ (2° observer, Y = 1 for white) of scene-linear RGB (..., 3) under `illuminant`."""
-        matrix = _to_xyz(self.key, illuminant)
-        return np.asarray(np.asarray(rgb, np.float64) @ matrix)
-
-    def to_lab(self, rgb: Array, illuminant: str) -> Array:
-        """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
-        return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
-
-
-def matrix_of(key: bytes) -> Array:
-    """Give a space's matrix from XYZ, shape (3, 3), of its `WorkingSpace.key`."""
-    return np.frombuffer(key).reshape(3, 3)
-
-
-@lru_cache(maxsize=32)
-def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
-    """Matrix of `rgb_weights`, for the bytes of wavelengths and a space's key."""
-    weights = colorimetry.weights(np.frombuffer(wavelengths), illuminant, observer=2)
-    matrix = matrix_of(key)
-    adapt = colorimetry.adaptation(weights.sum(axis=0), np.linalg.solve(matrix, np.ones(3)))
-    found = np.asarray(weights @ (matrix @ adapt).T)
-    found.setflags(write=False)
-    return found
-
-
-@lru_cache(maxsize=32)
-def _to_xyz(key: bytes, illuminant: str) -> Array:
-    """Matrix of `to_xyz`, for a space's key: a match asks for it at every step."""
-    back = np.linalg.inv(matrix_of(key))
-    adapt = colorimetry.adaptation(back @ np.ones(3), colorimetry.white(illuminant))
-    return np.asarray((adapt @ back).T)
+_ASKED = (1.0, 2.0, 4.0)
+"""A color that every working space has another XYZ for."""
 
 
 def current() -> WorkingSpace:
@@ -92,7 +29,27 @@ def current() -> WorkingSpace:
     Up to Blender 4.5 the name is that of the role in the OCIO configuration; from 5.0 the file
     says it.
     """
+    import numpy as np
+
+    from .rgb_space import WorkingSpace
+
     unit_colors = (Color(unit).from_xyz_d65_to_scene_linear() for unit in np.eye(3).tolist())
     matrix = np.array([list(color) for color in unit_colors], np.float64).T
-    name = facts.working_space_name()
+    name = working_space_name()
     return WorkingSpace(name=name, from_xyz=matrix, warning=ocio.warning())
+
+
+def working_space_name() -> str:
+    """Name of the open file's working space."""
+    data = getattr(bpy.data, "colorspace", None)
+    if data is None:
+        return DEFAULT_SPACE
+    if ocio.warning():
+        return str(data.working_space)  # all spaces then have the XYZ of Rec.709
+    return _space_of(*Color(_ASKED).from_scene_linear_to_xyz_d65())
+
+
+@lru_cache(maxsize=16)
+def _space_of(_x: float, _y: float, _z: float) -> str:
+    """Name of the working space in which a color has this XYZ: asking for it takes Blender long."""
+    return str(bpy.data.colorspace.working_space)

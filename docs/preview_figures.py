@@ -58,18 +58,18 @@ def numbers(name, degrees, model, green=None):
 
 
 def sheet(name, degrees, background, ink):
-    from rough_spectra.addon.preview import compose, theme
+    from rough_spectra.addon.preview import compose, looks
 
-    look = theme.look(background, ink, float(SCALE))
+    look = looks.look(background, ink, float(SCALE))
     found = numbers(name, degrees, "closure")
     return on(background, compose.picture("sheet", found, SHEET * SCALE, look))
 
 
 def pair(name, degrees, model, green):
-    from rough_spectra.addon.preview import compose, theme
+    from rough_spectra.addon.preview import compose, looks
 
     background, ink = THEMES["dark"]
-    look = theme.look(background, ink, float(SCALE))
+    look = looks.look(background, ink, float(SCALE))
     found = numbers(name, degrees, model, green)
     return on(background, compose.picture("swatches", found, PAIR * SCALE, look))
 

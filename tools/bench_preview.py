@@ -36,7 +36,13 @@ def main() -> None:
     import bpy
     import numpy as np
     from rough_spectra.addon import assign, changes, facts, nodes, readers, target, working_space
-    from rough_spectra.addon.preview import compose, data, icons, theme
+    from rough_spectra.addon.preview import (
+        compose,
+        data,
+        icons,
+        looks,
+        theme,
+    )
 
     material = bpy.data.materials.new("Bench")
     [sample] = readers.read(PATCH)
@@ -67,19 +73,19 @@ def main() -> None:
         lambda: icons.icon_id(material.session_uid, "sheet", SHEET, (facts.of(material), seen)),
     )
     for scale in (1, 2):
-        look = theme.look((0.239,) * 3, (0.902,) * 3, float(scale))
+        look = looks.look((0.239,) * 3, (0.902,) * 3, float(scale))
         print(f"scale {scale}: sheet of {SHEET * scale}, swatches of {SWATCHES * scale} pixels")
         for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
             size = side * scale
             shown = itertools.cycle([drag() for _ in range(91)])
 
-            def draw(f: str = figure, s: int = size, k: theme.Look = look, d: Any = shown) -> Any:
+            def draw(f: str = figure, s: int = size, k: looks.Look = look, d: Any = shown) -> Any:
                 return compose.picture(f, next(d), s, k)
 
             row(figure, draw)
             row("… to Blender", partial(icons._upload, preview, draw()))
 
-        def everything(k: theme.Look = look, s: int = scale) -> None:
+        def everything(k: looks.Look = look, s: int = scale) -> None:
             numbers = drag()
             for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
                 icons._upload(preview, compose.picture(figure, numbers, side * s, k))

@@ -17,7 +17,7 @@ from ..spectrophotometer.worker import end_if_orphaned, report
 from . import previews
 
 if TYPE_CHECKING:
-    from ..target import Solution
+    from ..solution import Solution
 
 BLEND = "assets.blend"
 RESULT = "result.json"

@@ -20,10 +20,10 @@ _items: list[tuple[str, str, str]] = []
 
 def collection_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     """List the collections of presets, and of the user's library as far as it is in memory."""
-    from .. import library, presets
+    from .. import library, preferences, presets
     from ..assets import catalogs
 
-    known = library.cached(library.user_folder())
+    known = library.cached(preferences.user_folder())
     ids = presets.names() if known is None else [entry.id for entry in known.entries]
     _items[:] = [
         (name, catalogs.title(name), f"All samples of {catalogs.title(name)}")
@@ -68,14 +68,14 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
 
     def start(self, _context: Any) -> Any:
         """Start the second Blender."""
-        from .. import library
+        from .. import preferences
         from ..assets import build, plan
 
         if not self.directory:
             msg = "No folder was chosen for the asset library; choose one."
             raise InputError(msg)
         self._folder = Path(bpy.path.abspath(self.directory))
-        chosen = plan.of_collection(self.collection, library.user_folder())
+        chosen = plan.of_collection(self.collection, preferences.user_folder())
         assets = plan.assets(chosen, _degrees(self.sigmas), build.LONGEST_NAME)
         return build.Build(assets, self._folder)
 

@@ -27,10 +27,10 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int
 
 
 def _fill() -> None:
-    from .. import library
+    from .. import library, preferences
     from ..preview import icons
 
-    entries = library.contents(library.user_folder()).entries
+    entries = library.contents(preferences.user_folder()).entries
     gray = (0.5, 0.5, 0.5)
     swatches = icons.swatch_icons([entry.swatch or gray for entry in entries])
     count = Counter(entry.name for entry in entries)
@@ -75,10 +75,10 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Assign to the active material; an object without one gets one."""
-        from .. import library
+        from .. import library, preferences
 
         try:
-            sample = library.load(self.sample, library.user_folder())
+            sample = library.load(self.sample, preferences.user_folder())
             request, shader = common.replacing_request(common.active_material(context), sample)
             assigned = common.assign_in_scope(context, "ACTIVE", request, shader)
         except RoughSpectraError as error:

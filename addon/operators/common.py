@@ -20,7 +20,8 @@ from ..properties import SHADER_ITEMS
 if TYPE_CHECKING:
     from ..nodes import Shader
     from ..sample import Sample
-    from ..target import Request, Solution
+    from ..solution import Solution
+    from ..target import Request
 
 SCOPE_ITEMS = (
     ("ACTIVE", "Active Material", "Only the active object's active material"),
@@ -213,9 +214,9 @@ def assign_from_library(
     RoughSpectraError
         If there is no such sample, or it cannot be assigned; nothing was changed then.
     """
-    from .. import library
+    from .. import library, preferences
 
-    sample = library.load(name, library.user_folder())
+    sample = library.load(name, preferences.user_folder())
     if not operator.properties.is_property_set("sigma"):
         operator.sigma = radians(sample.sigma_degrees or 0.0)
     request = request_in_scope(context, operator.scope, sample, operator.sigma)

@@ -18,7 +18,7 @@ from bpy.props import (
 
 from ...core.errors import RoughSpectraError
 from . import common
-from .import_samples import waiting
+from .import_options import waiting
 
 _ROWS = 8
 
@@ -60,11 +60,11 @@ class ROUGHSPECTRA_UL_matches(bpy.types.UIList):
 
 def _find(operator: Any, _context: Any = None) -> None:
     """Search again, also when color or count change."""
-    from .. import library, swatches
+    from .. import library, preferences, swatches
 
     lab = swatches.to_lab(tuple(operator.color))
     operator.matches.clear()
-    for entry, difference in library.nearest(lab, operator.count, library.user_folder()):
+    for entry, difference in library.nearest(lab, operator.count, preferences.user_folder()):
         item = operator.matches.add()
         item.name, item.sample, item.difference = entry.name, entry.id, difference
         item.swatch = entry.swatch

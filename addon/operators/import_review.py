@@ -19,7 +19,7 @@ from bpy.props import (
 
 from ..properties import title
 from . import common
-from .import_samples import ImportOptions, carry_out
+from .import_options import ImportOptions, carry_out
 
 if TYPE_CHECKING:
     from ..importing import Batch, Found

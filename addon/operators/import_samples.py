@@ -4,23 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
-from ...core.errors import RoughSpectraError
 from . import common
+from .import_options import ImportOptions, carry_out, waiting
 
 if TYPE_CHECKING:
-    from ..importing import Batch, Found
-    from ..sample import Sample
-    from ..target import Solution
+    from ..importing import Batch
 
 ENDINGS = (
     *("csv", "tsv", "txt", "dat", "cgats", "ti3", "sp", "it8", "cxf", "xml", "qtx", "spdx"),
@@ -29,27 +24,8 @@ ENDINGS = (
 """Of files that may be dropped. Any file can be chosen in the File menu: content decides. Without
 exr, whose dropping belongs to images."""
 
-MATERIALS_ITEMS = (
-    ("NONE", "None", "Add to the library only", 0),
-    ("ASSIGN", "Assign to Active", "Assign the highlighted sample to the active material", 1),
-    ("CREATE", "Create", "Make a new material of each sample that is checked", 2),
-)
 
 _MOST_SENTENCES = 20
-
-
-class ImportOptions(common.AssignOptions):
-    """What to do with the samples of measurement files."""
-
-    add_to_library: BoolProperty(
-        name="Add to Library", description="Keep the samples in your library", default=True
-    )
-    collection: StringProperty(
-        name="Collection", description="Where in the library; empty takes each file's name"
-    )
-    materials: EnumProperty(
-        name="Materials", description="What to make of the samples", items=MATERIALS_ITEMS
-    )
 
 
 class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
@@ -154,71 +130,6 @@ class ROUGHSPECTRA_FH_import(bpy.types.FileHandler):
     def poll_drop(cls, context: Any) -> bool:
         """Take files where materials are seen."""
         return context.area is not None and context.area.type in {"VIEW_3D", "PROPERTIES"}
-
-
-@contextmanager
-def waiting(context: Any) -> Iterator[None]:
-    """Show the wait cursor for the block, where there is a window."""
-    if context.window is None or bpy.app.background:
-        yield
-        return
-    context.window.cursor_set("WAIT")
-    try:
-        yield
-    finally:
-        context.window.cursor_set("DEFAULT")
-
-
-def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Found) -> set[str]:
-    """Do with samples what the operator's `ImportOptions` say, and report it."""
-    from .. import importing, library
-
-    said = ""
-    assigned: list[tuple[Any, Solution]] = []
-    try:
-        if operator.add_to_library:
-            added = importing.add(chosen, operator.collection, library.user_folder())
-            said = importing.summary(added)
-        if operator.materials == "ASSIGN":
-            request = common.new_request(active.sample, _sigma(operator, active.sample))
-            assigned = common.assign_in_scope(context, operator.scope, request, operator.shader)
-        elif operator.materials == "CREATE":
-            assigned = _create(operator, chosen)
-    except RoughSpectraError as error:
-        common.report_error(operator, f"{error} Nonetheless, {said}." if said else error)
-        return {"CANCELLED"}
-    seen = {sentence for each in chosen for sentence in each.sentences}
-    for material, solution in assigned:
-        for warning in solution.warnings:
-            if warning not in seen:
-                operator.report({"WARNING"}, f"{material.name}: {warning}")
-    names = ", ".join(material.name for material, _ in assigned[:3])
-    if len(assigned) > 3:
-        names = rpt_("{} and {} more").format(names, len(assigned) - 3)
-    made = rpt_("assigned to {}").format(names) if assigned else ""
-    told = "; ".join(filter(None, (said, made))) or rpt_("Nothing was asked for")
-    operator.report({"INFO"}, told)
-    return {"FINISHED"}
-
-
-def _sigma(operator: Any, sample: Sample) -> float:
-    """Give the roughness: what the file states comes before the field."""
-    return operator.sigma if sample.sigma_degrees is None else radians(sample.sigma_degrees)
-
-
-def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]]:
-    from .. import assign
-
-    requests = [common.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
-    materials = [bpy.data.materials.new(each.sample.name) for each in chosen]
-    try:
-        solutions = assign.assign(list(zip(materials, requests, strict=True)), operator.shader)
-    except RoughSpectraError:
-        bpy.data.batch_remove(materials)
-        raise
-    for material in materials:
-        material.use_fake_user = True  # nothing uses it yet, and it is to be saved
-    return list(zip(materials, solutions, strict=True))
 
 
 def register_menu() -> None:

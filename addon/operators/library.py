@@ -17,17 +17,17 @@ from . import common
 
 def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
     """List ids and names of presets and library for a text field."""
-    from .. import library
+    from .. import library, preferences
 
-    for entry in library.search(text, library.user_folder()):
+    for entry in library.search(text, preferences.user_folder()):
         yield entry.id, entry.name
 
 
 def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
     """List those of the library alone, which can be renamed and removed."""
-    from .. import library
+    from .. import library, preferences
 
-    for entry in library.search(text, library.user_folder()):
+    for entry in library.search(text, preferences.user_folder()):
         if not entry.is_preset:
             yield entry.id, entry.name
 
@@ -86,11 +86,11 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Ask for the name, beginning with the present one, and for the sample if none is given."""
-        from .. import library
+        from .. import library, preferences
 
         try:
             if self.sample:
-                self.new_name = library.load(self.sample, library.user_folder()).name
+                self.new_name = library.load(self.sample, preferences.user_folder()).name
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
@@ -98,10 +98,10 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
 
     def execute(self, _context: Any) -> set[str]:
         """Rename it in its file."""
-        from .. import library
+        from .. import library, preferences
 
         try:
-            new = library.rename(self.sample, self.new_name, library.user_folder())
+            new = library.rename(self.sample, self.new_name, preferences.user_folder())
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
@@ -140,10 +140,10 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
 
     def execute(self, _context: Any) -> set[str]:
         """Remove it from its file."""
-        from .. import library
+        from .. import library, preferences
 
         try:
-            library.remove([self.sample], library.user_folder())
+            library.remove([self.sample], preferences.user_folder())
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
@@ -160,9 +160,9 @@ class ROUGHSPECTRA_OT_open_library(bpy.types.Operator):
 
     def execute(self, _context: Any) -> set[str]:
         """Make the folder if it is not there, and open it in the system's file manager."""
-        from .. import library
+        from .. import preferences
 
-        folder = library.user_folder()
+        folder = preferences.user_folder()
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:

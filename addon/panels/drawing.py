@@ -8,7 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .. import measured, stamp
+from .. import derivation, measured
 from ..operators import common
 from ..preview import icons
 from . import redraw, sentences, text
@@ -65,7 +65,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
         column.prop(group, "tolerance")
 
 
-def _draw_sigma_range(layout: Any, last: stamp.Stamp | None) -> None:
+def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:
     """Draw how far σ may go, to the scale of the slider above."""
     if last is None or last.sigma_max is None:
         return

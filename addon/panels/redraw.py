@@ -13,7 +13,7 @@ from typing import Any
 
 from .. import facts, stamp
 from ..operators import common
-from ..preview import icons, theme
+from ..preview import icons, looks, theme
 from . import sentences, text
 
 _LONGEST = 0.1
@@ -68,7 +68,7 @@ class Shown:
         Height of a button, pixels.
     """
 
-    def __init__(self, uid: int, found: facts.Facts, look: theme.Look, unit: int) -> None:
+    def __init__(self, uid: int, found: facts.Facts, look: looks.Look, unit: int) -> None:
         self.uid, self.facts, self.unit = uid, found, unit
         self.state = stamp.judge(found)
         self._pictured = (found, look)

@@ -12,7 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
-from .. import stamp
+from .. import derivation, stamp
 from ..facts import Facts
 from ..preview import words
 from .text import Format, Sentence
@@ -130,7 +130,7 @@ def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
     if last.scene_reason:
         told.append((last.scene_reason, "INFO"))
-    analyzed = stamp.analyzed_scene(view)
+    analyzed = derivation.analyzed_scene(view)
     if analyzed not in {"", name}:
         text = iface_("Analyzed in scene {name}; analyze again if that is not this one")
         told.append((text.format(name=repr(analyzed)), "INFO"))
@@ -154,7 +154,7 @@ def _difference(where: str, delta_e: float) -> str:
     return f"{where}: ΔE00 {delta_e:.2f}, {iface_(words.words(delta_e))}"
 
 
-def _limit(last: stamp.Stamp, apart: Numbers | None, found: Facts) -> str:
+def _limit(last: derivation.Stamp, apart: Numbers | None, found: Facts) -> str:
     if apart is not None and max(apart) < _NOTHING:
         return tip_("Limited by nothing: Blender shows the target")
     if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
@@ -173,7 +173,7 @@ def _limit(last: stamp.Stamp, apart: Numbers | None, found: Facts) -> str:
     return tip_(_ANGLES)
 
 
-def _shader(last: stamp.Stamp, found: Facts) -> str:
+def _shader(last: derivation.Stamp, found: Facts) -> str:
     if last.roughness == 0.0 or not found.flat:
         return last.shader_reason
     if found.analyzed:

@@ -14,7 +14,7 @@ from . import figures, lines
 if TYPE_CHECKING:
     from .data import Data
     from .lines import Line
-    from .theme import Look
+    from .looks import Look
 
 _STRIP = 28.0
 """Height of the range of σ in a sheet, at scale 1."""

@@ -13,9 +13,16 @@ import numpy as np
 from ...core import cycles, reading
 from ...core.arrays import Array
 from ...core.errors import MaterialError
-from .. import colorimetry, nodes, scene_match, spectra, stamp, storage
+from .. import (
+    colorimetry,
+    derivation,
+    nodes,
+    scene_match,
+    spectra,
+    storage,
+)
 from ..request import AUTO, VIRTUAL, Request
-from ..working_space import WorkingSpace, matrix_of
+from ..rgb_space import WorkingSpace, matrix_of
 from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
 from .shown import in_directions, under_main_light
@@ -128,7 +135,7 @@ def settled(material: Any) -> Request:
     MaterialError
         If the material has no spectrum that can be read.
     """
-    request, found = storage.load(material), stamp.get_stamp(material)
+    request, found = storage.load(material), derivation.get_stamp(material)
     if request.model != AUTO:
         return request
     return replace(request, model=found.model if found is not None else "closure")
@@ -150,7 +157,7 @@ def written(material: Any) -> tuple[Array, float]:
             msg = f"Material {material.name!r}: {node.name!r} holds a value that is no number."
             raise MaterialError(msg)
         return color, roughness
-    found = stamp.get_stamp(material)
+    found = derivation.get_stamp(material)
     if found is None:
         msg = f"Material {material.name!r} has no color derived from its spectrum yet; renew it."
         raise MaterialError(msg)

@@ -29,7 +29,7 @@ from bpy.utils import previews
 from ...core.errors import RoughSpectraError
 from .. import changes, facts, stamp
 from ..facts import Facts
-from . import theme
+from . import looks, theme
 
 _BOUND = 64
 """Pictures kept; a sheet has about 0.3 MB at scale 1."""
@@ -50,7 +50,7 @@ FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
 below each other; and each plot alone."""
 
 
-State = tuple[Facts, theme.Look]
+State = tuple[Facts, looks.Look]
 """All that a material's pictures depend on: its facts, and how they are drawn."""
 
 

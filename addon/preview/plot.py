@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ...core.arrays import Array
 from . import lines, raster, text
-from .theme import Look
+from .looks import Look
 
 _Numbers = TypeVar("_Numbers", float, Array)
 

@@ -9,9 +9,9 @@ import numpy as np
 from ...core import cycles, geometry, ladder, reading, yardstick
 from ...core.arrays import Array
 from .. import colorimetry, scene_match, target
+from ..rgb_space import WorkingSpace
 from ..scene_view import SceneView
 from ..target import MATCH_GEOMETRIES, VIRTUAL, Request
-from ..working_space import WorkingSpace
 
 Differences = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""

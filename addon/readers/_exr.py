@@ -12,12 +12,11 @@ Source: "OpenEXR File Layout", https://openexr.com/en/latest/OpenEXRFileLayout.h
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ._document import Document, quote
+from ._exr_image import Channel, Image
 from ._exr_pixels import LINES, runs
 
 MAGIC = b"\x76\x2f\x31\x01"
@@ -41,32 +40,6 @@ _MOST_RUNS = 64  # changes of the pixels' type from channel to channel; there ar
 # An even color packs a hundredfold, noise hardly. Beyond both of these nobody has measured.
 _LARGEST_PACKED = 64  # times the file's size
 _LARGEST_ALWAYS = 48 * 2**20  # bytes
-
-
-class Channel(NamedTuple):
-    """A channel's name, the type of its pixels, and its subsampling in x and y."""
-
-    name: str
-    form: np.dtype[np.generic]
-    sampling: tuple[int, int]
-
-
-@dataclass(frozen=True)
-class Image:
-    """The header of an image, checked against the size of its file."""
-
-    document: Document
-    width: int
-    height: int
-    top: int
-    channels: tuple[Channel, ...]
-    compression: str
-    chunks: int
-
-    @property
-    def line_size(self) -> int:
-        """Bytes of a line."""
-        return self.width * sum(channel.form.itemsize for channel in self.channels)
 
 
 def open_image(document: Document) -> Image:

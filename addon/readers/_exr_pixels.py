@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from ._exr import Channel, Image
+    from ._exr_image import Channel, Image
 
 Bytes = NDArray[np.uint8]
 

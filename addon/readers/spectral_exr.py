@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..sample import Sample, check_spectrum
 from . import _bands, _exr, _exr_pixels, _geometry
 from ._document import Document, open_document, quote
-from ._exr import Image
+from ._exr_image import Image
 
 NAME = "spectral OpenEXR image"
 PRIORITY = 100

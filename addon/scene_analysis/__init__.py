@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.arrays import Array
 from ...core.geometry import hemisphere
-from .. import light_spectrum, working_space
+from .. import light_spectrum, rgb_space, working_space
 from ..scene_view import SceneView, make_light
 from . import camera, sampling, sources, surfaces
 from .camera import View
@@ -111,7 +111,7 @@ def look(
     hits: Hits,
     ways: Array,
     lamps: list[Lamp],
-    space: working_space.WorkingSpace,
+    space: rgb_space.WorkingSpace,
     random: np.random.Generator,
 ) -> tuple[Samples, Array]:
     """Send rays towards lamps; gives the ways that arrive and the hits they start from."""
@@ -203,7 +203,7 @@ def _views(
     material_of_place: Array,
     materials: list[Any],
     lamps: list[Lamp],
-    space: working_space.WorkingSpace,
+    space: rgb_space.WorkingSpace,
 ) -> tuple[dict[Any, SceneView], list[Any]]:
     """Give views of the materials that are seen, and those that no lamp reaches."""
     weights = sampling.per_place(samples, len(material_of_place), material_of_place)
@@ -249,7 +249,7 @@ def _overall(scene: str, power: Array, colors: list[tuple[str, str, Array]]) -> 
 
 
 def _arriving(
-    index: int, lamp: Lamp, samples: Samples, weights: Array, space: working_space.WorkingSpace
+    index: int, lamp: Lamp, samples: Samples, weights: Array, space: rgb_space.WorkingSpace
 ) -> Array:
     """XYZ of a lamp; of a picture around the scene, the mean of what arrives from it."""
     mine = samples.lamp == index

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core.arrays import Array
 from .. import light_spectrum
-from ..working_space import WorkingSpace
+from ..rgb_space import WorkingSpace
 
 _DEPTH = 16
 """Nodes in a row that are followed; a tree has no loops, but groups may be deep."""

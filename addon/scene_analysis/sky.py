@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays import Array
-from ..working_space import WorkingSpace
+from ..rgb_space import WorkingSpace
 
 _KINDS = {"NISHITA": "SINGLE_SCATTERING"}
 """Up to Blender 4.5 there was one physical sky, under another name."""

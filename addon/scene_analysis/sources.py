@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays import Array
-from ..working_space import WorkingSpace
+from ..rgb_space import WorkingSpace
 from . import emission, world
 from .lamps import Bulb, Glow, Panel, Source, Sun
 from .surfaces import Surfaces

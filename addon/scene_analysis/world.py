@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays import Array
-from ..working_space import WorkingSpace
+from ..rgb_space import WorkingSpace
 from . import emission, sky
 from .lamps import Dome, Source, Sun
 

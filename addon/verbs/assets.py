@@ -55,11 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Build the library; exit status 0."""
-    from .. import library
+    from .. import preferences
     from ..assets import build, plan
     from ..progress import ProgressLine, counted
 
-    folder = options.library or library.user_folder()
+    folder = options.library or preferences.user_folder()
     chosen = [
         *(item for name in options.collection for item in plan.of_collection(name, folder)),
         *(plan.of_name(name, folder) for name in options.preset),

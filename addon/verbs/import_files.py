@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Read all, then add all; exit status 0, or 2 where a file was left out."""
-    from .. import importing, library
+    from .. import importing, preferences
 
     batch = importing.read(options.files)
     if batch.refused and not options.keep_going:
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     for each in batch.found:
         for sentence in each.sentences:
             print(f"warning: {each.path}: {sentence}", file=sys.stderr)
-    folder = options.folder or library.user_folder()
+    folder = options.folder or preferences.user_folder()
     added = importing.add(batch.found, options.collection, folder) if batch.found else []
     for each_added in added:
         for sample_id in each_added.ids:

@@ -40,12 +40,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print what was found; exit status 0, also where that is nothing."""
-    from .. import library
+    from .. import library, preferences
 
     if bool(options.words) == (options.near is not None):
         msg = "Give either words or --near COLOR."
         raise InputError(msg)
-    folder = options.folder or library.user_folder()
+    folder = options.folder or preferences.user_folder()
     for fault in library.contents(folder).faults:
         print(f"warning: {fault}", file=sys.stderr)
     if options.near is None:

@@ -8,7 +8,14 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, presets, readings, stamp, target, working_space
+from rough_spectra.addon import (
+    assign,
+    derivation,
+    presets,
+    readings,
+    target,
+    working_space,
+)
 from rough_spectra.core import ladder
 
 
@@ -23,7 +30,7 @@ def assigned(degrees, model=target.AUTO):
 def test_smooth_needs_no_model_and_rough_needs_all_bounces(degrees, model):
     material, solution = assigned(degrees)
     assert solution.model == model
-    found = stamp.get_stamp(material)
+    found = derivation.get_stamp(material)
     assert (found.model, found.model_reason) == (model, solution.model_reason)
     assert found.model_reason.startswith(f"{model}: ")
     assert material.rough_spectra.model == target.AUTO
@@ -43,7 +50,7 @@ def test_model_asked_for_is_kept_and_its_material_matched():
     material, solution = assigned(5, "two-bounce")
     assert solution.model == "two-bounce"
     assert solution.roughness > 0
-    assert stamp.get_stamp(material).model_reason == target.ASKED_FOR
+    assert derivation.get_stamp(material).model_reason == target.ASKED_FOR
 
 
 def test_bake_predicts_with_the_model_that_was_assigned():

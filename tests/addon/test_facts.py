@@ -6,7 +6,18 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, changes, facts, nodes, ocio, stamp, storage, target
+from rough_spectra.addon import (
+    assign,
+    changes,
+    derivation,
+    facts,
+    nodes,
+    ocio,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
 
 
 @pytest.fixture
@@ -79,13 +90,15 @@ def test_the_working_space_is_that_of_the_file(set_working_space, tmp_path):
     """Also after a switch, an undo and another file: what is looked up is the space of now."""
     for name in ("Linear Rec.2020", "ACEScg", "Linear Rec.709", "ACEScg"):
         set_working_space(name)
-        assert facts.working_space_name() == bpy.data.colorspace.working_space == name
+        assert working_space.working_space_name() == bpy.data.colorspace.working_space == name
     path = str(tmp_path / "acescg.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert facts.working_space_name() == bpy.data.colorspace.working_space == "Linear Rec.709"
+    assert (
+        working_space.working_space_name() == bpy.data.colorspace.working_space == "Linear Rec.709"
+    )
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert facts.working_space_name() == bpy.data.colorspace.working_space == "ACEScg"
+    assert working_space.working_space_name() == bpy.data.colorspace.working_space == "ACEScg"
 
 
 def test_a_configuration_without_the_role_is_told(tmp_path, monkeypatch):
@@ -107,4 +120,4 @@ def test_what_is_kept_reads_as_earlier_versions_wrote_it(material):
     nodes.roughness_socket(nodes.shader_node(material)).default_value = 0.0
     storage.keep(material)
     expected = "('Principled BSDF', (0.5, 0.25, 0.125, 0.0), (False, False, False), [])"
-    assert stamp.get_stamp(material).kept == expected
+    assert derivation.get_stamp(material).kept == expected

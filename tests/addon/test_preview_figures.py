@@ -12,16 +12,16 @@ from rough_spectra.addon.preview import (
     data,
     figures,
     lines,
+    looks,
     plot,
     raster,
     text,
-    theme,
     words,
 )
 from rough_spectra.core import reading
 
-DARK = theme.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
-LIGHT = theme.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
+DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
+LIGHT = looks.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
 LOOKS = pytest.mark.parametrize("look", [DARK, LIGHT], ids=["dark", "light"])
 SIZE = (280, 130)
 
@@ -183,9 +183,9 @@ def test_letters_stay_inside_the_picture(look, sigma, width):
 def test_letters_are_readable(look):
     """WCAG 2.1 asks for a contrast of 4.5 for text."""
     for color in (look.text, look.faint, look.target, look.blender):
-        assert theme.contrast(color, look.background) >= 4.5
-    assert theme.contrast((0, 0, 0), (1, 1, 1)) == pytest.approx(21)
-    assert theme.contrast((119 / 255,) * 3, (1, 1, 1)) == pytest.approx(4.48, abs=0.01)
+        assert looks.contrast(color, look.background) >= 4.5
+    assert looks.contrast((0, 0, 0), (1, 1, 1)) == pytest.approx(21)
+    assert looks.contrast((119 / 255,) * 3, (1, 1, 1)) == pytest.approx(4.48, abs=0.01)
 
 
 # Machado, Oliveira and Fernandes (2009), table 1, severity 1.0, for linear RGB.

@@ -14,7 +14,12 @@ from rough_spectra.addon import (
     target,
     working_space,
 )
-from rough_spectra.addon.preview import data, icons, theme
+from rough_spectra.addon.preview import (
+    data,
+    icons,
+    looks,
+    theme,
+)
 from rough_spectra.core import geometry
 
 
@@ -208,7 +213,7 @@ def test_both_themes_are_readable():
     look = theme.current(bpy.context.preferences)
     assert max(look.background) > 0.7 > 0.3 > max(before)
     for color in (look.text, look.faint, look.target, look.blender):
-        assert theme.contrast(color, look.background) >= 4.5
+        assert looks.contrast(color, look.background) >= 4.5
     bpy.ops.preferences.reset_default_theme()
     assert theme.current(bpy.context.preferences).background == before
 

@@ -13,6 +13,7 @@ from mathutils import Vector
 from rough_spectra.addon import (
     assign,
     colorimetry,
+    derivation,
     light_spectrum,
     measured,
     presets,
@@ -304,10 +305,10 @@ def test_two_lights_are_told_apart_and_explained(plate):
     [change] = scene_report.follow(analyze())
     assert {name for name, _ in change.solution.delta_e_lights} == {"Warm", "Blue"}
     assert change.solution.delta_e_mean < change.before
-    sentence = stamp.get_stamp(plate).scene_reason
+    sentence = derivation.get_stamp(plate).scene_reason
     assert "2 colors of light" in sentence
     assert "Warm ΔE00" in sentence
-    assert stamp.get_stamp(plate).delta_e_lights == change.solution.delta_e_lights
+    assert derivation.get_stamp(plate).delta_e_lights == change.solution.delta_e_lights
 
 
 def test_roughness_is_taken_where_it_is_better_on_average(colorchecker):
@@ -416,7 +417,7 @@ def test_engine_without_roughness_gets_the_flat_color_of_the_scene(plate):
     bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
     assert "the render engine was changed" in stamp.state(plate).reasons[0]
     assign.renew([plate])
-    found = stamp.get_stamp(plate)
+    found = derivation.get_stamp(plate)
     assert found.roughness == 0
     assert "ignores diffuse roughness" in found.shader_reason
     assert stamp.state(plate).kind == "fresh"
@@ -429,16 +430,16 @@ def test_engine_without_roughness_gets_the_flat_color_of_the_scene(plate):
 
 
 def test_following_can_be_switched_off_and_on(plate):
-    before = stamp.get_stamp(plate).color
+    before = derivation.get_stamp(plate).color
     add_lamp("Bulb", color=(1, 0.5, 0.2))
     [change] = scene_report.follow(analyze())
-    assert stamp.get_stamp(plate).color != before
+    assert derivation.get_stamp(plate).color != before
     plate.rough_spectra.use_scene = False
     assign.renew([plate])
-    assert stamp.get_stamp(plate).color == before
+    assert derivation.get_stamp(plate).color == before
     plate.rough_spectra.use_scene = True
     assign.renew([plate])
-    assert stamp.get_stamp(plate).color == pytest.approx(change.solution.color.tolist())
+    assert derivation.get_stamp(plate).color == pytest.approx(change.solution.color.tolist())
 
 
 def test_measurement_finds_what_was_matched_to_the_scene(plate):
@@ -461,7 +462,7 @@ def test_panel_holds_a_measurement_to_the_spectrum_as_it_predicts_it(plate):
     add_lamp("Warm", use_temperature=True, temperature=2700)
     add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
     assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
-    predicted = stamp.get_stamp(plate).delta_e_instrument
+    predicted = derivation.get_stamp(plate).delta_e_instrument
     assert predicted > 0.5
     with bpy.context.temp_override(material=plate):
         assert bpy.ops.rough_spectra.measure("EXEC_DEFAULT") == {"FINISHED"}

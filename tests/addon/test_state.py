@@ -7,7 +7,7 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, changes, nodes, stamp, storage
+from rough_spectra.addon import assign, changes, derivation, nodes, stamp, storage
 from rough_spectra.addon.properties import SCHEMA
 from rough_spectra.core.errors import MaterialError
 
@@ -386,5 +386,5 @@ def test_what_a_newer_version_stored_is_not_touched(make):
 def test_a_stamp_is_parsed_once(make, monkeypatch):
     material = make()
     stamp.state(material)
-    monkeypatch.setattr(stamp.json, "loads", None)
+    monkeypatch.setattr(derivation.json, "loads", None)
     assert kind(material) == "fresh"

@@ -3,7 +3,14 @@
 """The tolerance of the automatic choice belongs to the material."""
 
 import numpy as np
-from rough_spectra.addon import assign, stamp, storage, target, working_space
+from rough_spectra.addon import (
+    assign,
+    derivation,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
 from rough_spectra.addon.target import Request
 
 SIGMA = np.radians(30.0)
@@ -29,14 +36,14 @@ def test_it_is_stored_and_counts_as_a_setting(make_material, colorchecker):
     assert storage.load(material).tolerance == 1.2
     assert stamp.state(material).kind == "fresh"
     group.tolerance = 20.0
-    assert stamp.get_stamp(material).model == "lambert"
+    assert derivation.get_stamp(material).model == "lambert"
 
 
 def test_materials_of_before_are_still_up_to_date(make_material, colorchecker):
     """A digest without the tolerance is that of the usual one."""
     material = make_material("Wall")
     assign.assign([(material, Request(colorchecker[13], SIGMA))])
-    before = stamp.inputs_digest(material.rough_spectra)
+    before = derivation.inputs_digest(material.rough_spectra)
     assert material.rough_spectra.tolerance == 1.0
     material.rough_spectra.tolerance = 1.5
-    assert stamp.inputs_digest(material.rough_spectra) != before
+    assert derivation.inputs_digest(material.rough_spectra) != before

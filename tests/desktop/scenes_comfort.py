@@ -87,7 +87,7 @@ def preferences(found):
         OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
     group = wall().rough_spectra
     chosen.library_folder = bpy.app.tempdir
-    found["library"] = ours("addon.library").user_folder().samefile(bpy.app.tempdir)
+    found["library"] = ours("addon.preferences").user_folder().samefile(bpy.app.tempdir)
     chosen.library_folder = ""
     found["new"] = [group.illuminant, group.observer, round(group.tolerance, 3)]
     bpy.ops.wm.save_userpref()

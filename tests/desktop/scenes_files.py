@@ -21,7 +21,9 @@ PLASTER = "\n".join(
 
 def _library():
     library = ours("addon.library")
-    return sorted(entry.name for entry in library.contents(library.user_folder()).entries)
+    return sorted(
+        entry.name for entry in library.contents(ours("addon.preferences").user_folder()).entries
+    )
 
 
 def _drop(where, **options):

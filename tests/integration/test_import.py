@@ -8,7 +8,7 @@ import shutil
 
 import bpy
 import pytest
-from rough_spectra.addon import importing, library, readers
+from rough_spectra.addon import importing, library, preferences, readers
 from rough_spectra.addon.operators import import_review, import_samples
 
 from tests.integration.support import ROOT, contents, rgb_material, spectrum_csv
@@ -22,7 +22,7 @@ BRICK = ROOT / "tests" / "fixtures" / "nix" / "brick.csv"
 def folder(tmp_path, monkeypatch):
     """The user's library, which must not be that of whoever runs the tests."""
     path = tmp_path / "library"
-    monkeypatch.setattr(library, "user_folder", lambda: path)
+    monkeypatch.setattr(preferences, "user_folder", lambda: path)
     return path
 
 
@@ -256,10 +256,10 @@ def test_library_of_an_installed_extension_is_outside_of_it(blender):
     found = blender("""
         extension = load_extension()
         extension.register()
-        from rough_spectra.addon import library, preferences
-        clone = str(library.user_folder())
+        from rough_spectra.addon import preferences
+        clone = str(preferences.user_folder())
         preferences.PACKAGE = "bl_ext.user_default.rough_spectra"
-        installed = str(library.user_folder())
+        installed = str(preferences.user_folder())
         extension.unregister()
         user = bpy.utils.resource_path("USER")
         print(json.dumps([clone, installed, bpy.utils.user_resource("EXTENSIONS"), user]))

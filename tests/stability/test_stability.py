@@ -6,8 +6,8 @@ import bpy  # noqa: F401, before mathutils, which comes with it
 import numpy as np
 import pytest
 from rough_spectra.addon import target
+from rough_spectra.addon.rgb_space import WorkingSpace
 from rough_spectra.addon.sample import Sample
-from rough_spectra.addon.working_space import WorkingSpace
 
 from core import cycles, grid, oren_nayar, reading, vcavity
 from tests.stability import checks

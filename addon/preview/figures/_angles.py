@@ -13,8 +13,8 @@ import numpy.typing as npt
 from ....core.arrays import Array
 from .. import lines, plot, raster, text
 from ..lines import Line
+from ..looks import Look
 from ..plot import Axes, Key, Size
-from ..theme import Look
 
 STEEPEST = 80.0
 """View angles shown on either side, degrees."""

@@ -10,8 +10,8 @@ import numpy as np
 
 from ....core.arrays import Array
 from .. import plot, raster, text
+from ..looks import Look, readable
 from ..plot import Size
-from ..theme import Look, readable
 
 LARGEST_SIGMA = 90.0
 

@@ -13,8 +13,8 @@ import numpy as np
 from ....core.arrays import Array
 from .. import plot, raster, text
 from ..lines import Line
+from ..looks import Look
 from ..plot import Axes, Key, Size
-from ..theme import Look
 
 VISIBLE_NM = (380.0, 730.0)
 """Wavelengths shown; the eye sees next to nothing beyond."""

@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from ....core.arrays import Array
 from .. import plot, raster, text
+from ..looks import Look, contrast
 from ..plot import Size
 from ..raster import Color
-from ..theme import Look, contrast
 
 
 def swatch_pair(
