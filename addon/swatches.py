@@ -11,9 +11,8 @@ import numpy.typing as npt
 
 from ..core.arrays import Array
 from ..core.errors import DomainError
-from . import colorimetry
+from . import colorimetry, srgb
 from .sample import Sample
-from .science import colour
 
 
 def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
@@ -39,8 +38,7 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
     known = np.isfinite(xyz[:, 0])
     rgb, lab = np.full_like(xyz, np.nan), np.full_like(xyz, np.nan)
     if known.any():
-        science = colour()
-        rgb[known] = science.XYZ_to_sRGB(xyz[known], illuminant=science.XYZ_to_xy(white))
+        rgb[known] = srgb.encode(xyz[known] @ srgb.from_xyz(white).T)
         lab[known] = colorimetry.xyz_to_lab(xyz[known], white)
     return np.clip(rgb, 0, 1), lab
 
@@ -48,6 +46,5 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
 def to_lab(rgb: npt.ArrayLike) -> Array:
     """Return CIE L*a*b* of gamma-encoded sRGB, 0 to 1, shape (..., 3)."""
     white = colorimetry.white("D65", 2)
-    science = colour()
-    xyz = science.sRGB_to_XYZ(np.asarray(rgb, np.float64), illuminant=science.XYZ_to_xy(white))
+    xyz = srgb.decode(np.asarray(rgb, np.float64)) @ np.linalg.inv(srgb.from_xyz(white)).T
     return colorimetry.xyz_to_lab(xyz, white)

@@ -18,6 +18,7 @@ import bpy
 import numpy as np
 import numpy.typing as npt
 
+from .. import srgb
 from ..spectrophotometer.worker import read_exr
 
 PIXELS = 128
@@ -131,8 +132,7 @@ def _srgb(picture: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
     """Encode linear Rec.709 with associated alpha as sRGB bytes with straight alpha."""
     alpha = np.clip(picture[..., 3:], 0, 1)
     linear = np.clip(picture[..., :3] / np.maximum(alpha, 1e-6), 0, 1)
-    # IEC 61966-2-1
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    encoded = srgb.encode(linear)
     return np.round(np.concatenate((encoded, alpha), axis=-1) * 255).astype(np.uint8)
 
 

@@ -19,6 +19,7 @@ from .. import (
     nodes,
     scene_match,
     spectra,
+    srgb,
     storage,
 )
 from ..request import AUTO, VIRTUAL, Request
@@ -50,11 +51,6 @@ half of what the screen resolves."""
 _GRID = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 1, 5.0)
 _LEAST_WEIGHT = 0.02
 """Share of a channel's largest weight from where on its bar begins."""
-
-# sRGB (IEC 61966-2-1) from XYZ under D65.
-_TO_SRGB = np.array(
-    ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570))
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,8 +201,7 @@ def of_request(
 def patch(rgb: Array, space: WorkingSpace) -> Patch:
     """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
     linear = _to_screen(space.key) @ rgb
-    low, high = np.abs(linear), np.maximum(linear, 0)
-    encoded = np.where(low <= 0.0031308, 12.92 * linear, 1.055 * high ** (1 / 2.4) - 0.055)
+    encoded = srgb.encode(linear)
     shown = np.clip(encoded, 0, 1)
     red, green, blue = shown.tolist()
     return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
@@ -215,9 +210,7 @@ def patch(rgb: Array, space: WorkingSpace) -> Patch:
 @lru_cache(maxsize=16)
 def _to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
-    matrix = _TO_SRGB @ np.linalg.inv(matrix_of(key))
-    # `_TO_SRGB` is rounded to four places; white has to be white.
-    return np.asarray(matrix / matrix.sum(axis=1, keepdims=True))
+    return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
 
 
 def rgb_bars(

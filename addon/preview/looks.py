@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from .. import srgb
+
 if TYPE_CHECKING:
     from .raster import Color
 
@@ -107,8 +109,7 @@ def contrast(a: Color, b: Color) -> float:
 
 
 def _luminance(color: Color) -> float:
-    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    return float(srgb.decode(color) @ srgb.LUMINANCE)
 
 
 def _mix(a: Color, b: Color, share: float) -> Color:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...core.arrays import Array
+from .. import srgb
 from ..rgb_space import WorkingSpace
 from . import emission, sky
 from .lamps import Dome, Source, Sun
@@ -86,8 +87,7 @@ def _pixels(image: Any) -> Array | None:
     image.pixels.foreach_get(values)
     pixels = values.reshape(height, width, image.channels)[::-1, :, :3]
     if not image.is_float and image.colorspace_settings.name == "sRGB":
-        low = pixels <= 0.04045
-        return np.where(low, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
+        return srgb.decode(pixels)
     return np.asarray(pixels)
 
 

@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from ....core.arrays import Array
+from ... import srgb
 from .. import plot, raster, text
 from ..lines import Line
 from ..looks import Look
@@ -121,11 +122,9 @@ def _visible_band(canvas: Array, axes: Axes, top: int, height: int) -> None:
     x -= 0.065 * lobe(501.1, 0.0490, 0.0382)
     y = 0.821 * lobe(568.8, 0.0213, 0.0247) + 0.286 * lobe(530.9, 0.0613, 0.0322)
     z = 1.217 * lobe(437, 0.0845, 0.0278) + 0.681 * lobe(459, 0.0385, 0.0725)
-    to_rgb = ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570))
-    linear = np.array(to_rgb) @ np.stack((x, y, z))
+    linear = srgb.FROM_XYZ @ np.stack((x, y, z))
     linear -= np.minimum(linear.min(axis=0), 0)
     linear /= linear.max(axis=0)
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     fade = np.clip(np.maximum.reduce((x, y, z)) / 0.1, 0, 1)
     part = canvas[top : top + height, axes.left : axes.right]
-    part[:] = raster.encoded(np.vstack((encoded * fade, fade)).T)
+    part[:] = raster.encoded(np.vstack((srgb.encode(linear) * fade, fade)).T)
