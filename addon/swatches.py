@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ..core import color_difference
 from ..core.arrays import Array
 from ..core.errors import DomainError
 from . import colorimetry
@@ -41,7 +42,7 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
     if known.any():
         science = colour()
         rgb[known] = science.XYZ_to_sRGB(xyz[known], illuminant=science.XYZ_to_xy(white))
-        lab[known] = colorimetry.xyz_to_lab(xyz[known], white)
+        lab[known] = color_difference.xyz_to_lab(xyz[known], white)
     return np.clip(rgb, 0, 1), lab
 
 
@@ -50,4 +51,4 @@ def to_lab(rgb: npt.ArrayLike) -> Array:
     white = colorimetry.white("D65", 2)
     science = colour()
     xyz = science.sRGB_to_XYZ(np.asarray(rgb, np.float64), illuminant=science.XYZ_to_xy(white))
-    return colorimetry.xyz_to_lab(xyz, white)
+    return color_difference.xyz_to_lab(xyz, white)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cheapest that is good enough, with the reason in words.
 
-Takes color differences that are known already: `core.ladder.choose_model` predicts those of the
-models, `addon.target` those of Blender's materials.
+Takes color differences that are known already, ΔE00: `core.ladder.choose_model` predicts those of
+the models, `addon.target` those of Blender's materials.
 """
 
 from __future__ import annotations
@@ -44,20 +44,15 @@ def choose_shader(
     errors_lambert: npt.ArrayLike,
     errors_rough: npt.ArrayLike,
     tolerance: float = 1.0,
-    *,
-    unit: str = "ΔE00",
 ) -> Choice:
     """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
 
     Parameters
     ----------
     errors_lambert, errors_rough
-        Color differences of the two from the target, over the directions and lights that occur,
-        any shape.
+        ΔE00 of the two from the target, over the directions and lights that occur, any shape.
     tolerance
-        Largest difference allowed.
-    unit
-        What the reason calls a difference.
+        Largest ΔE00 allowed.
 
     Returns
     -------
@@ -70,12 +65,12 @@ def choose_shader(
     errors = dict(zip(SHADERS, (lambert, rough), strict=True))
     limit = f"the {tolerance:g} allowed"
     if lambert <= tolerance:
-        reason = f"lambert: at worst {unit} {_number(lambert, tolerance)} off, within {limit}."
+        reason = f"lambert: at worst ΔE00 {_number(lambert, tolerance)} off, within {limit}."
         return Choice("lambert", lambert, errors, reason)
     model = "rough" if rough <= tolerance or rough < lambert else "lambert"
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
-        f"{model}: at worst {unit} {_number(errors[model], tolerance)} off, "
+        f"{model}: at worst ΔE00 {_number(errors[model], tolerance)} off, "
         f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
         f"{'without' if model == 'rough' else 'with'} roughness it would be "
         f"{_number(errors[other], tolerance)}."
@@ -83,9 +78,7 @@ def choose_shader(
     return Choice(model, errors[model], errors, reason)
 
 
-def cheapest(
-    errors: Mapping[str, float], tolerance: float, directions: int, lights: int, unit: str
-) -> Choice:
+def cheapest(errors: Mapping[str, float], tolerance: float, directions: int, lights: int) -> Choice:
     """Choose the first rung whose error is within the tolerance.
 
     Parameters
@@ -93,11 +86,9 @@ def cheapest(
     errors
         Predicted error of each rung, cheapest first; that of the last, the reference, is 0.
     tolerance
-        Largest error allowed.
+        Largest ΔE00 allowed.
     directions, lights
         How many the errors are the largest of.
-    unit
-        What the reason calls a difference.
     """
     rungs = list(errors)
     model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])
@@ -107,7 +98,7 @@ def cheapest(
     if model == rungs[-1]:
         best = errors[rungs[-2]]
         reason = (
-            f"{model}: the simpler {below} is up to {unit} {_number(best, tolerance)} off {where}, "
+            f"{model}: the simpler {below} is up to ΔE00 {_number(best, tolerance)} off {where}, "
             f"more than {limit}."
             if np.isfinite(best)
             else f"{model}: how far the simpler {below} is off is not known {where}; some "
@@ -117,7 +108,7 @@ def cheapest(
         reason = f"{model}: exact, because the surface is level (σ = 0)."
     else:
         reason = (
-            f"{model}: at most {unit} {_number(errors[model], tolerance)} from the reference "
+            f"{model}: at most ΔE00 {_number(errors[model], tolerance)} from the reference "
             f"{where}, within {limit}"
         )
         if below is not None:

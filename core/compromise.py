@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Array
+from .color_difference import delta_e
 
 _STEPS = 24
 _SIFTED = 3
@@ -198,15 +199,15 @@ def _squares(apart: Array, weights: Array) -> tuple[Numbers, list[Numbers], list
     return (weights @ lengths).tolist(), products[:, 0, 1:].tolist(), products[:, 1:, 1:].tolist()
 
 
-def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
+def whitener(at: Array, difference: Callable[[Array, Array], Array] = delta_e) -> Array:
     """Matrices after which a color difference is a plain distance, close to some colors.
 
     Parameters
     ----------
     at
-        The colors, (places, 3).
+        The colors, L*a*b* unless `difference` takes others, shape (places, 3).
     difference
-        Of two arrays of colors, (..., 3) and (..., 3) -> (...).
+        Of two arrays of colors, (..., 3) and (..., 3) -> (...); CIEDE2000 unless another is given.
 
     Returns
     -------

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, polar_angle, precision, spectrum
+from .color_difference import delta_e
 from .errors import DomainError
 from .reading import INSTRUMENT_ANGLES
 from .remembered import remembered
@@ -113,12 +114,11 @@ def match(
     targets: npt.ArrayLike,
     geometries: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike],
     perceive: Callable[[Array], Array],
-    difference: Callable[[Array, Array], Array],
 ) -> tuple[Array, Array]:
     """Choose color and roughness so that Cycles reads the same as the target.
 
     The reading at 45°/0° is met exactly; the one scalar roughness then brings the other geometries
-    closest, in the mean of `difference`. A reading of at most 1 needs no color above 1, because a
+    closest, in the mean of CIEDE2000. A reading of at most 1 needs no color above 1, because a
     white lobe of any roughness reads at least 1 there.
 
     Parameters
@@ -130,9 +130,7 @@ def match(
     geometries
         θi, θr and Δφ of those geometries, radians, each of shape (geometries,).
     perceive
-        Turns scene-linear RGB (..., 3) into the coordinates that `difference` compares.
-    difference
-        Color difference of two arrays of such coordinates, (..., 3) and (..., 3) -> (...).
+        Turns scene-linear RGB (..., 3) into L*a*b*.
 
     Returns
     -------
@@ -154,7 +152,7 @@ def match(
         def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
             color = _color(of_chunk, _lobe(tried, *instrument))
             seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *others))
-            return np.asarray(difference(perceive(seen), goal).mean(axis=-1))
+            return np.asarray(delta_e(perceive(seen), goal).mean(axis=-1))
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
     return color_for_reading(r, roughness), roughness

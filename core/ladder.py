@@ -23,13 +23,13 @@ import numpy.typing as npt
 from . import closure, oren_nayar, vcavity, yardstick
 from .arrays import Array, polar_angle, slope_deviation, spectrum
 from .choice import SHADERS, Choice, cheapest, choose_shader
+from .color_difference import delta_e, xyz_to_lab
 from .errors import DomainError
 
 __all__ = [
     "RUNGS",
     "SHADERS",
     "Choice",
-    "Difference",
     "choose_model",
     "choose_shader",
     "reflectance",
@@ -42,9 +42,6 @@ _APPROXIMATE = RUNGS[:-1]
 
 _CHUNK = 1 << 16
 """Values of spectra (materials · geometries · bands) held at once: 0.5 MB an array."""
-
-Difference = Callable[[Array, Array, Array], Array]
-"""Color difference of XYZ (..., 3) and XYZ (..., 3) under white XYZ, which broadcasts: (...)."""
 
 
 def reflectance(
@@ -91,9 +88,6 @@ def choose_model(
     geometries: Sequence[npt.ArrayLike],
     lights: Sequence[npt.ArrayLike],
     tolerance: npt.ArrayLike = 1.0,
-    *,
-    difference: Difference,
-    unit: str = "ΔE00",
 ) -> list[Choice]:
     """Choose for each material the cheapest rung that is good enough in its scene.
 
@@ -114,15 +108,11 @@ def choose_model(
     lights
         Matrices (bands, 3) that turn reflectance into XYZ; column sums are the white point.
     tolerance
-        Largest color difference allowed, shape (materials,) or a scalar.
-    difference
-        See `Difference`. A call for many materials costs a fraction of many calls.
-    unit
-        What the reason calls a difference.
+        Largest ΔE00 (CIEDE2000) allowed, shape (materials,) or a scalar.
 
     Returns
     -------
-    One `Choice` a material.
+    One `Choice` a material. A call for many costs a fraction of many calls.
 
     Raises
     ------
@@ -149,7 +139,7 @@ def choose_model(
     for start in range(0, count, step):
         part = slice(start, start + step)
         own = [angle[part] if angle.ndim > 1 else angle for angle in angles]
-        found = _predict(rho[part], spread[part], own, matrices, difference)
+        found = _predict(rho[part], spread[part], own, matrices)
         # What cannot be compared is not taken for equal.
         found = np.where(np.isfinite(found), found, np.inf)
         errors[:, part] = np.where(occurs[part], found, 0).max(axis=-1)
@@ -160,7 +150,6 @@ def choose_model(
             float(allowed[i]),
             int(directions[i]),
             len(matrices),
-            unit,
         )
         for i in range(count)
     ]
@@ -171,7 +160,6 @@ def _predict(
     sigma: Array,
     geometries: Sequence[Array],
     lights: Sequence[Array],
-    difference: Difference,
 ) -> Array:
     """Largest error over the lights, shape (rungs, materials, geometries), NaN where unknown."""
     light, view, azimuth = geometries
@@ -195,7 +183,7 @@ def _predict(
     # (rungs, materials, geometries, lights)
     whites = weights.sum(axis=0).reshape(-1, 3)
     seen, wanted = (xyz.reshape(*xyz.shape[:-1], *whites.shape) for xyz in (seen, wanted))
-    found = difference(seen, wanted, whites)
+    found = delta_e(xyz_to_lab(seen, whites), xyz_to_lab(wanted, whites))
     worst = (found[:-1] + found[-1]).max(axis=-1)
     return np.where(np.isfinite(missed), worst, np.inf)
 

@@ -29,7 +29,7 @@ if "rough_spectra" not in sys.modules:
     importlib.import_module("run_command_line").load_extension()
 
 from rough_spectra.addon import colorimetry
-from rough_spectra.core import ladder
+from rough_spectra.core import color_difference, ladder
 from rough_spectra.core.arrays import Array
 
 WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
@@ -169,7 +169,6 @@ def choose(scenes: Sequence[Scene]) -> list[ladder.Choice]:
             (geometries[0], geometries[1], geometries[2]),
             [_weights(name) for name in illuminants],
             np.array([scenes[i].tolerance for i in members]),
-            difference=difference,
         )
         found.update(zip(members, choices, strict=True))
     return [found[i] for i in range(len(scenes))]
@@ -181,9 +180,9 @@ def _weights(illuminant: str) -> Array:
 
 
 def difference(xyz: Array, other: Array, white: Array) -> Array:
-    """CIEDE2000 by colour-science."""
-    return colorimetry.delta_e(
-        colorimetry.xyz_to_lab(xyz, white), colorimetry.xyz_to_lab(other, white)
+    """CIEDE2000 of XYZ under a white."""
+    return color_difference.delta_e(
+        color_difference.xyz_to_lab(xyz, white), color_difference.xyz_to_lab(other, white)
     )
 
 
@@ -236,7 +235,7 @@ def _time_shared(scenes: Sequence[Scene]) -> float:
     sigma = np.array([scene.sigma for scene in scenes])
     light = _weights("D65")
     start = time.process_time()
-    ladder.choose_model(albedos, sigma, tuple(geometries), [light], difference=difference)
+    ladder.choose_model(albedos, sigma, tuple(geometries), [light])
     return (time.process_time() - start) / len(scenes)
 
 

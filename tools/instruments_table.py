@@ -40,7 +40,7 @@ def rows() -> list[dict[str, Any]]:
         importlib.import_module("run_command_line").load_extension()
     import numpy as np
     from rough_spectra.addon import colorimetry, presets
-    from rough_spectra.core import instruments, reading
+    from rough_spectra.core import color_difference, instruments, reading
 
     samples = [sample for sample in presets.load_all("colorchecker") if sample.kind == "albedo"]
     albedos = np.stack([sample.values for sample in samples])
@@ -54,7 +54,7 @@ def rows() -> list[dict[str, Any]]:
         usual = lab("45a:0", degrees)
         for name, instrument in instruments.REGISTRY.items():
             here = lab(name, degrees)
-            apart = colorimetry.delta_e(usual, here)
+            apart = color_difference.delta_e(usual, here)
             most = int(np.argmax(apart))
             values = (
                 name,

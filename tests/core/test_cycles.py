@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from core import cycles, geometry
+from core.color_difference import delta_e, xyz_to_lab
 from core.errors import DomainError
 
 HALF_PI = math.pi / 2
@@ -192,12 +193,13 @@ def test_colors_out_of_gamut_are_not_clipped():
     np.testing.assert_allclose(cycles.reflectance(color, 0.6, *ANGLES_45_0), read, rtol=1e-13)
 
 
-def identity(rgb):
-    return rgb
+SRGB_TO_XYZ = np.array(
+    ((0.4124, 0.3576, 0.1805), (0.2126, 0.7152, 0.0722), (0.0193, 0.1192, 0.9505))
+)
 
 
-def distance(a, b):
-    return np.sqrt(((a - b) ** 2).sum(axis=-1))
+def perceive(rgb):
+    return xyz_to_lab(rgb @ SRGB_TO_XYZ.T, SRGB_TO_XYZ.sum(axis=1))
 
 
 def test_match_finds_cycles_own_materials():
@@ -208,7 +210,7 @@ def test_match_finds_cycles_own_materials():
     directions = geometry.hemisphere(32)
     targets = cycles.reflectance(color[:, None], roughness[:, None], *directions)
     read = cycles.reflectance(color, roughness, *ANGLES_45_0)
-    found_color, found = cycles.match(read, targets, directions, identity, distance)
+    found_color, found = cycles.match(read, targets, directions, perceive)
     # Half of the last step, 1/128: where the right answer is a kink, a parabola cannot do better.
     np.testing.assert_allclose(found, roughness, atol=0.5 / 128)
     np.testing.assert_array_equal(found[:2], roughness[:2])
@@ -222,9 +224,9 @@ def test_match_of_one_is_that_of_many():
     rng = np.random.default_rng(5)
     directions = geometry.hemisphere(16)
     targets, read = rng.uniform(0.1, 0.9, (150, 16, 3)), rng.uniform(0.1, 0.9, (150, 3))
-    color, roughness = cycles.match(read, targets, directions, identity, distance)
+    color, roughness = cycles.match(read, targets, directions, perceive)
     for i in (0, 63, 64, 149):
-        one = cycles.match(read[i : i + 1], targets[i : i + 1], directions, identity, distance)
+        one = cycles.match(read[i : i + 1], targets[i : i + 1], directions, perceive)
         np.testing.assert_array_equal(one[0][0], color[i])
         assert one[1][0] == roughness[i]
 
@@ -242,9 +244,9 @@ def test_match_is_as_good_as_trying_a_thousand():
         seen = cycles.reflectance(
             color[:, None], np.broadcast_to(roughness, 30)[:, None], *directions
         )
-        return distance(seen, targets).mean(axis=-1)
+        return delta_e(perceive(seen), perceive(targets)).mean(axis=-1)
 
-    _, found = cycles.match(read, targets, directions, identity, distance)
+    _, found = cycles.match(read, targets, directions, perceive)
     least = np.min([cost(np.full(30, s)) for s in np.linspace(0, 1, 1001)], axis=0)
     assert (cost(found) / least).max() < 1.002
 
@@ -258,7 +260,7 @@ def test_no_reading_up_to_1_needs_a_color_above_1():
 
 def test_match_of_no_materials():
     color, roughness = cycles.match(
-        np.zeros((0, 3)), np.zeros((0, 8, 3)), geometry.hemisphere(8), identity, distance
+        np.zeros((0, 3)), np.zeros((0, 8, 3)), geometry.hemisphere(8), perceive
     )
     assert color.shape == (0, 3)
     assert roughness.shape == (0,)
