@@ -14,7 +14,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..core import color_difference, compromise, cycles, cycles_slopes, geometry, ladder, reading
+from ..core import (
+    color_difference,
+    compromise,
+    cycles,
+    cycles_instrument,
+    cycles_match,
+    cycles_slopes,
+    geometry,
+    ladder,
+    reading,
+)
 from ..core.arrays import Array
 from .preview.words import SIDE_BY_SIDE
 from .request import VIRTUAL
@@ -94,7 +104,9 @@ def match(
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
     roots, _ = color_difference.roots(wanted)
     lab = color_difference.roots_to_lab(roots)
-    color = np.clip(cycles.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS), 0, 1)
+    color = np.clip(
+        cycles_match.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, VIRTUAL), 0, 1
+    )
     starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
     found = compromise.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
     apart = color_difference.delta_e(places.perceive(found), lab)
@@ -201,7 +213,7 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
 
 def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
     """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
+    seen = cycles_instrument.reflectance(color, roughness, VIRTUAL)
     return to_lab(seen, view.lights[0], space)
 
 

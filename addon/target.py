@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import color_difference, cycles, geometry, ladder, reading
+from ..core import color_difference, cycles, cycles_match, geometry, ladder, reading
 from ..core.arrays import Array
 from ..core.choice import choose_shader
 from . import colorimetry, judgement, scene_match, spectra
@@ -186,7 +186,7 @@ def _solve(
     def perceive(rgb: Array) -> Array:
         return space.to_lab(rgb, illuminant)
 
-    matched, roughness = cycles.match(readings, targets, geometries, perceive)
+    matched, roughness = cycles_match.match(readings, targets, geometries, perceive, VIRTUAL)
     color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
     everywhere = _everywhere(MATCH_GEOMETRIES)

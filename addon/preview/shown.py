@@ -6,7 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core import color_difference, cycles, geometry, ladder, reading, yardstick
+from ...core import (
+    color_difference,
+    cycles,
+    cycles_instrument,
+    geometry,
+    ladder,
+    yardstick,
+)
 from ...core.arrays import Array
 from .. import scene_match, target
 from ..scene_view import SceneView
@@ -35,7 +42,7 @@ def differences(
     """
     (seen, albedo), (color, roughness) = spectra, shader
     bands = request.sample.wavelengths
-    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
+    at_instrument = cycles_instrument.reflectance(color, roughness, VIRTUAL)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
         wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)
