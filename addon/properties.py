@@ -20,6 +20,7 @@ from bpy.props import (
 )
 from bpy.types import Material, PropertyGroup
 
+from ..core import models
 from . import live
 
 SCHEMA = 1
@@ -54,11 +55,7 @@ INSTRUMENT_ITEMS = (
 )
 MODEL_ITEMS = (
     ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
-    ("lambert", "Lambert", "As if the surface were smooth", 4),
-    ("first-order", "First-order", "Without light between facets: F1 ρ", 1),
-    ("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
-    ("closure", "Closure", "All bounces, in a formula fitted to the V-cavity reference", 2),
-    ("reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5),
+    *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
 )
 SHADER_ITEMS = (
     (

@@ -86,7 +86,7 @@ def match(
     albedo, read
         ρ(λ), and r(λ) at the virtual instrument, each of shape (bands,).
     model
-        One of `core.ladder.RUNGS`.
+        One of `core.models.NAMES`.
     sigma
         Roughness, radians.
     bands

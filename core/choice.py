@@ -25,7 +25,7 @@ class Choice:
     Attributes
     ----------
     model
-        One of `core.ladder.RUNGS`, or of `SHADERS`.
+        One of `core.models.NAMES`, or of `SHADERS`.
     error
         Its predicted largest color difference from the reference.
     errors

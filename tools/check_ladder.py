@@ -29,7 +29,7 @@ if "rough_spectra" not in sys.modules:
     importlib.import_module("run_command_line").load_extension()
 
 from rough_spectra.addon import colorimetry
-from rough_spectra.core import color_difference, ladder
+from rough_spectra.core import color_difference, ladder, models
 from rough_spectra.core.arrays import Array
 
 WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
@@ -191,16 +191,16 @@ def judge(scene: Scene, choice: ladder.Choice) -> Verdict:
     light, view, azimuth = scene.geometries
     spectra = {
         rung: ladder.reflectance(rung, scene.albedo, light, view, azimuth, scene.sigma)
-        for rung in ladder.RUNGS
+        for rung in models.NAMES
     }
-    errors = dict.fromkeys(ladder.RUNGS, 0.0)
+    errors = dict.fromkeys(models.NAMES, 0.0)
     for name in scene.illuminants:
         matrix = _weights(name)
         reference = spectra["reference"] @ matrix
-        for rung in ladder.RUNGS[:-1]:
+        for rung in models.NAMES[:-1]:
             found = difference(spectra[rung] @ matrix, reference, matrix.sum(axis=0))
             errors[rung] = max(errors[rung], float(found.max()))
-    cheapest = next(rung for rung in ladder.RUNGS if errors[rung] <= scene.tolerance)
+    cheapest = next(rung for rung in models.NAMES if errors[rung] <= scene.tolerance)
     return Verdict(choice, errors, cheapest, scene.tolerance)
 
 
@@ -208,7 +208,7 @@ def report(verdicts: Sequence[Verdict]) -> None:
     """Print how good the choices are."""
     right = sum(verdict.choice.model == verdict.cheapest for verdict in verdicts)
     dearer = sum(
-        ladder.RUNGS.index(verdict.choice.model) > ladder.RUNGS.index(verdict.cheapest)
+        models.NAMES.index(verdict.choice.model) > models.NAMES.index(verdict.cheapest)
         for verdict in verdicts
     )
     excess = np.array([verdict.excess for verdict in verdicts])
@@ -219,7 +219,7 @@ def report(verdicts: Sequence[Verdict]) -> None:
         f"by {max(0.0, excess.max() - 1):.1%} at most\n"
     )
     chosen = Counter(verdict.choice.model for verdict in verdicts)
-    for rung in ladder.RUNGS:
+    for rung in models.NAMES:
         true = np.array([verdict.true_errors[rung] for verdict in verdicts])
         gap = np.array([verdict.choice.errors[rung] for verdict in verdicts]) - true
         sys.stdout.write(

@@ -9,6 +9,7 @@ from core import (
     closure,
     instrument_curves,
     instruments,
+    models,
     oren_nayar,
     reading,
     vcavity,
@@ -184,7 +185,7 @@ def test_twice_the_nodes_change_nothing(name):
         np.testing.assert_allclose(first, second, rtol=instruments.QUADRATURE_ERROR)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", NAMES)
 def test_level_surface_reads_its_albedo(name, model):
     for dtype in (np.float64, np.float32):
@@ -199,7 +200,7 @@ def test_level_surface_reads_its_albedo(name, model):
     np.testing.assert_array_equal(reading.from_albedo(ALBEDOS, 0.0, model, name), ALBEDOS)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(("dtype", "tolerance"), [(np.float64, 1e-12), (np.float32, 1e-5)])
 def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
@@ -211,7 +212,7 @@ def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
     np.testing.assert_allclose(back, np.broadcast_to(albedo, back.shape), rtol=tolerance)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", EQUAL_TO_RING)
 def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
     for dtype in (np.float64, np.float32):
@@ -227,7 +228,7 @@ def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
     )
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 def test_reciprocity(model):
     there, back = (
         reading.from_albedo(ALBEDOS, SIGMAS, model, name) for name in ("45a:0-iso", "0:45a-iso")
@@ -306,7 +307,7 @@ def test_no_instrument_reads_below_0_and_the_backscatter_of_white_above_1_is_kep
     assert found < 1
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", ["di:8", "45as15"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_shapes_precision_and_nan(name, model, dtype):
@@ -328,7 +329,7 @@ def test_shapes_precision_and_nan(name, model, dtype):
     assert np.isfinite(reading.white_reading(right_angle, model, name)).all()
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 def test_unknown_instruments_are_refused_with_the_known_ones(model):
     for function in (reading.from_albedo, reading.to_albedo):
         with pytest.raises(DomainError) as caught:

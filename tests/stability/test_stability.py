@@ -9,7 +9,7 @@ from rough_spectra.addon import target
 from rough_spectra.addon.sample import Sample
 from rough_spectra.addon.working_space import WorkingSpace
 
-from core import cycles, cycles_match, grid, oren_nayar, reading, vcavity
+from core import cycles, cycles_match, grid, models, oren_nayar, reading, vcavity
 from tests.stability import checks
 
 REC709_FROM_XYZ = np.linalg.inv(
@@ -143,8 +143,8 @@ def test_readings_far_below_black():
 @pytest.mark.parametrize(
     "function",
     [
-        *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in reading.MODELS),
-        *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in reading.MODELS),
+        *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in models.NAMES),
+        *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in models.NAMES),
         lambda v, s: oren_nayar.reflectance(v, 0.7, 0.3, 2.0, s),
         lambda v, s: cycles_match.color_for_reading(v, s / 2),
         lambda v, s: cycles.reflectance(v, s / 2, 0.7, 0.3, 2.0),
