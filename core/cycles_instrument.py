@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import instruments
+from . import instrument_directions
 from .arrays import Array, spectrum
 from .cycles import check_roughness, directions, lobe, reflected
 
@@ -79,7 +79,7 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
     >>> float(tilt), round(float(spread), 4)
     (0.0, 0.4145)
     """
-    of = instruments.find(instrument)
+    of = instrument_directions.of(instrument)
     # One direction without an axis, because numpy 1.26 computes those in another precision.
     angles = of.angles or (of.theta_i, of.theta_r, of.delta_phi)
     found = directions(*(np.asarray(angle, dtype) for angle in angles))

@@ -24,7 +24,7 @@ from functools import cache, lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, instruments, oren_nayar, vcavity_series, vcavity_tables
+from . import closure, instrument_directions, oren_nayar, vcavity_series, vcavity_tables
 from .arrays import Array, precision, slope_deviation
 
 CLOSURE_ERROR = 0.02
@@ -97,7 +97,7 @@ def series(instrument: str) -> vcavity_tables.SigmaTable:
     """Table of the V-cavity's series; made on first use, which takes up to two seconds."""
     if _is_ring(instrument):
         return vcavity_tables.ring()
-    of = instruments.find(instrument)
+    of = instrument_directions.of(instrument)
     # Swapping light and view changes nothing; one order makes that exact.
     upper, lower = np.maximum(of.theta_i, of.theta_r), np.minimum(of.theta_i, of.theta_r)
     return vcavity_tables.build(upper, lower, of.delta_phi, of.weights)
@@ -105,7 +105,7 @@ def series(instrument: str) -> vcavity_tables.SigmaTable:
 
 def _is_ring(instrument: str) -> bool:
     """Whether the instrument is 45a:0 but for its name."""
-    angles = instruments.find(instrument).angles
+    angles = instrument_directions.of(instrument).angles
     # At the normal azimuth has no meaning.
     return angles is not None and sorted(angles[:2]) == [0.0, np.pi / 4]
 
@@ -113,7 +113,7 @@ def _is_ring(instrument: str) -> bool:
 @cache
 def _published_factors(instrument: str) -> tuple[float, float]:
     """Means of what multiplies σ²/(σ² + 0.09) in F1 and of F2 over its value at the normal."""
-    of = instruments.find(instrument)
+    of = instrument_directions.of(instrument)
     sigma = np.asarray(np.pi / 2)
     f1, f2 = oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, sigma)
     s2 = sigma * sigma

@@ -15,16 +15,16 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from . import instrument_curves, instruments, models
+from . import instrument_curves, instrument_directions, instruments, models
 from .arrays import Array, precision, slope_deviation, spectrum
 
 INSTRUMENTS = tuple(instruments.REGISTRY)
 """Names of all instruments; the first, 45a:0, is meant wherever none is named."""
 
 INSTRUMENT_ANGLES = {
-    name: instrument.angles
-    for name, instrument in instruments.REGISTRY.items()
-    if instrument.angles is not None
+    name: angles
+    for name in instruments.REGISTRY
+    if (angles := instrument_directions.of(name).angles) is not None
 }
 """θi, θr and Δφ, radians, of the instruments that light from one direction and look from one."""
 

@@ -7,7 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from core import cycles, cycles_instrument, cycles_match, geometry, instruments
+from core import (
+    cycles,
+    cycles_instrument,
+    cycles_match,
+    geometry,
+    instrument_directions,
+    instruments,
+)
 from core.color_difference import delta_e, xyz_to_lab
 from core.errors import DomainError
 
@@ -131,7 +138,7 @@ def test_an_unknown_instrument_is_refused():
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize("name", instruments.REGISTRY)
 def test_an_instruments_reading_is_the_mean_over_its_directions(name, dtype):
-    of = instruments.find(name)
+    of = instrument_directions.of(name)
     color = np.linspace(0.01, 1, 12, dtype=dtype).reshape(4, 3)
     roughness = np.array([0, 0.2, 0.7, 1], dtype)
     found = cycles_instrument.reflectance(color, roughness, name)
@@ -150,7 +157,7 @@ def test_an_instruments_reading_is_the_mean_over_its_directions(name, dtype):
 def test_the_nodes_of_instruments_are_enough_for_the_lobe(name):
     color, roughness = np.linspace(0.1, 1, 10)[:, np.newaxis], np.array([0.3, 1.0])
     found = cycles_instrument.reflectance(color[:, np.newaxis], roughness, name)
-    of = instruments.build(3)[name]
+    of = instrument_directions.build(instruments.find(name), 3)
     each = cycles.reflectance(
         color[:, np.newaxis, np.newaxis],
         roughness[:, np.newaxis],

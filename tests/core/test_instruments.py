@@ -8,6 +8,7 @@ import pytest
 from core import (
     closure,
     instrument_curves,
+    instrument_directions,
     instruments,
     models,
     oren_nayar,
@@ -36,13 +37,15 @@ def test_the_names_and_the_default():
     for name in NAMES:
         instrument = instruments.find(name)
         assert instrument.name == name
+        assert instrument.menu
+        assert not instrument.description.endswith(".")
         assert instrument.title
         assert all(ord(letter) < 128 for letter in name)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_weights_and_angles(name):
-    found = instruments.find(name)
+    found = instrument_directions.of(name)
     assert np.sum(found.weights) == pytest.approx(1, rel=1e-15)
     assert (found.weights > 0).all() or name == "de:8"
     for angles, top in ((found.theta_i, 90), (found.theta_r, 90), (found.delta_phi, 180)):
@@ -164,7 +167,8 @@ def test_gloss_trap_is_cut_out():
 
 @pytest.mark.parametrize("name", AVERAGING)
 def test_twice_the_nodes_change_nothing(name):
-    coarse, fine = instruments.find(name), instruments.build(refinement=2)[name]
+    coarse = instrument_directions.of(name)
+    fine = instrument_directions.build(instruments.find(name), refinement=2)
     assert fine.weights.size >= 4 * coarse.weights.size
     sigma = np.radians([5.0, 20, 50, 90])
     albedo = np.array([0.1, 0.5, 0.9, 1.0])
@@ -182,7 +186,7 @@ def test_twice_the_nodes_change_nothing(name):
             rows = rows + np.tensordot(of.weights[part], answer, 1)
         cavity.append(vcavity_series.evaluate(shares @ rows, albedo))
     for first, second in (published, cavity):
-        np.testing.assert_allclose(first, second, rtol=instruments.QUADRATURE_ERROR)
+        np.testing.assert_allclose(first, second, rtol=instrument_directions.QUADRATURE_ERROR)
 
 
 @pytest.mark.parametrize("model", models.NAMES)
@@ -246,7 +250,7 @@ def test_reciprocity_of_the_solver():
 
 @pytest.mark.parametrize("name", ["45a:0-iso", "di:8", "45as-15", "45as110"])
 def test_tables_follow_the_solver_between_their_nodes(name):
-    of = instruments.find(name)
+    of = instrument_directions.of(name)
     sigma = np.radians([0.3, 0.616, 4.321, 15.1, 31.7, 47.3, 80.9])
     shares = vcavity_slopes.weights(sigma, vcavity.STANDARD.slopes)
     expected = 0
@@ -260,7 +264,7 @@ def test_tables_follow_the_solver_between_their_nodes(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_published_coefficients_are_the_mean_of_the_model(name):
-    of = instruments.find(name)
+    of = instrument_directions.of(name)
     means = oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, SIGMAS[:, np.newaxis])
     for found, values in zip(reading.coefficients(SIGMAS, name), means, strict=True):
         np.testing.assert_allclose(found, values @ of.weights, rtol=1e-13, atol=1e-15)
