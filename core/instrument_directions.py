@@ -119,13 +119,13 @@ def build(instrument: Instrument, refinement: int = 1) -> Directions:
         if _is_one_direction(light, view):
             found = _one(light.tilt, view.tilt, 0.0)
         else:
-            rules = (_rule(beam, refinement) for beam in (light, view))
-            found = _pairs(*rules, _QUARTER_NODES * refinement)
+            lit, seen = (_rule(beam, refinement) for beam in (light, view))
+            found = _pairs(lit, seen, _QUARTER_NODES * refinement)
     elif light.half_angle == view.half_angle == 0:
         found = _one(light.tilt, view.tilt, instrument.azimuth)
     else:
-        sides = (_points(beam, refinement) for beam in (light, view))
-        found = _crossed(*sides, np.radians(instrument.azimuth))
+        cone, other = (_points(beam, refinement) for beam in (light, view))
+        found = _crossed(cone, other, np.radians(instrument.azimuth))
     if instrument.trap:
         found = _trapped(found, view, instrument.trap, refinement)
     return Directions(*found)

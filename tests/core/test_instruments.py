@@ -133,6 +133,30 @@ def test_published_model_agrees_with_random_directions(name):
         assert (np.abs(found - mean) < 4 * noise + 1e-6).all()
 
 
+@pytest.mark.parametrize(
+    ("light", "view", "azimuth"),
+    [((45, 5), (30, 5), 180), ((45, 0), (20, 8), 0), ((60, 5), (10, 0), 90)],
+)
+def test_tilted_cones_agree_with_random_directions(light, view, azimuth):
+    """What no instrument has yet: apertures on both sides, away from the normal."""
+    record = instruments.Instrument(
+        *("x", "", "", "", 99), instruments.Beam(*light), instruments.Beam(*view), float(azimuth)
+    )
+    of = instrument_directions.build(record)
+    numbers = np.random.default_rng(4).random((100_000, 4))
+    lit = in_cone(numbers[:, :2], *light, azimuth)
+    seen = in_cone(numbers[:, 2:], *view, 0)
+    between = np.arctan2(lit[:, 1], lit[:, 0]) - np.arctan2(seen[:, 1], seen[:, 0])
+    weight = lit[:, 2] * seen[:, 2]
+    assert np.sum(of.weights) == pytest.approx(1, rel=1e-14)
+    for found, values in zip(
+        oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, 0.7),
+        oren_nayar.factors(np.arccos(lit[:, 2]), np.arccos(seen[:, 2]), between, 0.7),
+        strict=True,
+    ):
+        assert found @ of.weights == pytest.approx(values @ weight / weight.sum(), rel=1e-3)
+
+
 @pytest.mark.parametrize("name", ["45x:0-iso", "di:8", "de:8"])
 def test_reference_agrees_with_spread_directions(name):
     # 400 directions in an even sequence: 0.2 % was seen, for 2 % of plain random ones.
