@@ -57,6 +57,14 @@ def choose_shader(
     Returns
     -------
     The cheaper one that is good enough; if none is, the closer one, and the reason says so.
+
+    Examples
+    --------
+    >>> choice = choose_shader([0.4, 2.5], [0.1, 0.3])
+    >>> choice.model, choice.error
+    ('rough', 0.3)
+    >>> choice.reason
+    'rough: at worst ΔE00 0.30 off, within the 1 allowed; without roughness it would be 2.50.'
     """
     lambert, rough = (
         float(np.max(np.where(np.isfinite(e), e, np.inf)))
@@ -89,6 +97,15 @@ def cheapest(errors: Mapping[str, float], tolerance: float, directions: int, lig
         Largest ΔE00 allowed.
     directions, lights
         How many the errors are the largest of.
+
+    Examples
+    --------
+    >>> errors = {"lambert": 4.0, "closure": 0.3, "reference": 0.0}
+    >>> choice = cheapest(errors, 1.0, directions=12, lights=1)
+    >>> choice.model
+    'closure'
+    >>> choice.reason.partition("; ")[2]
+    'the simpler lambert is 4.00 off.'
     """
     rungs = list(errors)
     model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])

@@ -31,13 +31,26 @@ _BRADFORD = np.array(
 
 
 def xyz_to_lab(xyz: npt.ArrayLike, white_xyz: npt.ArrayLike) -> Array:
-    """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,)."""
+    """CIE 1976 L*a*b* of XYZ (..., 3) against a white of Y = 1, shape (3,).
+
+    Examples
+    --------
+    >>> white = [0.9505, 1.0, 1.089]
+    >>> np.round(xyz_to_lab([white, [0.0, 0.0, 0.0], [0.2, 0.3, 0.1]], white), 2).tolist()
+    [[100.0, 0.0, 0.0], [0.0, 0.0, 0.0], [61.65, -37.32, 43.66]]
+    """
     ratio = np.asarray(xyz, np.float64) / np.asarray(white_xyz)
     return roots_to_lab(_bent(ratio, np.cbrt(ratio)))
 
 
 def roots_to_lab(bent: Array) -> Array:
-    """CIE 1976 L*a*b* of what `roots` gives of X, Y and Z, (..., 3); grays are exactly gray."""
+    """CIE 1976 L*a*b* of what `roots` gives of X, Y and Z, (..., 3); grays are exactly gray.
+
+    Examples
+    --------
+    >>> roots_to_lab(np.array([0.5, 0.5, 0.5])).tolist()
+    [42.0, 0.0, 0.0]
+    """
     x, y, z = bent[..., 0], bent[..., 1], bent[..., 2]
     lab = np.empty_like(bent)
     lab[..., 0], lab[..., 1], lab[..., 2] = 116 * y - 16, 500 * (x - y), 200 * (y - z)
@@ -45,7 +58,14 @@ def roots_to_lab(bent: Array) -> Array:
 
 
 def roots(relative: Array) -> tuple[Array, Array]:
-    """Cube roots of X, Y or Z relative to white, straight near black as in L*a*b*; and slopes."""
+    """Cube roots of X, Y or Z relative to white, straight near black as in L*a*b*; and slopes.
+
+    Examples
+    --------
+    >>> root, slope = roots(np.array([0.125, 1.0]))
+    >>> np.round(root, 12).tolist(), np.round(slope, 4).tolist()
+    ([0.5, 1.0], [1.3333, 0.3333])
+    """
     root = np.cbrt(relative)
     dark = relative <= _DARK
     if not np.count_nonzero(dark):
@@ -67,6 +87,13 @@ def delta_e(lab_a: npt.ArrayLike, lab_b: npt.ArrayLike) -> Array:
 
     Source: G. Sharma, W. Wu and E. N. Dalal, "The CIEDE2000 color-difference formula" (2005);
     variables are named as there.
+
+    Examples
+    --------
+    >>> round(float(delta_e([50, 2.6772, -79.7751], [50, 0, -82.7485])), 4)
+    2.0425
+    >>> delta_e(np.zeros((4, 3)), np.zeros(3)).shape
+    (4,)
     """
     one, other = np.asarray(lab_a, np.float64), np.asarray(lab_b, np.float64)
     l_1, a_1, b_1 = one[..., 0], one[..., 1], one[..., 2]
@@ -134,6 +161,13 @@ def _saturation(chroma: Array) -> Array:
 
 
 def adaptation(source_white: npt.ArrayLike, target_white: npt.ArrayLike) -> Array:
-    """Bradford matrix, shape (3, 3): `xyz @ matrix.T` seen under the other white."""
+    """Bradford matrix, shape (3, 3): `xyz @ matrix.T` seen under the other white.
+
+    Examples
+    --------
+    >>> lamp, day = np.array([1.0985, 1.0, 0.3558]), np.array([0.9505, 1.0, 1.089])
+    >>> np.round(lamp @ adaptation(lamp, day).T, 6).tolist()
+    [0.9505, 1.0, 1.089]
+    """
     gain = (_BRADFORD @ np.asarray(target_white)) / (_BRADFORD @ np.asarray(source_white))
     return np.asarray(np.linalg.inv(_BRADFORD) @ (gain[:, np.newaxis] * _BRADFORD))

@@ -82,6 +82,18 @@ def fit(
     Returns
     -------
     n parameters for each start.
+
+    Examples
+    --------
+    >>> wanted = np.array([0.2, 0.3, 0.9])
+    >>> def distance(points):
+    ...     apart = np.zeros((3, 3, len(points), 2))
+    ...     apart[:, 0, :, 0] = 100 * (np.array(points).T - wanted[:, np.newaxis])
+    ...     apart[:, 0, :, 1] = 100
+    ...     return apart
+    >>> [[found]] = fit(distance, np.ones(3), [[0.5]], [[True]])
+    >>> round(found, 3)
+    0.3
     """
     squares = _squares(distance(starts), weights)
     found = [_Search(*each) for each in zip(starts, free, *squares, strict=True)]
@@ -212,6 +224,14 @@ def whitener(at: Array, difference: Callable[[Array, Array], Array] = delta_e) -
     Returns
     -------
     Shape (places, 3, 3), from colors to the space of distances.
+
+    Examples
+    --------
+    >>> lab = np.array([[50.0, 20.0, -10.0]])
+    >>> near = lab + [0.1, -0.2, 0.1]
+    >>> length = np.linalg.norm(whitener(lab)[0] @ (near - lab)[0])
+    >>> round(float(length / delta_e(near, lab)[0]), 2)
+    1.0
     """
     metric = _metric(at, difference)
     try:

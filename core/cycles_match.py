@@ -60,6 +60,12 @@ def color_for_reading(
     ------
     DomainError
         If the roughness lies outside 0 to 1 or the instrument is unknown.
+
+    Examples
+    --------
+    >>> color = color_for_reading([0.157, 0.4161, 0.742], 1.0)
+    >>> np.round(color, 3).tolist()
+    [0.2, 0.5, 0.8]
     """
     r = spectrum(reading, "the reading")
     s = np.asarray(roughness, r.dtype)
@@ -103,6 +109,18 @@ def match(
     ------
     DomainError
         If a polar angle lies outside [0, π/2] or the instrument is unknown.
+
+    Examples
+    --------
+    >>> angles = np.radians([[45.0, 60.0], [10.0, 50.0], [0.0, 180.0]])
+    >>> color, rough = np.array([[0.2, 0.5, 0.8]]), np.array(0.6)
+    >>> read = reflected(color, lobe(rough, *mean_direction("45a:0", color.dtype)))
+    >>> targets = reflected(color[:, np.newaxis], lobe(rough, *directions(*angles)))
+    >>> def perceive(rgb):
+    ...     return 100 * rgb  # stands for L*a*b*
+    >>> found, roughness = match(read, targets, angles, perceive)
+    >>> np.round(found, 2).tolist(), np.round(roughness, 2).tolist()
+    ([[0.2, 0.5, 0.8]], [0.6])
     """
     r = spectrum(reading, "the reading")
     wanted = spectrum(targets, "the targets")

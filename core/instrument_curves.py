@@ -47,7 +47,13 @@ _STEEPEST = 0.9999
 
 
 def first_and_second(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Array]:
-    """Weights f1 and f2 of ρ and ρ² in the published model: see `core.reading.coefficients`."""
+    """Weights f1 and f2 of ρ and ρ² in the published model: see `core.reading.coefficients`.
+
+    Examples
+    --------
+    >>> [round(float(weight), 4) for weight in first_and_second(np.pi / 2, "45a:0")]
+    [0.559, 0.1615]
+    """
     tilted, second = _published_factors(instrument)
     dtype = precision(sigma)
     s2 = slope_deviation(sigma, dtype) ** 2
@@ -61,6 +67,12 @@ def closure_coefficients(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, 
     """Coefficients b, a and g of the closure, float64: see `core.closure.coefficients`.
 
     Arrays of the shape of `sigma`; those of a single σ are kept, and read-only.
+
+    Examples
+    --------
+    >>> single, walk, ratio = closure_coefficients(0.0, "45as110")
+    >>> float(single + walk / 2)
+    1.0
     """
     spread = np.asarray(sigma)
     if spread.size != 1 or spread.dtype == np.float32:
@@ -94,7 +106,14 @@ def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, 
 
 @cache
 def series(instrument: str) -> vcavity_tables.SigmaTable:
-    """Table of the V-cavity's series; made on first use, which takes up to two seconds."""
+    """Table of the V-cavity's series; made on first use, which takes up to two seconds.
+
+    Examples
+    --------
+    >>> rows = series("45a:0").rows(np.radians([0.0, 30.0]))
+    >>> np.round(rows[:, 0], 4).tolist()
+    [1.0, 0.7765]
+    """
     if _is_ring(instrument):
         return vcavity_tables.ring()
     of = instrument_directions.of(instrument)

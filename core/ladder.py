@@ -66,6 +66,13 @@ def reflectance(
     ------
     DomainError
         If the model is unknown, an angle lies outside its range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reflectance("lambert", [0.2, 0.6], 0.8, 0.1, 0.0, 0.5), 3).tolist()
+    [0.2, 0.6]
+    >>> np.round(reflectance("two-bounce", [0.2, 0.6], 0.8, 0.1, 0.0, 0.5), 3).tolist()
+    [0.166, 0.525]
     """
     return models.find(model).formulas.reflectance(albedo, theta_i, theta_r, delta_phi, sigma)
 
@@ -106,6 +113,14 @@ def choose_model(
     ------
     DomainError
         If an angle lies outside its range, or there is no light or no direction.
+
+    Examples
+    --------
+    >>> light = np.linspace(0.01, 0.06, 93).reshape(31, 3)
+    >>> directions = np.radians([[45.0, 30.0], [0.0, 10.0], [0.0, 90.0]])
+    >>> albedos = np.full((2, 31), 0.7)
+    >>> [choice.model for choice in choose_model(albedos, [0.0, 0.5], directions, [light])]
+    ['lambert', 'closure']
     """
     rho = np.atleast_2d(spectrum(albedos, "the albedo")).astype(np.float64, copy=False)
     count, bands = rho.shape

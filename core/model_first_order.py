@@ -56,7 +56,16 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
 
 
 def colors(surface: Surface) -> Array:
-    """Give XYZ of F1 ρ: see `core.model_surface`."""
+    """Give XYZ of F1 ρ: see `core.model_surface`.
+
+    Examples
+    --------
+    >>> light, view, azimuth = np.array([[0.8], [0.0], [0.0]])
+    >>> white, sigma = np.ones((1, 1)), np.full((1, 1), 0.5)
+    >>> surface = Surface(white, light, view, azimuth, sigma, np.ones((1, 3)))
+    >>> np.round(colors(surface), 4).tolist()
+    [[[0.7845, 0.7845, 0.7845]]]
+    """
     return surface.single
 
 

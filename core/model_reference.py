@@ -20,7 +20,7 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) ->
     Examples
     --------
     >>> np.round(from_albedo([0.2, 0.6], 0.5, "45a:0"), 3).tolist()
-    [0.161, 0.514]
+    [0.164, 0.533]
     """
     rho = spectrum(albedo, "the albedo")
     rows = instrument_curves.series(instrument).rows(sigma)

@@ -24,7 +24,7 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) ->
     Examples
     --------
     >>> np.round(from_albedo([0.2, 0.6], 0.5, "45a:0"), 4).tolist()
-    [0.1613, 0.5018]
+    [0.1614, 0.511]
     """
     return over_coefficients(_forward, spectrum(albedo, "the albedo"), sigma, instrument)
 
@@ -41,7 +41,16 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
 
 
 def colors(surface: Surface) -> Array:
-    """Give XYZ of F1 ρ + F2 ρ²: see `core.model_surface`."""
+    """Give XYZ of F1 ρ + F2 ρ²: see `core.model_surface`.
+
+    Examples
+    --------
+    >>> light, view, azimuth = np.array([[0.8], [0.0], [0.0]])
+    >>> white, sigma = np.ones((1, 1)), np.full((1, 1), 0.5)
+    >>> surface = Surface(white, light, view, azimuth, sigma, np.ones((1, 3)))
+    >>> np.round(colors(surface), 4).tolist()
+    [[[0.8963, 0.8963, 0.8963]]]
+    """
     return np.asarray(surface.single + surface.published[1] * surface.squared)
 
 

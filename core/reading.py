@@ -48,6 +48,11 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
     ------
     DomainError
         If σ is out of range or the instrument unknown.
+
+    Examples
+    --------
+    >>> [round(float(weight), 4) for weight in coefficients(np.pi / 2)]
+    [0.559, 0.1615]
     """
     return instrument_curves.first_and_second(sigma, instrument)
 
@@ -57,6 +62,12 @@ def bounce_ratio(sigma: npt.ArrayLike) -> Array:
 
     g = 1 - q with q = f2 / (1 - f1), the ratio that gives r(ρ = 1) = 1. f2 / (1 - f1) is 0/0 at
     σ = 0, so q is written as the quotient of the two fits, where σ² cancels.
+
+    Examples
+    --------
+    >>> f1, f2 = coefficients(0.5)
+    >>> round(float(f1 + f2 / (1 - bounce_ratio(0.5))), 12)
+    1.0
     """
     dtype = precision(sigma)
     s2 = slope_deviation(sigma, dtype) ** 2
@@ -86,6 +97,11 @@ def geometric_closure(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(geometric_closure([0.2, 0.6, 1.0], 0.5), 4).tolist()
+    [0.1618, 0.5273, 1.0]
     """
     rho = spectrum(albedo, "the albedo")
     per_spectrum = np.asarray(sigma, dtype=rho.dtype)[..., np.newaxis]
@@ -121,6 +137,13 @@ def from_albedo(
     ------
     DomainError
         If σ is out of range, or model or instrument unknown.
+
+    Examples
+    --------
+    >>> np.round(from_albedo([0.2, 0.6], np.radians(30)), 4).tolist()
+    [0.1592, 0.5054]
+    >>> np.round(from_albedo([0.2, 0.6], np.radians(30), "closure", "di:8"), 3).tolist()
+    [0.16, 0.522]
     """
     return models.find(model).formulas.from_albedo(albedo, sigma, instrument)
 
@@ -152,6 +175,12 @@ def to_albedo(
     ------
     DomainError
         If σ is out of range, or model or instrument unknown.
+
+    Examples
+    --------
+    >>> read = from_albedo([0.2, 0.6], np.radians(30), "closure")
+    >>> np.round(to_albedo(read, np.radians(30), "closure"), 12).tolist()
+    [0.2, 0.6]
     """
     return models.find(model).formulas.to_albedo(reading, sigma, instrument)
 
@@ -165,6 +194,13 @@ def white_reading(
     its source than a white diffuser does, and less elsewhere.
 
     Returns an array of the shape of `sigma`; arguments and errors as in `from_albedo`.
+
+    Examples
+    --------
+    >>> round(float(white_reading(np.pi / 2)), 4)
+    0.7205
+    >>> round(float(white_reading(np.radians(30), "closure")), 2)
+    1.01
     """
     white = np.ones(1, dtype=precision(sigma))
     return from_albedo(white, sigma, model, instrument)[..., 0]
@@ -185,6 +221,11 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
     -------
     σ in radians, same shape: π/2 where nothing bounds it (r ≤ 0.7205), 0 at r = 1, and NaN for
     r > 1, which not even a smooth surface reflects.
+
+    Examples
+    --------
+    >>> np.round(np.degrees(sigma_max([0.8, 0.9, 0.95])), 1).tolist()
+    [48.9, 28.0, 19.5]
     """
     dtype = precision(peak_reading)
     r = np.asarray(peak_reading, dtype=dtype)
