@@ -15,6 +15,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from ..core import color_difference
 from ..core.arrays import Array
 from ..core.errors import DomainError
 from . import colorimetry
@@ -146,10 +147,10 @@ def _own_differences(samples: Sequence[Sample], values: Array) -> Array:
             continue  # too few visible bands: `_range` says so
         white = matrix.sum(axis=0)
         xyz = [samples[i].xyz or (0.0, 0.0, 0.0) for i in members]
-        of_xyz = colorimetry.xyz_to_lab(xyz, white).tolist()
+        of_xyz = color_difference.xyz_to_lab(xyz, white).tolist()
         own = [samples[i].lab or other for i, other in zip(members, of_xyz, strict=True)]
-        computed = colorimetry.xyz_to_lab(values[members] @ matrix, white)
-        differences[members] = colorimetry.delta_e(computed, np.array(own))
+        computed = color_difference.xyz_to_lab(values[members] @ matrix, white)
+        differences[members] = color_difference.delta_e(computed, np.array(own))
     return differences
 
 

@@ -17,9 +17,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..core import color_difference
 from ..core.arrays import Array
 from ..core.errors import InputError
-from . import colorimetry, judgement, library_files, presets, readers, swatches
+from . import judgement, library_files, presets, readers, swatches
 from .library_files import Added, add, add_all, remove, rename
 from .readers import library as library_reader
 from .readers import open_document
@@ -195,7 +196,7 @@ def nearest(lab: npt.ArrayLike, count: int, folder: Path) -> list[tuple[Entry, f
     everything = contents(folder)
     colored = np.flatnonzero(np.isfinite(everything._lab[:, 0]))
     wanted = np.broadcast_to(np.asarray(lab, np.float64), (colored.size, 3))
-    differences = colorimetry.delta_e(everything._lab[colored], wanted)
+    differences = color_difference.delta_e(everything._lab[colored], wanted)
     order = np.argsort(differences, kind="stable")[: max(count, 0)]
     return [(everything.entries[colored[i]], float(differences[i])) for i in order]
 

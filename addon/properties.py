@@ -20,6 +20,8 @@ from bpy.props import (
 )
 from bpy.types import Material, PropertyGroup
 
+from ..core import models
+from ..core.instruments import REGISTRY
 from . import changes
 
 SCHEMA = 1
@@ -36,29 +38,10 @@ KIND_ITEMS = (
     ),
     ("albedo", "Albedo", "Reflectance of one facet: what the smooth material reflects", 1),
 )
-INSTRUMENT_ITEMS = (
-    ("45a:0", "45°a:0°", "Ring light at 45°, view along the normal", 0),
-    ("0:45a", "0°:45°a", "Light along the normal, view from a ring at 45°", 1),
-    ("45x:0", "45°x:0°", "Light from one side at 45°, view along the normal", 2),
-    ("45a:0-iso", "45°a:0° with Apertures", "As 45°a:0°, over the apertures of ISO 13655", 3),
-    ("0:45a-iso", "0°:45°a with Apertures", "As 0°:45°a, over the apertures of ISO 13655", 4),
-    ("45x:0-iso", "45°x:0° with Apertures", "As 45°x:0°, over the apertures of ISO 13655", 5),
-    ("di:8", "di:8° Sphere", "Light from a sphere, view at 8°, specular included", 6),
-    ("de:8", "de:8° Sphere", "Light from a sphere, view at 8°, specular excluded", 7),
-    ("45as-15", "45°:as-15°", "Light at 45°, view 15° beyond the mirror direction", 8),
-    ("45as15", "45°:as15°", "Light at 45°, view 15° from the mirror direction", 9),
-    ("45as25", "45°:as25°", "Light at 45°, view 25° from the mirror direction", 10),
-    ("45as45", "45°:as45°", "Light at 45°, view 45° from the mirror direction", 11),
-    ("45as75", "45°:as75°", "Light at 45°, view 75° from the mirror direction", 12),
-    ("45as110", "45°:as110°", "Light at 45°, view 110° from the mirror direction", 13),
-)
+INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGISTRY.values())
 MODEL_ITEMS = (
     ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
-    ("lambert", "Lambert", "As if the surface were smooth", 4),
-    ("first-order", "First-order", "Without light between facets: F1 ρ", 1),
-    ("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
-    ("closure", "Closure", "All bounces, in a formula fitted to the V-cavity reference", 2),
-    ("reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5),
+    *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
 )
 SHADER_ITEMS = (
     (

@@ -17,6 +17,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core import color_difference
 from ..core.arrays import Array
 from ..core.errors import OutputError
 from . import (
@@ -183,11 +184,11 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
         lab = scene_match.promised(promised.color, promised.roughness, scene, space)
-        difference = round(float(colorimetry.delta_e(lab, np.array(seen.lab))), 4)
+        difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, target.target_reading(request)
         lab = colorimetry.spectrum_to_lab(wanted, wavelengths, illuminant, observer=2)
-        difference = round(float(colorimetry.delta_e(lab, np.array(seen.lab))), 4)
+        difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     return Reading(
         material=item.material,
         surface=item.surface,
@@ -211,8 +212,8 @@ def from_spectrum(item: Prepared, entry: Reading) -> float | None:
         return entry.delta_e_00
     light, wanted = item.request.scene.lights[0], target.target_reading(item.request)
     weights = light.weights(item.request.sample.wavelengths)
-    lab = colorimetry.xyz_to_lab(wanted @ weights, light.white)
-    return round(float(colorimetry.delta_e(lab, np.array(entry.measured.lab))), 4)
+    lab = color_difference.xyz_to_lab(wanted @ weights, light.white)
+    return round(float(color_difference.delta_e(lab, np.array(entry.measured.lab))), 4)
 
 
 def _predicted(
@@ -232,7 +233,7 @@ def _predicted(
         wavelengths=tuple(sample.wavelengths.tolist()),
         values=tuple(round(value, 6) for value in values.tolist()),
         xyz=_triple(100 * xyz, 4),
-        lab=_triple(colorimetry.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
+        lab=_triple(color_difference.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
         preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
     )
 

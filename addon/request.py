@@ -32,7 +32,7 @@ class Request:
     sigma
         Roughness σ, radians.
     model
-        One of `core.ladder.RUNGS`, or `AUTO` for the cheapest that is good enough.
+        One of `core.models.NAMES`, or `AUTO` for the cheapest that is good enough.
     illuminant
         The light under which the color is right.
     observer

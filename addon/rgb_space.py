@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..core import color_difference
 from ..core.arrays import Array
 from . import colorimetry
 
@@ -58,7 +59,9 @@ class WorkingSpace:
 
     def to_lab(self, rgb: Array, illuminant: str) -> Array:
         """L*a*b* (2° observer) of scene-linear RGB (..., 3), seen under `illuminant`."""
-        return colorimetry.xyz_to_lab(self.to_xyz(rgb, illuminant), colorimetry.white(illuminant))
+        return color_difference.xyz_to_lab(
+            self.to_xyz(rgb, illuminant), colorimetry.white(illuminant)
+        )
 
 
 def matrix_of(key: bytes) -> Array:
@@ -71,7 +74,7 @@ def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
     """Matrix of `rgb_weights`, for the bytes of wavelengths and a space's key."""
     weights = colorimetry.weights(np.frombuffer(wavelengths), illuminant, observer=2)
     matrix = matrix_of(key)
-    adapt = colorimetry.adaptation(weights.sum(axis=0), np.linalg.solve(matrix, np.ones(3)))
+    adapt = color_difference.adaptation(weights.sum(axis=0), np.linalg.solve(matrix, np.ones(3)))
     found = np.asarray(weights @ (matrix @ adapt).T)
     found.setflags(write=False)
     return found
@@ -81,5 +84,5 @@ def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
 def _to_xyz(key: bytes, illuminant: str) -> Array:
     """Matrix of `to_xyz`, for a space's key: a match asks for it at every step."""
     back = np.linalg.inv(matrix_of(key))
-    adapt = colorimetry.adaptation(back @ np.ones(3), colorimetry.white(illuminant))
+    adapt = color_difference.adaptation(back @ np.ones(3), colorimetry.white(illuminant))
     return np.asarray((adapt @ back).T)

@@ -14,9 +14,18 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..core import compromise, cycles, cycles_slopes, geometry, ladder, reading
+from ..core import (
+    color_difference,
+    compromise,
+    cycles,
+    cycles_instrument,
+    cycles_match,
+    cycles_slopes,
+    geometry,
+    ladder,
+    reading,
+)
 from ..core.arrays import Array
-from . import colorimetry
 from .preview.words import SIDE_BY_SIDE
 from .request import VIRTUAL
 from .rgb_space import WorkingSpace, matrix_of
@@ -77,7 +86,7 @@ def match(
     albedo, read
         ρ(λ), and r(λ) at the virtual instrument, each of shape (bands,).
     model
-        One of `core.ladder.RUNGS`.
+        One of `core.models.NAMES`.
     sigma
         Roughness, radians.
     bands
@@ -93,12 +102,14 @@ def match(
     places = _places(view, bands.tobytes(), space.key)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
-    roots, _ = colorimetry.roots(wanted)
-    lab = colorimetry.roots_to_lab(roots)
-    color = np.clip(cycles.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS), 0, 1)
+    roots, _ = color_difference.roots(wanted)
+    lab = color_difference.roots_to_lab(roots)
+    color = np.clip(
+        cycles_match.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, VIRTUAL), 0, 1
+    )
     starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
     found = compromise.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
-    apart = colorimetry.delta_e(places.perceive(found), lab)
+    apart = color_difference.delta_e(places.perceive(found), lab)
     searched, in_view = len(places.weights), len(view.place_weights)
     best = int(np.argmin(apart[:-1, :searched] @ places.weights))
     rough, lambert = (
@@ -122,8 +133,8 @@ def judge(
     places = _places(view, bands.tobytes(), space.key)
     wanted = places.relative(_reflected(albedo, model, sigma, places))
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])
-    lab = colorimetry.roots_to_lab(colorimetry.roots(wanted)[0])
-    return colorimetry.delta_e(seen[0, : len(wanted)], lab)[: len(view.place_weights)]
+    lab = color_difference.roots_to_lab(color_difference.roots(wanted)[0])
+    return color_difference.delta_e(seen[0, : len(wanted)], lab)[: len(view.place_weights)]
 
 
 def choose_shader(
@@ -202,13 +213,13 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
 
 def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
     """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    seen = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
+    seen = cycles_instrument.reflectance(color, roughness, VIRTUAL)
     return to_lab(seen, view.lights[0], space)
 
 
 def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     """L*a*b* of a surface's scene-linear reflectance (..., 3), rendered under a light."""
-    return colorimetry.xyz_to_lab(to_xyz(rgb, light, space), light.white)
+    return color_difference.xyz_to_lab(to_xyz(rgb, light, space), light.white)
 
 
 def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
@@ -281,7 +292,7 @@ class _Places:
         parts = cycles_slopes.coefficients(parameters)
         relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
         relative = relative.reshape(len(parameters), -1, 3)
-        return colorimetry.roots_to_lab(colorimetry.roots(relative)[0])
+        return color_difference.roots_to_lab(color_difference.roots(relative)[0])
 
     def distance_to(self, roots: Array, lab: Array) -> compromise.Distance:
         """Give what `compromise.fit` searches: how far materials are from wanted colors.
@@ -293,12 +304,12 @@ class _Places:
         """
         count = len(self.weights)
         wanted, to_relative = roots[:count, :, np.newaxis], self.to_relative[: 3 * count]
-        metric = compromise.whitener(lab[:count], colorimetry.delta_e) @ colorimetry.LAB_FROM_ROOTS
+        metric = compromise.whitener(lab[:count]) @ color_difference.LAB_FROM_ROOTS
 
         def distance(parameters: list[compromise.Numbers]) -> Array:
             parts = cycles_slopes.coefficients(parameters)
             found = (to_relative @ parts.reshape(-1, 9).T).reshape(count, 3, len(parameters), -1)
-            bent, slope = colorimetry.roots(found[..., 0])
+            bent, slope = color_difference.roots(found[..., 0])
             np.subtract(bent, wanted, out=found[..., 0])
             found[..., 1:] *= slope[..., np.newaxis]
             return (metric @ found.reshape(count, 3, -1)).reshape(found.shape)

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ..core import color_difference
 from ..core.arrays import Array
 from ..core.errors import DomainError
 from . import colorimetry, srgb
@@ -39,7 +40,7 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
     rgb, lab = np.full_like(xyz, np.nan), np.full_like(xyz, np.nan)
     if known.any():
         rgb[known] = srgb.encode(xyz[known] @ srgb.from_xyz(white).T)
-        lab[known] = colorimetry.xyz_to_lab(xyz[known], white)
+        lab[known] = color_difference.xyz_to_lab(xyz[known], white)
     return np.clip(rgb, 0, 1), lab
 
 
@@ -47,4 +48,4 @@ def to_lab(rgb: npt.ArrayLike) -> Array:
     """Return CIE L*a*b* of gamma-encoded sRGB, 0 to 1, shape (..., 3)."""
     white = colorimetry.white("D65", 2)
     xyz = srgb.decode(np.asarray(rgb, np.float64)) @ np.linalg.inv(srgb.from_xyz(white)).T
-    return colorimetry.xyz_to_lab(xyz, white)
+    return color_difference.xyz_to_lab(xyz, white)

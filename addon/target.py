@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import cycles, geometry, ladder, reading
+from ..core import color_difference, cycles, cycles_match, geometry, ladder, reading
 from ..core.arrays import Array
 from ..core.choice import choose_shader
 from . import colorimetry, judgement, scene_match, spectra
@@ -77,11 +77,6 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
     DomainError
         If a spectrum does not cover the visible range, or σ or illuminant is unknown.
     """
-
-    def difference(seen: Array, wanted: Array, white: Array) -> Array:
-        lab_seen, lab_wanted = (colorimetry.xyz_to_lab(xyz, white) for xyz in (seen, wanted))
-        return colorimetry.delta_e(lab_seen, lab_wanted)
-
     found: list[Choice | None] = [None] * len(requests)
     for members in spectra.alike(requests):
         first = requests[members[0]]
@@ -95,9 +90,7 @@ def choose(requests: Sequence[Request]) -> list[Choice]:
         tolerance = np.array([requests[i].tolerance for i in members])
         # The closure's albedo stands for the true one: it is what the other models approximate.
         rho = spectra.albedos([requests[i] for i in members], "closure")
-        choices = ladder.choose_model(
-            np.minimum(rho, 1), sigma, geometries, lights, tolerance, difference=difference
-        )
+        choices = ladder.choose_model(np.minimum(rho, 1), sigma, geometries, lights, tolerance)
         for i, choice in zip(members, choices, strict=True):
             found[i] = choice
     return [choice for choice in found if choice is not None]
@@ -144,14 +137,14 @@ def _solve(
     def perceive(rgb: Array) -> Array:
         return space.to_lab(rgb, illuminant)
 
-    matched, roughness = cycles.match(readings, targets, geometries, perceive, colorimetry.delta_e)
+    matched, roughness = cycles_match.match(readings, targets, geometries, perceive, VIRTUAL)
     color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
     everywhere = _everywhere(MATCH_GEOMETRIES)
     wanted = perceive(np.concatenate((targets, readings[:, np.newaxis]), axis=1))
     rough = cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *everywhere)
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
-    apart = colorimetry.delta_e(perceive(np.stack((rough, flat))), wanted)
+    apart = color_difference.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
     shaders = [
         choose_shader(lambert[i], over_hemisphere[i], request.tolerance)

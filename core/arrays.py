@@ -26,6 +26,13 @@ def precision(*values: npt.ArrayLike) -> np.dtype[Any]:
     """Choose the dtype of a computation: float32 if every array given is float32, else float64.
 
     Python and numpy scalars adapt to the arrays; they decide only where no array is given.
+
+    Examples
+    --------
+    >>> precision(np.ones(3, np.float32), 0.5).name
+    'float32'
+    >>> precision(np.ones(3, np.float32), np.ones(3)).name
+    'float64'
     """
     dtypes = [value.dtype for value in values if isinstance(value, np.ndarray) and value.ndim > 0]
     if not dtypes:
@@ -41,6 +48,13 @@ def spectrum(values: npt.ArrayLike, what: str) -> Array:
     ------
     DomainError
         If `values` has no band axis.
+
+    Examples
+    --------
+    >>> spectrum([0, 1], "the albedo").dtype.name
+    'float64'
+    >>> spectrum(np.ones(2, np.float32), "the albedo").dtype.name
+    'float32'
     """
     array = np.asarray(values)
     if array.ndim == 0:
@@ -54,6 +68,14 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
 
     np.float32(np.pi / 2) lies above π/2 and has the tangent -2.3e7; such angles are moved to the
     largest value of their precision that is not above π/2. NaN passes.
+
+    Examples
+    --------
+    >>> polar_angle([0.0, 0.5], "theta_i", np.dtype(np.float64)).tolist()
+    [0.0, 0.5]
+    >>> single = polar_angle(np.float32(np.pi / 2), "theta_i", np.dtype(np.float32))
+    >>> float(np.float32(np.pi / 2)) > np.pi / 2 > float(single)
+    True
     """
     array = np.asarray(angle, dtype=dtype)
     half_pi = dtype.type(np.pi / 2)
@@ -64,7 +86,13 @@ def polar_angle(angle: npt.ArrayLike, what: str, dtype: np.dtype[Any]) -> Array:
 
 
 def slope_deviation(sigma: npt.ArrayLike, dtype: np.dtype[Any]) -> Array:
-    """Check that the roughness σ lies in [0, π/2] radians. NaN passes."""
+    """Check that the roughness σ lies in [0, π/2] radians. NaN passes.
+
+    Examples
+    --------
+    >>> slope_deviation([0.0, 0.5], np.dtype(np.float64)).tolist()
+    [0.0, 0.5]
+    """
     array = np.asarray(sigma, dtype=dtype)
     _check_range(array, "the roughness sigma")
     return array

@@ -24,6 +24,11 @@ def blocks(shape: tuple[int, ...], elements: int = ELEMENTS) -> Iterator[Index]:
     """Give indices that cut an array of this shape into blocks of at most `elements`.
 
     A block is never cut within the last axis unless that is the only one.
+
+    Examples
+    --------
+    >>> list(blocks((5, 3), elements=6))
+    [(slice(0, 2, None),), (slice(2, 4, None),), (slice(4, 6, None),)]
     """
     if prod(shape) <= elements:
         if prod(shape) > 0:
@@ -41,7 +46,16 @@ def blocks(shape: tuple[int, ...], elements: int = ELEMENTS) -> Iterator[Index]:
 
 
 def part(array: Array, index: Index, dimensions: int) -> Array:
-    """Cut the block of an array that broadcasts to `dimensions` axes, without broadcasting it."""
+    """Cut the block of an array that broadcasts to `dimensions` axes, without broadcasting it.
+
+    Examples
+    --------
+    >>> row = np.arange(3)
+    >>> part(row, (slice(0, 2),), dimensions=2).tolist()
+    [[0, 1, 2]]
+    >>> part(row[:, np.newaxis], (slice(0, 2),), dimensions=2).tolist()
+    [[0], [1]]
+    """
     aligned = array.reshape((1,) * (dimensions - array.ndim) + array.shape)
     own = tuple(
         which if aligned.shape[axis] > 1 else (0 if isinstance(which, int) else slice(None))
@@ -54,6 +68,15 @@ def apply_in_blocks(formula: Callable[..., None], out: Array, *arrays: Array) ->
     """Fill `out` block by block: `formula(out, *arrays)` sees arrays that broadcast to its block.
 
     The formula writes its first argument in place and keeps no other large array.
+
+    Examples
+    --------
+    >>> out = np.empty((2, 3))
+    >>> def add(out, one, other):
+    ...     np.add(one, other, out=out)
+    >>> apply_in_blocks(add, out, np.array([[10.0], [20.0]]), np.arange(3.0))
+    >>> out.tolist()
+    [[10.0, 11.0, 12.0], [20.0, 21.0, 22.0]]
     """
     for index in blocks(out.shape):
         # A view even where the index is a single element of a one-dimensional array.

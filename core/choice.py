@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cheapest that is good enough, with the reason in words.
 
-Takes color differences that are known already: `core.ladder.choose_model` predicts those of the
-models, `addon.target` those of Blender's materials.
+Takes color differences that are known already, ΔE00: `core.ladder.choose_model` predicts those of
+the models, `addon.target` those of Blender's materials.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Choice:
     Attributes
     ----------
     model
-        One of `core.ladder.RUNGS`, or of `SHADERS`.
+        One of `core.models.NAMES`, or of `SHADERS`.
     error
         Its predicted largest color difference from the reference.
     errors
@@ -44,24 +44,27 @@ def choose_shader(
     errors_lambert: npt.ArrayLike,
     errors_rough: npt.ArrayLike,
     tolerance: float = 1.0,
-    *,
-    unit: str = "ΔE00",
 ) -> Choice:
     """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
 
     Parameters
     ----------
     errors_lambert, errors_rough
-        Color differences of the two from the target, over the directions and lights that occur,
-        any shape.
+        ΔE00 of the two from the target, over the directions and lights that occur, any shape.
     tolerance
-        Largest difference allowed.
-    unit
-        What the reason calls a difference.
+        Largest ΔE00 allowed.
 
     Returns
     -------
     The cheaper one that is good enough; if none is, the closer one, and the reason says so.
+
+    Examples
+    --------
+    >>> choice = choose_shader([0.4, 2.5], [0.1, 0.3])
+    >>> choice.model, choice.error
+    ('rough', 0.3)
+    >>> choice.reason
+    'rough: at worst ΔE00 0.30 off, within the 1 allowed; without roughness it would be 2.50.'
     """
     lambert, rough = (
         float(np.max(np.where(np.isfinite(e), e, np.inf)))
@@ -70,12 +73,12 @@ def choose_shader(
     errors = dict(zip(SHADERS, (lambert, rough), strict=True))
     limit = f"the {tolerance:g} allowed"
     if lambert <= tolerance:
-        reason = f"lambert: at worst {unit} {_number(lambert, tolerance)} off, within {limit}."
+        reason = f"lambert: at worst ΔE00 {_number(lambert, tolerance)} off, within {limit}."
         return Choice("lambert", lambert, errors, reason)
     model = "rough" if rough <= tolerance or rough < lambert else "lambert"
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
-        f"{model}: at worst {unit} {_number(errors[model], tolerance)} off, "
+        f"{model}: at worst ΔE00 {_number(errors[model], tolerance)} off, "
         f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
         f"{'without' if model == 'rough' else 'with'} roughness it would be "
         f"{_number(errors[other], tolerance)}."
@@ -83,9 +86,7 @@ def choose_shader(
     return Choice(model, errors[model], errors, reason)
 
 
-def cheapest(
-    errors: Mapping[str, float], tolerance: float, directions: int, lights: int, unit: str
-) -> Choice:
+def cheapest(errors: Mapping[str, float], tolerance: float, directions: int, lights: int) -> Choice:
     """Choose the first rung whose error is within the tolerance.
 
     Parameters
@@ -93,11 +94,18 @@ def cheapest(
     errors
         Predicted error of each rung, cheapest first; that of the last, the reference, is 0.
     tolerance
-        Largest error allowed.
+        Largest ΔE00 allowed.
     directions, lights
         How many the errors are the largest of.
-    unit
-        What the reason calls a difference.
+
+    Examples
+    --------
+    >>> errors = {"lambert": 4.0, "closure": 0.3, "reference": 0.0}
+    >>> choice = cheapest(errors, 1.0, directions=12, lights=1)
+    >>> choice.model
+    'closure'
+    >>> choice.reason.partition("; ")[2]
+    'the simpler lambert is 4.00 off.'
     """
     rungs = list(errors)
     model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])
@@ -107,7 +115,7 @@ def cheapest(
     if model == rungs[-1]:
         best = errors[rungs[-2]]
         reason = (
-            f"{model}: the simpler {below} is up to {unit} {_number(best, tolerance)} off {where}, "
+            f"{model}: the simpler {below} is up to ΔE00 {_number(best, tolerance)} off {where}, "
             f"more than {limit}."
             if np.isfinite(best)
             else f"{model}: how far the simpler {below} is off is not known {where}; some "
@@ -117,7 +125,7 @@ def cheapest(
         reason = f"{model}: exact, because the surface is level (σ = 0)."
     else:
         reason = (
-            f"{model}: at most {unit} {_number(errors[model], tolerance)} from the reference "
+            f"{model}: at most ΔE00 {_number(errors[model], tolerance)} from the reference "
             f"{where}, within {limit}"
         )
         if below is not None:

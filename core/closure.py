@@ -54,7 +54,13 @@ _CHUNK = 1 << 12
 
 
 def roughness_variable(sigma: Array) -> Array:
-    """Turn roughness into a number from 0 to 0.93: t = σ²/(σ² + c)."""
+    """Turn roughness into a number from 0 to 0.93: t = σ²/(σ² + c).
+
+    Examples
+    --------
+    >>> round(float(roughness_variable(np.array(0.5))), 4)
+    0.5556
+    """
     s2 = sigma * sigma
     return np.asarray(s2 / (s2 + fitted.ROUGHNESS_SCALE))
 
@@ -76,6 +82,14 @@ def coefficients(sigma: npt.ArrayLike) -> tuple[Array, Array, Array]:
     ------
     DomainError
         If σ is out of range. NaN passes and stays where it was.
+
+    Examples
+    --------
+    >>> single, walk, ratio = coefficients(0.0)
+    >>> float(single + walk / 2), float(ratio)
+    (1.0, 0.0)
+    >>> [round(float(values), 3) for values in coefficients(0.5)]
+    [0.216, 1.155, 0.788]
     """
     dtype = precision(sigma)
     t = roughness_variable(slope_deviation(sigma, dtype).astype(np.float64))
@@ -106,6 +120,11 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(from_albedo([0.2, 0.6, 1.0], 0.5), 3).tolist()
+    [0.164, 0.531, 1.006]
     """
     rho = spectrum(albedo, "the albedo")
     return over_blocks(forward, coefficients(np.asarray(sigma, np.float64)), rho)
@@ -132,6 +151,13 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `reading` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(to_albedo(from_albedo([0.2, 0.6], 0.5), 0.5), 12).tolist()
+    [0.2, 0.6]
+    >>> np.round(to_albedo(1.05 * from_albedo([1.0], 0.5), 0.5), 6).tolist()
+    [1.05]
     """
     r = spectrum(reading, "the reading")
     return over_blocks(inverse, coefficients(np.asarray(sigma, np.float64)), r)
@@ -164,6 +190,12 @@ def factors(
     ------
     DomainError
         If an angle lies outside its range. NaN passes and stays where it was.
+
+    Examples
+    --------
+    >>> single, walk, ratio = factors(0.8, [0.0, 0.5], 0.0, 0.5)
+    >>> np.round(single + walk / (1 + np.sqrt(1 - ratio)), 2).tolist()
+    [1.0, 1.1]
     """
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
     angles = (np.asarray(angle, dtype) for angle in (theta_i, theta_r, delta_phi))
@@ -229,6 +261,11 @@ def reflectance(
     ------
     DomainError
         If an angle lies outside its range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reflectance([0.2, 0.6], 0.8, [0.0, 0.5], 0.0, 0.5), 2).tolist()
+    [[0.16, 0.53], [0.19, 0.6]]
     """
     rho = spectrum(albedo, "the albedo")
     return over_blocks(forward, factors(theta_i, theta_r, delta_phi, sigma), rho)
@@ -240,6 +277,12 @@ def monomials(light: Array, view: Array, cosine: Array, degree: int) -> Array:
     x and y are tan(θ/2) of light and view, `light` and `view` here, shape (n,). Swapping the two
     changes nothing, and where one of them is 0 the azimuth drops out. Terms of lower degree come
     first, so that the first terms are those of the lower degree.
+
+    Examples
+    --------
+    >>> light, view, cosine = np.array([2.0]), np.array([3.0]), np.array([-1.0])
+    >>> monomials(light, view, cosine, 1).ravel().tolist()
+    [1.0, 13.0, 6.0, -6.0]
     """
     variables = np.stack((light * light + view * view, light * view, light * view * cosine))
     out = np.empty((comb(degree + 3, 3), light.size), light.dtype)
@@ -261,6 +304,12 @@ def combine(first: Array, later: Array, odds: Array, t: Array) -> tuple[Array, A
 
     r'(0) = exp(t · first) is the first bounce, t · exp(later) what white facets add to it, and
     t · exp(odds) = g' / (1 - g') with g' = g / _STEEPEST.
+
+    Examples
+    --------
+    >>> zero, level = np.zeros(1), np.zeros(1)
+    >>> [values.tolist() for values in combine(zero, zero, zero, level)]
+    [[1.0], [0.0], [0.0]]
     """
     one_bounce = np.exp(t * first)
     scale = np.exp(odds)
@@ -301,7 +350,13 @@ def _polynomial(coefficients: Array | Sequence[float], x: Array) -> Array:
 def over_blocks(
     formula: Callable[..., None], coefficients: tuple[Array, Array, Array], values: Array
 ) -> Array:
-    """Apply `formula(out, values, b, a, g)` to spectra, in their precision."""
+    """Apply `formula(out, values, b, a, g)` to spectra, in their precision.
+
+    Examples
+    --------
+    >>> np.round(over_blocks(forward, coefficients(0.5), np.array([0.2, 0.6])), 3).tolist()
+    [0.164, 0.531]
+    """
     per_spectrum = [c.astype(values.dtype, copy=False)[..., np.newaxis] for c in coefficients]
     out = np.empty(np.broadcast_shapes(values.shape, per_spectrum[0].shape), values.dtype)
     # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
@@ -311,7 +366,15 @@ def over_blocks(
 
 
 def forward(out: Array, rho: Array, single: Array, walk: Array, ratio: Array) -> None:
-    """Write r of ρ for b, a and g, which broadcast: a formula for `over_blocks`."""
+    """Write r of ρ for b, a and g, which broadcast: a formula for `over_blocks`.
+
+    Examples
+    --------
+    >>> out = np.empty(2)
+    >>> forward(out, np.array([0.5, 1.0]), np.array(0.5), np.array(1.0), np.array(0.0))
+    >>> out.tolist()
+    [0.5, 1.0]
+    """
     # A comparison with NaN is false, so NaN goes the longer way, like albedos above 1.
     inside = rho if np.max(rho) <= 1 else np.minimum(rho, 1)
     np.multiply(inside, -ratio, out=out)
@@ -326,7 +389,15 @@ def forward(out: Array, rho: Array, single: Array, walk: Array, ratio: Array) ->
 
 
 def inverse(out: Array, reading: Array, single: Array, walk: Array, ratio: Array) -> None:
-    """Write ρ of r for b, a and g, which broadcast: a formula for `over_blocks`."""
+    """Write ρ of r for b, a and g, which broadcast: a formula for `over_blocks`.
+
+    Examples
+    --------
+    >>> out = np.empty(2)
+    >>> inverse(out, np.array([0.5, 1.0]), np.array(0.5), np.array(1.0), np.array(0.0))
+    >>> out.tolist()
+    [0.5, 1.0]
+    """
     white = single + walk / (1 + np.sqrt(1 - ratio))
     within = np.max(reading) <= np.min(white)
     inside = reading if within else np.minimum(reading, white)

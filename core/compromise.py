@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Array
+from .color_difference import delta_e
 
 _STEPS = 24
 _SIFTED = 3
@@ -81,6 +82,18 @@ def fit(
     Returns
     -------
     n parameters for each start.
+
+    Examples
+    --------
+    >>> wanted = np.array([0.2, 0.3, 0.9])
+    >>> def distance(points):
+    ...     apart = np.zeros((3, 3, len(points), 2))
+    ...     apart[:, 0, :, 0] = 100 * (np.array(points).T - wanted[:, np.newaxis])
+    ...     apart[:, 0, :, 1] = 100
+    ...     return apart
+    >>> [[found]] = fit(distance, np.ones(3), [[0.5]], [[True]])
+    >>> round(found, 3)
+    0.3
     """
     squares = _squares(distance(starts), weights)
     found = [_Search(*each) for each in zip(starts, free, *squares, strict=True)]
@@ -198,19 +211,27 @@ def _squares(apart: Array, weights: Array) -> tuple[Numbers, list[Numbers], list
     return (weights @ lengths).tolist(), products[:, 0, 1:].tolist(), products[:, 1:, 1:].tolist()
 
 
-def whitener(at: Array, difference: Callable[[Array, Array], Array]) -> Array:
+def whitener(at: Array, difference: Callable[[Array, Array], Array] = delta_e) -> Array:
     """Matrices after which a color difference is a plain distance, close to some colors.
 
     Parameters
     ----------
     at
-        The colors, (places, 3).
+        The colors, L*a*b* unless `difference` takes others, shape (places, 3).
     difference
-        Of two arrays of colors, (..., 3) and (..., 3) -> (...).
+        Of two arrays of colors, (..., 3) and (..., 3) -> (...); CIEDE2000 unless another is given.
 
     Returns
     -------
     Shape (places, 3, 3), from colors to the space of distances.
+
+    Examples
+    --------
+    >>> lab = np.array([[50.0, 20.0, -10.0]])
+    >>> near = lab + [0.1, -0.2, 0.1]
+    >>> length = np.linalg.norm(whitener(lab)[0] @ (near - lab)[0])
+    >>> round(float(length / delta_e(near, lab)[0]), 2)
+    1.0
     """
     metric = _metric(at, difference)
     try:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Cycles computes for its rough Diffuse closure, and matching it to a target.
+"""What Cycles computes for its rough Diffuse closure.
 
 Holds for the Diffuse BSDF, and for the Principled BSDF at Specular IOR Level 0, in Blender 4.5
 and 5.2: the energy-preserving Oren-Nayar closure of `kernel/closure/bsdf_oren_nayar.h`, itself
@@ -10,15 +10,11 @@ multiple scattering.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, polar_angle, precision, spectrum
 from .errors import DomainError
-from .reading import INSTRUMENT_ANGLES
 from .remembered import remembered
 
 ALBEDO_SPAN = np.pi / 2 - 2 / 3
@@ -26,28 +22,8 @@ ALBEDO_SPAN = np.pi / 2 - 2 / 3
 MEAN_SPAN = ALBEDO_SPAN - (2 * np.pi - 5.6) / 3
 """The same, averaged over the hemisphere; 5.6 is Cycles' rounded constant."""
 
-_NEWTON_STEPS = 12
-"""Newton on a convex cubic from above needs at most 7 steps to full double precision for c ≤ 1."""
-_SURE_STEPS = 2
-"""Steps taken by all: to ask whether a color needs them costs nearly as much as a step."""
-
 Lobe = tuple[Array, Array, Array]
-"""A, B and D of `_lobe`."""
-
-_RING = "45a:0"
-"""Geometry whose reading a match meets exactly."""
-
-_PLACES = 9
-"""Roughnesses tried at once, both ends of an interval among them."""
-_KNOWN = np.arange(_PLACES) % (_PLACES // 2) == 0
-"""Those of them that were tried before in the interval twice around."""
-_SHARES = np.linspace(0, 1, _PLACES)
-_AROUND = np.arange(-1, 2)
-_ZOOMS = 2
-"""Times that the interval shrinks to two steps of the one before: the last step is 0.008, and a
-parabola goes on from there."""
-_CHUNK = 64
-"""Materials matched at once: 1 to 2 MB of colors."""
+"""A, B and D of `lobe`."""
 
 
 def reflectance(
@@ -76,118 +52,18 @@ def reflectance(
     ------
     DomainError
         If a polar angle lies outside [0, π/2] or the roughness outside 0 to 1.
+
+    Examples
+    --------
+    >>> np.round(reflectance([0.2, 0.5, 0.8], 1.0, np.pi / 4, 0.0, 0.0), 4).tolist()
+    [0.157, 0.4161, 0.742]
+    >>> reflectance([0.2, 0.5, 0.8], 0.0, 0.3, 0.9, 2.0).tolist()
+    [0.2, 0.5, 0.8]
     """
     c = spectrum(color, "the color")
     s, *angles = (np.asarray(x, c.dtype) for x in (roughness, theta_i, theta_r, delta_phi))
     check_roughness(s)
-    return _reflected(c, _lobe(s, *directions(*angles)))
-
-
-def color_for_reading(
-    reading: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str = _RING
-) -> Array:
-    """Socket color whose reading in Cycles is the given one, channel by channel.
-
-    Parameters
-    ----------
-    reading
-        Reflectance factor in scene-linear RGB, shape (..., 3).
-    roughness
-        Cycles' roughness, broadcast against the leading axes of `reading`.
-    instrument
-        Where the reading is taken.
-
-    Returns
-    -------
-    Color, shape (..., 3). Above 1 where no color reaches the reading, negative where the reading
-    is: nothing is clipped. NaN where the reading is NaN or infinite.
-    """
-    r = spectrum(reading, "the reading")
-    s, *angles = (np.asarray(x, r.dtype) for x in (roughness, *INSTRUMENT_ANGLES[instrument]))
-    check_roughness(s)
-    return _color(r, _lobe(s, *directions(*angles)))
-
-
-def match(
-    reading: npt.ArrayLike,
-    targets: npt.ArrayLike,
-    geometries: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike],
-    perceive: Callable[[Array], Array],
-    difference: Callable[[Array, Array], Array],
-) -> tuple[Array, Array]:
-    """Choose color and roughness so that Cycles reads the same as the target.
-
-    The reading at 45°/0° is met exactly; the one scalar roughness then brings the other geometries
-    closest, in the mean of `difference`. A reading of at most 1 needs no color above 1, because a
-    white lobe of any roughness reads at least 1 there.
-
-    Parameters
-    ----------
-    reading
-        Target reading at 45°/0° in scene-linear RGB, shape (materials, 3).
-    targets
-        Target reflectance factor at other geometries, shape (materials, geometries, 3).
-    geometries
-        θi, θr and Δφ of those geometries, radians, each of shape (geometries,).
-    perceive
-        Turns scene-linear RGB (..., 3) into the coordinates that `difference` compares.
-    difference
-        Color difference of two arrays of such coordinates, (..., 3) and (..., 3) -> (...).
-
-    Returns
-    -------
-    color, roughness
-        Shapes (materials, 3) and (materials,). The color is unclipped, as in
-        `color_for_reading`.
-    """
-    r = spectrum(reading, "the reading")
-    wanted = spectrum(targets, "the targets")
-    others, instrument = (
-        directions(*(np.asarray(angles, r.dtype) for angles in where))
-        for where in (geometries, INSTRUMENT_ANGLES[_RING])
-    )
-    roughness = np.empty(len(r), r.dtype)
-    for start in range(0, len(r), _CHUNK):
-        chunk = slice(start, start + _CHUNK)
-        of_chunk, goal = r[chunk, np.newaxis], perceive(wanted[chunk, np.newaxis])
-
-        def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
-            color = _color(of_chunk, _lobe(tried, *instrument))
-            seen = _reflected(color[..., np.newaxis, :], _lobe(tried[..., np.newaxis], *others))
-            return np.asarray(difference(perceive(seen), goal).mean(axis=-1))
-
-        roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
-    return color_for_reading(r, roughness), roughness
-
-
-def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> Array:
-    """Find where between 0 and 1 each of `count` costs is least; (count, n) -> (count, n).
-
-    Many places a call and few calls: numpy spends more on a call than on a hundred numbers.
-    """
-    shares = _SHARES.astype(dtype)
-    tried = np.tile(shares, (count, 1))
-    costs = cost(tried)
-    for _ in range(_ZOOMS):
-        near, known = _around_least(tried, costs)
-        low, high = near[:, :1], near[:, 2:]
-        tried = low + (high - low) * shares
-        costs = np.empty_like(tried)
-        costs[:, _KNOWN], costs[:, ~_KNOWN] = known, cost(tried[:, ~_KNOWN])
-    (a, b, c), (at_a, at_b, at_c) = (x.T for x in _around_least(tried, costs))
-    # The vertex of the parabola through the last three; where all are alike, the middle.
-    bend = at_a - 2 * at_b + at_c
-    vertex = b + (c - a) / 4 * (at_a - at_c) / np.where(bend > 0, bend, np.inf)
-    return np.asarray(
-        np.where((at_b <= at_a) & (at_b <= at_c), vertex, np.where(at_a < at_c, a, c))
-    )
-
-
-def _around_least(tried: Array, costs: Array) -> tuple[Array, Array]:
-    """Give three neighbors with the least cost among them, and in the middle unless at an end."""
-    middle = np.minimum(np.maximum(costs.argmin(axis=1), 1), _PLACES - 2)
-    row, column = np.arange(len(costs))[:, np.newaxis], middle[:, np.newaxis] + _AROUND
-    return tried[row, column], costs[row, column]
+    return reflected(c, lobe(s, *directions(*angles)))
 
 
 def check_roughness(roughness: Array) -> None:
@@ -197,6 +73,14 @@ def check_roughness(roughness: Array) -> None:
     ------
     DomainError
         If one lies outside 0 to 1.
+
+    Examples
+    --------
+    >>> check_roughness(np.array([0.0, 1.0]))
+    >>> check_roughness(np.array(30.0))
+    Traceback (most recent call last):
+        ...
+    core.errors.DomainError: Cycles' diffuse roughness holds 30; it runs from 0 to 1 and is not σ.
     """
     outside = (roughness < 0) | (roughness > 1)
     if np.count_nonzero(outside):
@@ -210,6 +94,12 @@ def directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array,
     """Tilt of the facets in a direction, and how much of the light lost elsewhere leaves there.
 
     All that the closure takes from a geometry: θi, θr and Δφ in radians, which broadcast.
+
+    Examples
+    --------
+    >>> tilt, spread = directions(np.array(np.pi / 4), np.array(0.0), np.array(0.0))
+    >>> float(tilt), round(float(spread), 4)
+    (0.0, 0.9928)
     """
     dtype = precision(theta_i, theta_r, delta_phi)
     light = polar_angle(theta_i, "theta_i", dtype)
@@ -222,11 +112,19 @@ def directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array,
     return np.asarray(tilt, dtype), np.asarray(spread / MEAN_SPAN, dtype)
 
 
-def _lobe(roughness: Array, tilt: Array, spread: Array) -> Lobe:
+def lobe(roughness: Array, tilt: Array, spread: Array) -> Lobe:
     """Compute A, B and D of r = c (A + c² B / (1 - c D)), each with an axis for the channels.
+
+    `tilt` and `spread` are those of `directions`, which broadcast with the roughness.
 
     The closure weight multiplies a term that already holds c², hence c³ in the second term.
     Written so that roughness 0 is not 0/0: 1 - E = a s (k - G) with k the albedo span.
+
+    Examples
+    --------
+    >>> level = lobe(np.array(0.0), np.array(0.3), np.array(0.4))
+    >>> [float(np.round(values[0], 12)) for values in level]
+    [1.0, 0.0, 0.0]
     """
     dtype = roughness.dtype
     a = 1 / (np.pi + roughness * dtype.type(ALBEDO_SPAN))
@@ -242,40 +140,18 @@ def _lobe(roughness: Array, tilt: Array, spread: Array) -> Lobe:
     )
 
 
-def _reflected(color: Array, lobe: Lobe) -> Array:
-    single, multiple, ratio = lobe
+def reflected(color: Array, terms: Lobe) -> Array:
+    """Give r of a color and of what `lobe` gives, which broadcast.
+
+    Examples
+    --------
+    >>> reflected(np.array([0.5]), (np.array([1.0]), np.array([0.1]), np.array([0.0]))).tolist()
+    [0.5125]
+    """
+    single, multiple, ratio = terms
     # An infinite color is NaN there, and needs no warning beside it.
     with np.errstate(invalid="ignore"):
         return np.asarray(color * (single + color * color * multiple / (1 - color * ratio)))
-
-
-def _color(r: Array, lobe: Lobe) -> Array:
-    """Invert `_reflected` by Newton's method.
-
-    r (1 - D c) = A c (1 - D c) + B c³. The start lies above the root and the cubic is convex there,
-    so Newton comes down to the root without overshooting.
-    """
-    single, multiple, ratio = lobe
-    c = r / single
-    # The step after one this small is below the last place: Newton doubles the digits.
-    settled, moving = np.sqrt(np.finfo(r.dtype).eps) / 8, np.True_
-    with np.errstate(invalid="ignore"):
-        square, line = -single * ratio, single + r * ratio
-        slope_cube, slope_square = 3 * multiple, 2 * square
-
-        def step(c: Array) -> Array:
-            value = ((multiple * c + square) * c + line) * c - r
-            return np.asarray(value / ((slope_cube * c + slope_square) * c + line))
-
-        for _ in range(_SURE_STEPS):
-            c = c - step(c)
-        for _ in range(_NEWTON_STEPS - _SURE_STEPS):
-            last = np.where(moving, step(c), 0)
-            c = c - last
-            moving = np.abs(last) > settled * np.abs(c)
-            if not np.count_nonzero(moving):
-                break
-    return np.asarray(c)
 
 
 def albedo_shape(theta: Array) -> Array:
@@ -283,6 +159,13 @@ def albedo_shape(theta: Array) -> Array:
 
     (sin θ / cos θ)(1 - sin³ θ) is ∞ · 0 at θ = π/2; with 1 - sin θ = cos² θ / (1 + sin θ) the
     cosine cancels.
+
+    Examples
+    --------
+    >>> np.round(albedo_shape(np.array([0.0, np.pi / 2])), 4).tolist()
+    [0.0, 0.9041]
+    >>> round(ALBEDO_SPAN, 4)
+    0.9041
     """
     sin, cos = np.sin(theta), np.cos(theta)
     tail = sin * cos * (1 + sin + sin * sin) / (1 + sin)

@@ -31,6 +31,11 @@ def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     Returns
     -------
     Shape (3, directions).
+
+    Examples
+    --------
+    >>> functions(np.array([0.8]), np.array([0.0]), np.array([0.0])).shape
+    (3, 1)
     """
     tilt, spread = directions(theta_i, theta_r, delta_phi)
     # With a = 1 / (π + s k) single scattering is c a (π + π s t), which is c + c s a (π t - k).
@@ -53,6 +58,15 @@ def coefficients(materials: list[list[float]]) -> Array:
     -------
     Shape (materials, 5, 3, 3): the value, its derivatives by red, green, blue and roughness; then
     channel; then function. `found[:, 0] @ functions(…)` is the reflectance factor.
+
+    Examples
+    --------
+    >>> found = coefficients([[0.2, 0.5, 0.8, 0.6]])
+    >>> found.shape
+    (1, 5, 3, 3)
+    >>> at = functions(np.array([0.8]), np.array([0.0]), np.array([0.0]))
+    >>> np.round((found[0, 0] @ at).ravel(), 4).tolist()
+    [0.1717, 0.4452, 0.762]
     """
     found: list[float] = []
     for *color, s in materials:

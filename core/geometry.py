@@ -35,6 +35,14 @@ def hemisphere(count: int, steepest: float = STEEPEST) -> tuple[Array, Array, Ar
     -------
     θi, θr, Δφ
         Radians, each of shape (count,), read-only; Δφ in [0, π].
+
+    Examples
+    --------
+    >>> light, view, azimuth = hemisphere(1000)
+    >>> light.shape, bool(light.max() <= STEEPEST)
+    ((1000,), True)
+    >>> round(float(np.mean(np.sin(light) ** 2) / np.sin(STEEPEST) ** 2), 2)
+    0.5
     """
     steps = _PLASTIC ** -np.arange(1.0, 4.0)
     u = (0.5 + np.arange(1, count + 1)[:, np.newaxis] * steps) % 1.0

@@ -30,6 +30,11 @@ def check_wavelengths(wavelengths: npt.ArrayLike) -> Array:
     ------
     DomainError
         Naming the first offending band.
+
+    Examples
+    --------
+    >>> check_wavelengths([400, 410, 420]).tolist()
+    [400.0, 410.0, 420.0]
     """
     grid = np.asarray(wavelengths, dtype=np.float64)
     if grid.ndim != 1 or grid.size == 0:
@@ -51,7 +56,15 @@ def check_wavelengths(wavelengths: npt.ArrayLike) -> Array:
 
 
 def step(wavelengths: npt.ArrayLike) -> float | None:
-    """Interval of an even grid in nanometers, or None where the steps differ."""
+    """Interval of an even grid in nanometers, or None where the steps differ.
+
+    Examples
+    --------
+    >>> step([400, 410, 420])
+    10.0
+    >>> step([400, 410, 430]) is None
+    True
+    """
     grid = check_wavelengths(wavelengths)
     if grid.size < 2:
         return None
@@ -60,7 +73,13 @@ def step(wavelengths: npt.ArrayLike) -> float | None:
 
 
 def covered(source: npt.ArrayLike, target: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Which target wavelengths lie within the measured range. Shape (target bands,)."""
+    """Which target wavelengths lie within the measured range. Shape (target bands,).
+
+    Examples
+    --------
+    >>> covered([400, 700], [390, 400, 550, 710]).tolist()
+    [False, True, True, False]
+    """
     measured, wanted = check_wavelengths(source), check_wavelengths(target)
     return np.asarray((wanted >= measured[0]) & (wanted <= measured[-1]))
 
@@ -97,6 +116,13 @@ def resample(
     ------
     DomainError
         If a grid does not increase, `values` does not fit `source`, or with ends="error".
+
+    Examples
+    --------
+    >>> resample([0.25, 0.5], [400, 410], [400, 405, 420]).tolist()
+    [0.25, 0.375, nan]
+    >>> resample([0.25, 0.5], [400, 410], [400, 405, 420], ends="hold").tolist()
+    [0.25, 0.375, 0.5]
     """
     spectra = spectrum(values, "the spectrum")
     measured, wanted = check_wavelengths(source), check_wavelengths(target)

@@ -24,7 +24,7 @@ from functools import cache, lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, instruments, oren_nayar, vcavity_series, vcavity_tables
+from . import closure, instrument_directions, oren_nayar, vcavity_series, vcavity_tables
 from .arrays import Array, precision, slope_deviation
 
 CLOSURE_ERROR = 0.02
@@ -47,7 +47,13 @@ _STEEPEST = 0.9999
 
 
 def first_and_second(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, Array]:
-    """Weights f1 and f2 of ρ and ρ² in the published model: see `core.reading.coefficients`."""
+    """Weights f1 and f2 of ρ and ρ² in the published model: see `core.reading.coefficients`.
+
+    Examples
+    --------
+    >>> [round(float(weight), 4) for weight in first_and_second(np.pi / 2, "45a:0")]
+    [0.559, 0.1615]
+    """
     tilted, second = _published_factors(instrument)
     dtype = precision(sigma)
     s2 = slope_deviation(sigma, dtype) ** 2
@@ -61,6 +67,12 @@ def closure_coefficients(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, 
     """Coefficients b, a and g of the closure, float64: see `core.closure.coefficients`.
 
     Arrays of the shape of `sigma`; those of a single σ are kept, and read-only.
+
+    Examples
+    --------
+    >>> single, walk, ratio = closure_coefficients(0.0, "45as110")
+    >>> float(single + walk / 2)
+    1.0
     """
     spread = np.asarray(sigma)
     if spread.size != 1 or spread.dtype == np.float32:
@@ -94,10 +106,17 @@ def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, 
 
 @cache
 def series(instrument: str) -> vcavity_tables.SigmaTable:
-    """Table of the V-cavity's series; made on first use, which takes up to two seconds."""
+    """Table of the V-cavity's series; made on first use, which takes up to two seconds.
+
+    Examples
+    --------
+    >>> rows = series("45a:0").rows(np.radians([0.0, 30.0]))
+    >>> np.round(rows[:, 0], 4).tolist()
+    [1.0, 0.7765]
+    """
     if _is_ring(instrument):
         return vcavity_tables.ring()
-    of = instruments.find(instrument)
+    of = instrument_directions.of(instrument)
     # Swapping light and view changes nothing; one order makes that exact.
     upper, lower = np.maximum(of.theta_i, of.theta_r), np.minimum(of.theta_i, of.theta_r)
     return vcavity_tables.build(upper, lower, of.delta_phi, of.weights)
@@ -105,7 +124,7 @@ def series(instrument: str) -> vcavity_tables.SigmaTable:
 
 def _is_ring(instrument: str) -> bool:
     """Whether the instrument is 45a:0 but for its name."""
-    angles = instruments.find(instrument).angles
+    angles = instrument_directions.of(instrument).angles
     # At the normal azimuth has no meaning.
     return angles is not None and sorted(angles[:2]) == [0.0, np.pi / 4]
 
@@ -113,7 +132,7 @@ def _is_ring(instrument: str) -> bool:
 @cache
 def _published_factors(instrument: str) -> tuple[float, float]:
     """Means of what multiplies σ²/(σ² + 0.09) in F1 and of F2 over its value at the normal."""
-    of = instruments.find(instrument)
+    of = instrument_directions.of(instrument)
     sigma = np.asarray(np.pi / 2)
     f1, f2 = oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, sigma)
     s2 = sigma * sigma

@@ -1,12 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rungs of the ladder: five models of the same surface, cheapest first.
-
-lambert       r = ρ
-first-order   r = F1 ρ                             light that leaves after one bounce
-two-bounce    r = F1 ρ + F2 ρ²                     the published model: `core.oren_nayar`
-closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: `core.closure`
-reference     r = Σ a_k ρ^k                        what the others approximate: `core.vcavity`
+"""The models as rungs of a ladder, cheapest first: as much of it as a scene needs.
 
 `choose_model` finds the cheapest rung that is good enough for a material, `choose_shader` the
 cheaper of Blender's two materials. Both err on the accurate side: what the yardstick itself may
@@ -15,36 +9,30 @@ miss is added to every predicted error.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, oren_nayar, vcavity, yardstick
-from .arrays import Array, polar_angle, slope_deviation, spectrum
+from . import models, yardstick
+from .arrays import Array, spectrum
 from .choice import SHADERS, Choice, cheapest, choose_shader
+from .color_difference import delta_e, xyz_to_lab
 from .errors import DomainError
+from .model_surface import Surface
 
 __all__ = [
-    "RUNGS",
     "SHADERS",
     "Choice",
-    "Difference",
     "choose_model",
     "choose_shader",
     "reflectance",
 ]
 
-RUNGS = ("lambert", "first-order", "two-bounce", "closure", "reference")
-"""Names of the models, cheapest first."""
-
-_APPROXIMATE = RUNGS[:-1]
+_APPROXIMATE = models.NAMES[:-1]
 
 _CHUNK = 1 << 16
 """Values of spectra (materials · geometries · bands) held at once: 0.5 MB an array."""
-
-Difference = Callable[[Array, Array, Array], Array]
-"""Color difference of XYZ (..., 3) and XYZ (..., 3) under white XYZ, which broadcasts: (...)."""
 
 
 def reflectance(
@@ -60,7 +48,7 @@ def reflectance(
     Parameters
     ----------
     model
-        One of `RUNGS`.
+        One of `core.models.NAMES`.
     albedo
         ρ(λ), shape (..., bands).
     theta_i, theta_r
@@ -78,11 +66,15 @@ def reflectance(
     ------
     DomainError
         If the model is unknown, an angle lies outside its range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reflectance("lambert", [0.2, 0.6], 0.8, 0.1, 0.0, 0.5), 3).tolist()
+    [0.2, 0.6]
+    >>> np.round(reflectance("two-bounce", [0.2, 0.6], 0.8, 0.1, 0.0, 0.5), 3).tolist()
+    [0.166, 0.525]
     """
-    if model not in _FORMULAS:
-        msg = f"Model {model!r} is not known; choose one of {', '.join(RUNGS)}."
-        raise DomainError(msg)
-    return _FORMULAS[model](albedo, theta_i, theta_r, delta_phi, sigma)
+    return models.find(model).formulas.reflectance(albedo, theta_i, theta_r, delta_phi, sigma)
 
 
 def choose_model(
@@ -91,9 +83,6 @@ def choose_model(
     geometries: Sequence[npt.ArrayLike],
     lights: Sequence[npt.ArrayLike],
     tolerance: npt.ArrayLike = 1.0,
-    *,
-    difference: Difference,
-    unit: str = "ΔE00",
 ) -> list[Choice]:
     """Choose for each material the cheapest rung that is good enough in its scene.
 
@@ -114,20 +103,24 @@ def choose_model(
     lights
         Matrices (bands, 3) that turn reflectance into XYZ; column sums are the white point.
     tolerance
-        Largest color difference allowed, shape (materials,) or a scalar.
-    difference
-        See `Difference`. A call for many materials costs a fraction of many calls.
-    unit
-        What the reason calls a difference.
+        Largest ΔE00 (CIEDE2000) allowed, shape (materials,) or a scalar.
 
     Returns
     -------
-    One `Choice` a material.
+    One `Choice` a material. A call for many costs a fraction of many calls.
 
     Raises
     ------
     DomainError
         If an angle lies outside its range, or there is no light or no direction.
+
+    Examples
+    --------
+    >>> light = np.linspace(0.01, 0.06, 93).reshape(31, 3)
+    >>> directions = np.radians([[45.0, 30.0], [0.0, 10.0], [0.0, 90.0]])
+    >>> albedos = np.full((2, 31), 0.7)
+    >>> [choice.model for choice in choose_model(albedos, [0.0, 0.5], directions, [light])]
+    ['lambert', 'closure']
     """
     rho = np.atleast_2d(spectrum(albedos, "the albedo")).astype(np.float64, copy=False)
     count, bands = rho.shape
@@ -149,18 +142,17 @@ def choose_model(
     for start in range(0, count, step):
         part = slice(start, start + step)
         own = [angle[part] if angle.ndim > 1 else angle for angle in angles]
-        found = _predict(rho[part], spread[part], own, matrices, difference)
+        found = _predict(rho[part], spread[part], own, matrices)
         # What cannot be compared is not taken for equal.
         found = np.where(np.isfinite(found), found, np.inf)
         errors[:, part] = np.where(occurs[part], found, 0).max(axis=-1)
     errors[:, spread == 0] = 0
     return [
         cheapest(
-            dict(zip(RUNGS, (*errors[:, i].tolist(), 0.0), strict=True)),
+            dict(zip(models.NAMES, (*errors[:, i].tolist(), 0.0), strict=True)),
             float(allowed[i]),
             int(directions[i]),
             len(matrices),
-            unit,
         )
         for i in range(count)
     ]
@@ -171,7 +163,6 @@ def _predict(
     sigma: Array,
     geometries: Sequence[Array],
     lights: Sequence[Array],
-    difference: Difference,
 ) -> Array:
     """Largest error over the lights, shape (rungs, materials, geometries), NaN where unknown."""
     light, view, azimuth = geometries
@@ -180,61 +171,28 @@ def _predict(
     # Beyond its last node nothing is known and the bound is infinite; F1 there may be, too.
     light, view = (np.minimum(angle, yardstick.LARGEST_ANGLE) for angle in (light, view))
     truth = yardstick.reflectance(rho, light, view, azimuth, sigma)
-    f1, f2 = oren_nayar.factors(light, view, azimuth, spread)
-    closed = closure.reflectance(rho[:, np.newaxis], light, view, azimuth, spread)
     weights = np.concatenate(lights, axis=1)
-    # XYZ is linear in reflectance: two colors a material serve all directions of three models.
-    flat, squared = (color[:, np.newaxis] for color in (rho @ weights, (rho * rho) @ weights))
-    single = f1[..., np.newaxis] * flat
+    surface = Surface(rho, light, view, azimuth, spread, weights)
     wanted = truth @ weights
     margin = np.where(np.isfinite(missed), missed, 0)[..., np.newaxis]
-    seen = np.empty((len(RUNGS), *wanted.shape))
-    rungs = (flat, single, single + f2[..., np.newaxis] * squared, closed @ weights)
-    for row, color in enumerate((*rungs, wanted * (1 + margin))):
-        seen[row] = color
+    seen = np.empty((len(_APPROXIMATE) + 1, *wanted.shape))
+    for row, model in enumerate(_APPROXIMATE):
+        seen[row] = _colors(model, surface)
+    seen[-1] = wanted * (1 + margin)
     # (rungs, materials, geometries, lights)
     whites = weights.sum(axis=0).reshape(-1, 3)
     seen, wanted = (xyz.reshape(*xyz.shape[:-1], *whites.shape) for xyz in (seen, wanted))
-    found = difference(seen, wanted, whites)
+    found = delta_e(xyz_to_lab(seen, whites), xyz_to_lab(wanted, whites))
     worst = (found[:-1] + found[-1]).max(axis=-1)
     return np.where(np.isfinite(missed), worst, np.inf)
 
 
-def _lambert(
-    albedo: npt.ArrayLike,
-    theta_i: npt.ArrayLike,
-    theta_r: npt.ArrayLike,
-    delta_phi: npt.ArrayLike,
-    sigma: npt.ArrayLike,
-) -> Array:
-    rho = spectrum(albedo, "the albedo")
-    checked = (
-        polar_angle(theta_i, "theta_i", rho.dtype),
-        polar_angle(theta_r, "theta_r", rho.dtype),
-        np.asarray(delta_phi, rho.dtype),
-        slope_deviation(sigma, rho.dtype),
-    )
-    leading = np.broadcast_shapes(rho.shape[:-1], *(array.shape for array in checked))
-    return np.broadcast_to(rho, (*leading, rho.shape[-1])).copy()
-
-
-def _first_order(
-    albedo: npt.ArrayLike,
-    theta_i: npt.ArrayLike,
-    theta_r: npt.ArrayLike,
-    delta_phi: npt.ArrayLike,
-    sigma: npt.ArrayLike,
-) -> Array:
-    rho = spectrum(albedo, "the albedo")
-    angles = (np.asarray(angle, rho.dtype) for angle in (theta_i, theta_r, delta_phi, sigma))
-    f1, _ = oren_nayar.factors(*angles)
-    return np.asarray(f1[..., np.newaxis] * rho, rho.dtype)
-
-
-_FORMULAS: dict[str, Callable[..., Array]] = {
-    "lambert": _lambert,
-    "first-order": _first_order,
-    "two-bounce": oren_nayar.reflectance,
-    "closure": closure.reflectance,
-    "reference": vcavity.reflectance,
-}
+def _colors(model: str, surface: Surface) -> Array:
+    """XYZ by a model, which broadcasts to (materials, geometries, 3 · lights)."""
+    formulas = models.find(model).formulas
+    quick = getattr(formulas, "colors", None)
+    if quick is not None:
+        return np.asarray(quick(surface))
+    angles = surface.theta_i, surface.theta_r, surface.delta_phi
+    seen = formulas.reflectance(surface.albedo[:, np.newaxis], *angles, surface.sigma)
+    return np.asarray(seen @ surface.weights)

@@ -28,12 +28,27 @@ def first_bounce_at_normal(s2: Array) -> Array:
     """C1 of the model: what is left of the first bounce when light or view is along the normal.
 
     `s2` is σ². Equals F1 wherever min(θi, θr) = 0.
+
+    Examples
+    --------
+    >>> float(first_bounce_at_normal(np.array(0.0)))
+    1.0
+    >>> round(float(first_bounce_at_normal(np.array(0.25))), 4)
+    0.7845
     """
     return 1 - 0.5 * s2 / (s2 + 0.33)
 
 
 def second_bounce_at_normal(s2: Array) -> Array:
-    """F2 of the model when light or view is along the normal. `s2` is σ²."""
+    """F2 of the model when light or view is along the normal. `s2` is σ².
+
+    Examples
+    --------
+    >>> float(second_bounce_at_normal(np.array(0.0)))
+    0.0
+    >>> round(float(second_bounce_at_normal(np.array(0.25))), 4)
+    0.1118
+    """
     return 0.17 * s2 / (s2 + 0.13)
 
 
@@ -66,6 +81,12 @@ def factors(
     ------
     DomainError
         If an angle lies outside its range. NaN passes and stays where it was.
+
+    Examples
+    --------
+    >>> f1, f2 = factors(np.pi / 4, [0.0, 0.5], 0.0, 0.5)
+    >>> np.round(f1, 4).tolist(), np.round(f2, 4).tolist()
+    ([0.7845, 0.9123], [0.1118, 0.1005])
     """
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
     geometry = _checked(theta_i, theta_r, delta_phi, sigma, dtype)
@@ -100,6 +121,11 @@ def reflectance(
     ------
     DomainError
         If an angle lies outside its range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reflectance([0.2, 0.6], np.pi / 4, [0.0, 0.5], 0.0, 0.5), 4).tolist()
+    [[0.1614, 0.511], [0.1865, 0.5836]]
     """
     rho = spectrum(albedo, "the albedo")
     geometry = _checked(theta_i, theta_r, delta_phi, sigma, rho.dtype)

@@ -4,12 +4,7 @@
 
 Whatever an instrument averages (see `core.instruments`), the Oren-Nayar model shrinks to
 r = f1 ρ + f2 ρ², with f1 and f2 functions of σ alone, and the other models to as little (see
-`core.instrument_curves`). Models, cheapest first:
-
-first-order   r = f1 ρ
-two-bounce    r = f1 ρ + f2 ρ²                     the published model
-closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: see `core.closure`
-reference     r = Σ a_k ρ^k                        what these approximate: see `core.vcavity`
+`core.instrument_curves`). The models are those of `core.models`.
 
 `geometric_closure` is none of them. It sums the later bounces of the published model as a
 geometric series, which conserves energy but misses the reference by up to 4.7 % at σ ≤ 50°.
@@ -17,26 +12,19 @@ geometric series, which conserves energy but misses the reference by up to 4.7 %
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Literal, get_args
-
 import numpy as np
 import numpy.typing as npt
 
-from . import closure, instrument_curves, instruments, vcavity_series
+from . import instrument_curves, instrument_directions, instruments, models
 from .arrays import Array, precision, slope_deviation, spectrum
-from .blocks import apply_in_blocks
-from .errors import DomainError
 
-Model = Literal["first-order", "two-bounce", "closure", "reference"]
-MODELS: tuple[Model, ...] = get_args(Model)
 INSTRUMENTS = tuple(instruments.REGISTRY)
 """Names of all instruments; the first, 45a:0, is meant wherever none is named."""
 
 INSTRUMENT_ANGLES = {
-    name: instrument.angles
-    for name, instrument in instruments.REGISTRY.items()
-    if instrument.angles is not None
+    name: angles
+    for name in instruments.REGISTRY
+    if (angles := instrument_directions.of(name).angles) is not None
 }
 """θi, θr and Δφ, radians, of the instruments that light from one direction and look from one."""
 
@@ -60,6 +48,11 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
     ------
     DomainError
         If σ is out of range or the instrument unknown.
+
+    Examples
+    --------
+    >>> [round(float(weight), 4) for weight in coefficients(np.pi / 2)]
+    [0.559, 0.1615]
     """
     return instrument_curves.first_and_second(sigma, instrument)
 
@@ -69,6 +62,12 @@ def bounce_ratio(sigma: npt.ArrayLike) -> Array:
 
     g = 1 - q with q = f2 / (1 - f1), the ratio that gives r(ρ = 1) = 1. f2 / (1 - f1) is 0/0 at
     σ = 0, so q is written as the quotient of the two fits, where σ² cancels.
+
+    Examples
+    --------
+    >>> f1, f2 = coefficients(0.5)
+    >>> round(float(f1 + f2 / (1 - bounce_ratio(0.5))), 12)
+    1.0
     """
     dtype = precision(sigma)
     s2 = slope_deviation(sigma, dtype) ** 2
@@ -98,6 +97,11 @@ def geometric_closure(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(geometric_closure([0.2, 0.6, 1.0], 0.5), 4).tolist()
+    [0.1618, 0.5273, 1.0]
     """
     rho = spectrum(albedo, "the albedo")
     per_spectrum = np.asarray(sigma, dtype=rho.dtype)[..., np.newaxis]
@@ -122,7 +126,7 @@ def from_albedo(
     sigma
         Roughness, radians in [0, π/2]; broadcasts against the leading axes of `albedo`.
     model, instrument
-        One of `MODELS` and of `INSTRUMENTS`.
+        One of `core.models.NAMES` and of `INSTRUMENTS`.
 
     Returns
     -------
@@ -133,16 +137,15 @@ def from_albedo(
     ------
     DomainError
         If σ is out of range, or model or instrument unknown.
+
+    Examples
+    --------
+    >>> np.round(from_albedo([0.2, 0.6], np.radians(30)), 4).tolist()
+    [0.1592, 0.5054]
+    >>> np.round(from_albedo([0.2, 0.6], np.radians(30), "closure", "di:8"), 3).tolist()
+    [0.16, 0.522]
     """
-    rho = spectrum(albedo, "the albedo")
-    if model == "reference":
-        rows = instrument_curves.series(instrument).rows(sigma)
-        with np.errstate(invalid="ignore"):  # ∞ - ∞ is NaN, and needs no warning beside it
-            return vcavity_series.evaluate(rows, rho)
-    if model == "closure":
-        found = instrument_curves.closure_coefficients(sigma, instrument)
-        return closure.over_blocks(closure.forward, found, rho)
-    return _evaluate(_FORWARD, rho, sigma, model, instrument)
+    return models.find(model).formulas.from_albedo(albedo, sigma, instrument)
 
 
 def to_albedo(
@@ -172,14 +175,14 @@ def to_albedo(
     ------
     DomainError
         If σ is out of range, or model or instrument unknown.
+
+    Examples
+    --------
+    >>> read = from_albedo([0.2, 0.6], np.radians(30), "closure")
+    >>> np.round(to_albedo(read, np.radians(30), "closure"), 12).tolist()
+    [0.2, 0.6]
     """
-    r = spectrum(reading, "the reading")
-    if model == "reference":
-        return vcavity_series.invert(instrument_curves.series(instrument).rows(sigma), r)
-    if model == "closure":
-        found = instrument_curves.closure_coefficients(sigma, instrument)
-        return closure.over_blocks(closure.inverse, found, r)
-    return _evaluate(_INVERSE, r, sigma, model, instrument)
+    return models.find(model).formulas.to_albedo(reading, sigma, instrument)
 
 
 def white_reading(
@@ -191,6 +194,13 @@ def white_reading(
     its source than a white diffuser does, and less elsewhere.
 
     Returns an array of the shape of `sigma`; arguments and errors as in `from_albedo`.
+
+    Examples
+    --------
+    >>> round(float(white_reading(np.pi / 2)), 4)
+    0.7205
+    >>> round(float(white_reading(np.radians(30), "closure")), 2)
+    1.01
     """
     white = np.ones(1, dtype=precision(sigma))
     return from_albedo(white, sigma, model, instrument)[..., 0]
@@ -211,6 +221,11 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
     -------
     σ in radians, same shape: π/2 where nothing bounds it (r ≤ 0.7205), 0 at r = 1, and NaN for
     r > 1, which not even a smooth surface reflects.
+
+    Examples
+    --------
+    >>> np.round(np.degrees(sigma_max([0.8, 0.9, 0.95])), 1).tolist()
+    [48.9, 28.0, 19.5]
     """
     dtype = precision(peak_reading)
     r = np.asarray(peak_reading, dtype=dtype)
@@ -224,55 +239,3 @@ def sigma_max(peak_reading: npt.ArrayLike) -> Array:
     sigma = np.where(bounded, np.sqrt(np.clip(x, 0, half_pi**2)), half_pi)
     # numpy 1.26 promotes scalars on the way.
     return np.asarray(np.where(r <= 1, sigma, np.nan), dtype)
-
-
-def _evaluate(
-    formulas: dict[str, Callable[..., None]],
-    values: Array,
-    sigma: npt.ArrayLike,
-    model: str,
-    instrument: str,
-) -> Array:
-    """Apply a model's formula to spectra, in the precision of `values`."""
-    if model not in formulas:
-        msg = f"Model {model!r} is not known; choose one of: {', '.join(MODELS)}."
-        raise DomainError(msg)
-    per_spectrum = np.asarray(sigma, dtype=values.dtype)[..., np.newaxis]
-    f1, f2 = coefficients(per_spectrum, instrument)
-    shape = np.broadcast_shapes(values.shape, per_spectrum.shape)
-    out = np.empty(shape, values.dtype)
-    # ∞ - ∞ and 0 · ∞ are NaN, and need no warning beside it.
-    with np.errstate(invalid="ignore"):
-        apply_in_blocks(formulas[model], out, values, f1, f2)
-    return out
-
-
-def _first_order(out: Array, rho: Array, f1: Array, _f2: Array) -> None:
-    np.multiply(f1, rho, out=out)
-
-
-def _two_bounce(out: Array, rho: Array, f1: Array, f2: Array) -> None:
-    np.multiply(f2, rho, out=out)
-    out += f1
-    out *= rho
-
-
-def _first_order_inverse(out: Array, r: Array, f1: Array, _f2: Array) -> None:
-    np.divide(r, f1, out=out)
-
-
-def _two_bounce_inverse(out: Array, r: Array, f1: Array, f2: Array) -> None:
-    """ρ = r / (f1/2 + √(f1²/4 + f2 r)).
-
-    The textbook root (-f1 + √(f1² + 4 f2 r)) / 2 f2 cancels as σ → 0, where f2 → 0: at σ = 1e-8 it
-    returns 0 in float64. This form of the same root has no difference in it.
-    """
-    np.multiply(f2, r, out=out)
-    out += f1 * f1 / 4
-    np.sqrt(out, out=out)
-    out += f1 / 2
-    np.divide(r, out, out=out)
-
-
-_FORWARD = {"first-order": _first_order, "two-bounce": _two_bounce}
-_INVERSE = {"first-order": _first_order_inverse, "two-bounce": _two_bounce_inverse}

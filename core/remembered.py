@@ -30,7 +30,18 @@ Directions = Callable[[Array, Array, Array], tuple[Array, ...]]
 
 
 def remembered(function: Directions) -> Directions:
-    """Let a function of θi, θr and Δφ remember its results, which are read-only then."""
+    """Let a function of θi, θr and Δφ remember its results, which are read-only then.
+
+    Examples
+    --------
+    >>> def sums(light, view, azimuth):
+    ...     return (light + view + azimuth,)
+    >>> of_few = remembered(sums)
+    >>> of_few(np.ones(2), np.ones(2), np.zeros(2))[0].tolist()
+    [2.0, 2.0]
+    >>> of_few(np.ones(2), np.ones(2), np.zeros(2))[0].flags.writeable
+    False
+    """
 
     @lru_cache(maxsize=_KEPT)
     def of_bytes(*keys: _Key) -> tuple[Array, ...]:

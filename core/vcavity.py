@@ -113,6 +113,13 @@ def bounce_coefficients(
     ------
     DomainError
         If an angle lies outside its range or K is below 2. NaN passes and stays where it was.
+
+    Examples
+    --------
+    >>> np.round(bounce_coefficients(np.pi / 4, 0.0, 0.0, 0.5, bounces=3), 3).tolist()
+    [0.791, 0.127, 0.04]
+    >>> bounce_coefficients(np.pi / 4, 0.0, 0.0, 0.0, bounces=3).tolist()
+    [1.0, 0.0, 0.0]
     """
     if bounces < 2:
         msg = f"bounces is {bounces}; the first two bounces come together, so ask for 2 or more."
@@ -150,6 +157,11 @@ def reflectance(
     ------
     DomainError
         If an angle lies outside its range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reflectance([0.2, 0.6], np.pi / 4, 0.0, 0.0, 0.5), 3).tolist()
+    [0.164, 0.533]
     """
     rho = spectrum(albedo, "the albedo")
     rows = series(theta_i, theta_r, delta_phi, sigma, resolution=resolution)
@@ -169,6 +181,12 @@ def series(
 
     Arguments and errors as in `bounce_coefficients`. Rows are linear: the mean of the rows of
     several geometries is the row of an instrument that averages them.
+
+    Examples
+    --------
+    >>> rows = series([np.pi / 4, 0.5], 0.0, 0.0, [0.5, 0.0])
+    >>> rows.shape, rows[1, :3].tolist()
+    ((2, 15), [1.0, 0.0, 0.0])
     """
     # Each angle is checked in its own precision: np.float32(np.pi / 2) lies above π/2.
     angles = np.broadcast_arrays(

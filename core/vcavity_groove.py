@@ -80,7 +80,14 @@ class Grooves:
 
 
 def build(slope: Array, panels: int, table_nodes: int) -> Grooves:
-    """Solve the exchange in grooves of the given slopes (radians, shape (grooves,))."""
+    """Solve the exchange in grooves of the given slopes (radians, shape (grooves,)).
+
+    Examples
+    --------
+    >>> grooves = build(np.radians([0.0, 45.0]), panels=16, table_nodes=32)
+    >>> grooves.ratio.shape, grooves.response.shape
+    ((2, 16), (2, 32, 16))
+    """
     ratios, responses = [], []
     for angle in slope:
         edges = _panel_edges(angle, panels)
@@ -97,7 +104,13 @@ def build(slope: Array, panels: int, table_nodes: int) -> Grooves:
 
 
 def lit_fraction(m: Array) -> Array:
-    """Part of the lit wall, from the rim down, that light of slope ratio `m` reaches."""
+    """Part of the lit wall, from the rim down, that light of slope ratio `m` reaches.
+
+    Examples
+    --------
+    >>> lit_fraction(np.array([0.5, -3.0])).tolist()
+    [1.0, 0.5]
+    """
     return np.asarray(2 / (1 + np.maximum(np.abs(m), 1)))
 
 
@@ -106,6 +119,12 @@ def exchange_per_length(v_i: Array, v_r: Array, slope: Array) -> Array:
 
     Both divisions are done by algebra. The plain quotient loses every digit at grazing incidence,
     where v falls to 1e-16 and M₁ with it.
+
+    Examples
+    --------
+    >>> whole, slope = np.ones(2), np.radians([0.0, 45.0])
+    >>> np.round(exchange_per_length(whole, whole, slope), 4).tolist()
+    [0.0, 0.2929]
     """
     p, q = 1 - v_i, 1 - v_r
     cos_opening = -np.cos(2 * slope)

@@ -47,6 +47,12 @@ def tail_shares(ratio: Array, bounces: int) -> Array:
     Returns
     -------
     Least-squares shares over 0 ≤ ρ ≤ 1, exact at ρ = 1, shape (..., J).
+
+    Examples
+    --------
+    >>> shares, albedo = tail_shares(np.array([0.5]), 6), np.array([0.3, 1.0])
+    >>> np.round(shares @ (1 / (1 - np.outer(TAIL_RATIOS, albedo))), 3).tolist()
+    [[1.064, 2.0]]
     """
     # ρ crowds toward 1, where 1 / (1 - ρ g) does what it does.
     rho = 1 - np.concatenate(([0], np.geomspace(1e-4, 0.95, 60)))
@@ -63,6 +69,12 @@ def evaluate(series: Array, albedo: Array) -> Array:
     """r(ρ) of rows (..., K + J) at albedos (..., bands); leading axes broadcast.
 
     The result has the precision of `albedo`.
+
+    Examples
+    --------
+    >>> row = np.concatenate(([0.5, 0.25], np.zeros(TAIL_RATIOS.size)))
+    >>> np.round(evaluate(row, np.array([-0.1, 0.4, 1.0, 2.0])), 4).tolist()
+    [-0.05, 0.24, 0.75, 1.5]
     """
     series = series.astype(albedo.dtype, copy=False)
     if albedo.ndim == 1:
@@ -79,7 +91,14 @@ def evaluate(series: Array, albedo: Array) -> Array:
 
 
 def invert(series: Array, reading: Array) -> Array:
-    """ρ with r(ρ) = `reading`, by a fixed number of Newton steps; shapes as in `evaluate`."""
+    """ρ with r(ρ) = `reading`, by a fixed number of Newton steps; shapes as in `evaluate`.
+
+    Examples
+    --------
+    >>> row = np.concatenate(([0.5, 0.25], np.zeros(TAIL_RATIOS.size)))
+    >>> np.round(invert(row, np.array([-0.05, 0.24, 0.75, 1.5])), 12).tolist()
+    [-0.1, 0.4, 1.0, 2.0]
+    """
     series = series.astype(reading.dtype, copy=False)
     rows, values, shape = _align(series, reading)
     white, _ = _value_and_slope(rows, np.ones((rows.shape[0], 1), rows.dtype))

@@ -42,6 +42,12 @@ def nodes(per_panel: int) -> Array:
     """Slopes at which grooves are solved, radians, shape (1 + panels · per_panel,).
 
     The first is 0: a level surface, whose answer is known, so that nothing but ρ is left as σ → 0.
+
+    Examples
+    --------
+    >>> slopes = nodes(6)
+    >>> slopes.size, float(slopes[0]), bool(slopes.max() < np.pi / 2)
+    (85, 0.0, True)
     """
     points, _ = _gauss(per_panel)
     low, high = PANEL_EDGES[:-1, np.newaxis], PANEL_EDGES[1:, np.newaxis]
@@ -52,6 +58,12 @@ def weights(sigma: Array, per_panel: int) -> Array:
     """Share of each slope of `nodes` at roughness σ (radians, shape (n,)): shape (n, slopes).
 
     The weights of one σ add up to 1. At σ = 0 they are those of a level surface.
+
+    Examples
+    --------
+    >>> shares = weights(np.array([0.0, 0.5]), 6)
+    >>> np.round(shares.sum(axis=1), 12).tolist(), float(shares[0, 0])
+    ([1.0, 1.0], 1.0)
     """
     if sigma.size > _BLOCK:
         blocks = np.split(sigma, range(_BLOCK, sigma.size, _BLOCK))

@@ -73,6 +73,15 @@ def response(
     Returns
     -------
     Rows of `core.vcavity_series`, shape (geometries, slopes, K + J).
+
+    Examples
+    --------
+    >>> coarse = Resolution(slopes=3, azimuths=3, panels=16, table=32)
+    >>> rows = response(np.array([0.7]), np.array([0.2]), np.array([1.0]), 6, coarse)
+    >>> rows.shape
+    (1, 43, 15)
+    >>> np.round(rows[0, 0, :3], 6).tolist()
+    [1.0, 0.0, 0.0]
     """
     solver = _solver(bounces, resolution)
     slope = solver.grooves.slope

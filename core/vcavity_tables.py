@@ -77,7 +77,15 @@ def build(
     weight: Array,
     resolution: Resolution = STANDARD,
 ) -> SigmaTable:
-    """Solve a weighted mean of geometries (radians, shape (geometries,)) for every σ."""
+    """Solve a weighted mean of geometries (radians, shape (geometries,)) for every σ.
+
+    Examples
+    --------
+    >>> half = np.array([0.5, 0.5])
+    >>> table = build(np.array([0.7, 0.8]), np.zeros(2), np.zeros(2), half)
+    >>> table.rows(0.0)[:3].tolist()
+    [1.0, 0.0, 0.0]
+    """
     answer = np.zeros((1, 1))
     for angles in zip(theta_i, theta_r, delta_phi, weight, strict=True):
         light, view, azimuth = (np.array([angle]) for angle in angles[:3])
@@ -99,6 +107,11 @@ def ring() -> SigmaTable:
     """Table of the ideal 45a:0 instrument.
 
     At θr = 0 the azimuth has no meaning, so one geometry stands for the ring.
+
+    Examples
+    --------
+    >>> round(float(ring().rows(np.radians(30))[0]), 4)
+    0.7765
     """
     return build(np.array([np.pi / 4]), np.zeros(1), np.zeros(1), np.ones(1))
 
@@ -121,6 +134,11 @@ def ring_coefficients(sigma: npt.ArrayLike, bounces: int = SERIES_BOUNCES) -> Ar
     ------
     DomainError
         If σ is out of range.
+
+    Examples
+    --------
+    >>> np.round(ring_coefficients([0.0, 0.5], bounces=3), 3).tolist()
+    [[1.0, 0.0, 0.0], [0.791, 0.127, 0.04]]
     """
     dtype = precision(sigma)
     return ring().rows(sigma)[..., :bounces].astype(dtype, copy=False)
@@ -145,6 +163,11 @@ def reading_from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `albedo` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(reading_from_albedo([0.2, 0.6, 1.0], 0.5), 3).tolist()
+    [0.164, 0.533, 1.007]
     """
     return vcavity_series.evaluate(ring().rows(sigma), spectrum(albedo, "the albedo"))
 
@@ -170,5 +193,10 @@ def albedo_from_reading(reading: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     ------
     DomainError
         If σ is out of range or `reading` has no band axis.
+
+    Examples
+    --------
+    >>> np.round(albedo_from_reading(reading_from_albedo([0.2, 0.6], 0.5), 0.5), 9).tolist()
+    [0.2, 0.6]
     """
     return vcavity_series.invert(ring().rows(sigma), spectrum(reading, "the reading"))

@@ -69,6 +69,11 @@ def reflectance(
     ------
     DomainError
         If an angle lies outside its range.
+
+    Examples
+    --------
+    >>> np.round(reflectance([[0.2, 0.6]], [np.pi / 4], [0.0], [0.0], 0.5), 2).tolist()
+    [[[0.16, 0.53]]]
     """
     rho = spectrum(albedo, "the albedo").astype(np.float64, copy=False)
     spread = np.broadcast_to(slope_deviation(sigma, rho.dtype), rho.shape[:1])
@@ -94,6 +99,13 @@ def bound(
     """Largest relative error of `reflectance` against `core.vcavity`; arguments broadcast.
 
     0 where σ = 0, infinite beyond `LARGEST_ANGLE`.
+
+    Examples
+    --------
+    >>> bound(0.8, 0.1, 0.0, [0.0, 0.5]).round(4).tolist()
+    [0.0, 0.002]
+    >>> float(bound(1.5, 0.1, 0.0, 0.5))
+    inf
     """
     polar, azimuth, beyond = _bins(*_as_arrays(theta_i, theta_r, delta_phi))
     spread = np.asarray(sigma, np.float64)
@@ -208,7 +220,14 @@ def _basis() -> Array:
 
 
 def pack(values: Array, steps: Array) -> str:
-    """Write columns as multiples of their steps: 16-bit integers, deflated, in base 85."""
+    """Write columns as multiples of their steps: 16-bit integers, deflated, in base 85.
+
+    Examples
+    --------
+    >>> steps = np.array([0.5, 0.25])
+    >>> unpack(pack(np.array([[1.0, 2.0], [1.5, -0.3]]), steps), (0.5, 0.25)).tolist()
+    [[1.0, 2.0], [1.5, -0.25]]
+    """
     integers = np.rint(values / steps).astype("<i2")
     # High and low bytes apart: the high ones of small columns are all alike.
     planes = integers.T.copy().view(np.uint8).reshape(-1, 2).T
@@ -216,7 +235,13 @@ def pack(values: Array, steps: Array) -> str:
 
 
 def unpack(text: str, steps: tuple[float, ...]) -> Array:
-    """Read what `pack` wrote: shape (rows, columns)."""
+    """Read what `pack` wrote: shape (rows, columns).
+
+    Examples
+    --------
+    >>> unpack(pack(np.array([[1.0], [-2.0]]), np.array([0.5])), (0.5,)).tolist()
+    [[1.0], [-2.0]]
+    """
     planes = np.frombuffer(zlib.decompress(base64.b85decode(text)), np.uint8).reshape(2, -1)
     integers = planes.T.copy().view("<i2").reshape(len(steps), -1)
     return np.asarray(integers.T * np.array(steps))

@@ -31,7 +31,7 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon import assign, colorimetry, outputs, presets, target
 from rough_spectra.addon.science import colour
-from rough_spectra.core import geometry, oren_nayar, reading
+from rough_spectra.core import color_difference, geometry, oren_nayar, reading
 
 MATERIALS = 1000
 ROWS = 100_000
@@ -168,8 +168,8 @@ def xyz_row() -> Row:
         warnings.simplefilter("ignore")
         took, beside = best_milliseconds(lambda: many @ matrix, peer, repetitions=5)
         white = matrix.sum(axis=0)
-        labs = (colorimetry.xyz_to_lab(xyz, white) for xyz in (chosen @ matrix, peer() / 100))
-    error = float(colorimetry.delta_e(*labs).max())
+        labs = (color_difference.xyz_to_lab(xyz, white) for xyz in (chosen @ matrix, peer() / 100))
+    error = float(color_difference.delta_e(*labs).max())
     return Row(
         f"XYZ of a spectrum of {wavelengths.size} bands, ASTM E308, float64",
         took / len(many),

@@ -27,7 +27,6 @@ import numpy as np
 MATERIALS = 500
 DRAWS = 200
 STEPS = 40
-MODELS = ("auto", "lambert", "first-order", "two-bounce", "closure", "reference")
 FIGURES = (("sheet", 280), ("swatches", 96))
 PRESET = "colorchecker/14-green"
 
@@ -45,6 +44,7 @@ def main() -> None:
     extension = importlib.import_module("run_command_line").load_extension()
     import bpy
 
+    models = ("auto", *importlib.import_module("rough_spectra.core.models").NAMES)
     print(f"Blender {bpy.app.version_string}; milliseconds of processor time: least (median)")
     pace()
     row("register", [timed(extension.register)])
@@ -54,12 +54,12 @@ def main() -> None:
     material = thing.active_material
     row("first pictures", [timed(lambda: pictures(material, 1))])
     drawing(thing)
-    for model in MODELS:
+    for model in models:
         dragging(material, model)
     others(material)
     pace()
     print(bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT"), "to the scene's lights")
-    for model in MODELS:
+    for model in models:
         dragging(material, model)
     others(material)
     pace()

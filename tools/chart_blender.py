@@ -23,9 +23,10 @@ from .chart_judge import Judge
 from .chart_timing import best_of_turns
 from .chart_work import BANDS, SIGMAS, Array, Work, summary, write_json
 
-from rough_spectra.addon import assign, colorimetry, target, working_space  # isort: skip
+from rough_spectra.addon import assign, target, working_space  # isort: skip
 from rough_spectra.addon.sample import Sample  # isort: skip
 from rough_spectra.addon.spectrophotometer.measure import Geometry, measure  # isort: skip
+from rough_spectra.core import color_difference  # isort: skip
 
 EVERY = 2
 """Of the work's geometries every second one is rendered."""
@@ -79,7 +80,7 @@ def judge(work: Work, rough: list[Any], flat: list[Any], fits: list[bool]) -> di
     found: dict[str, Any] = {"patches": int(inside.sum())}
     for index, name in enumerate(("rough", "lambert")):
         apart = [
-            colorimetry.delta_e(lab[:, index, s], truth[s])[:, inside[s]]
+            color_difference.delta_e(lab[:, index, s], truth[s])[:, inside[s]]
             for s in range(SIGMAS.size)
         ]
         found[name] = {

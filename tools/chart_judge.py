@@ -23,6 +23,7 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon import colorimetry
 from rough_spectra.addon.science import colour
+from rough_spectra.core import color_difference
 
 
 def _without_warnings(convert: Callable[[Array], Array]) -> Callable[[Array], Array]:
@@ -59,11 +60,11 @@ class Judge:
         if ends_in == "bands":
             answer = np.maximum(answer, 0)
         xyz = np.maximum(np.asarray(answer, np.float64) @ self._to_xyz[ends_in], 0)
-        return colorimetry.xyz_to_lab(xyz, self._white)
+        return color_difference.xyz_to_lab(xyz, self._white)
 
     def delta_e(self, answer: Array, truth: Array, ends_in: str = "bands") -> Array:
         """ΔE00 between answers of any kind and spectra."""
-        return colorimetry.delta_e(self.lab(answer, ends_in), self.lab(truth))
+        return color_difference.delta_e(self.lab(answer, ends_in), self.lab(truth))
 
     def errors(self, answer: Array, truth: Array, ends_in: str = "bands") -> dict[str, Any]:
         """Mean, 95th percentile and maximum of ΔE00 and, where there are bands, of reflectance."""

@@ -29,7 +29,7 @@ if "rough_spectra" not in sys.modules:
     importlib.import_module("run_command_line").load_extension()
 
 from rough_spectra.addon import colorimetry
-from rough_spectra.core import ladder
+from rough_spectra.core import color_difference, ladder, models
 from rough_spectra.core.arrays import Array
 
 WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
@@ -169,7 +169,6 @@ def choose(scenes: Sequence[Scene]) -> list[ladder.Choice]:
             (geometries[0], geometries[1], geometries[2]),
             [_weights(name) for name in illuminants],
             np.array([scenes[i].tolerance for i in members]),
-            difference=difference,
         )
         found.update(zip(members, choices, strict=True))
     return [found[i] for i in range(len(scenes))]
@@ -181,9 +180,9 @@ def _weights(illuminant: str) -> Array:
 
 
 def difference(xyz: Array, other: Array, white: Array) -> Array:
-    """CIEDE2000 by colour-science."""
-    return colorimetry.delta_e(
-        colorimetry.xyz_to_lab(xyz, white), colorimetry.xyz_to_lab(other, white)
+    """CIEDE2000 of XYZ under a white."""
+    return color_difference.delta_e(
+        color_difference.xyz_to_lab(xyz, white), color_difference.xyz_to_lab(other, white)
     )
 
 
@@ -192,16 +191,16 @@ def judge(scene: Scene, choice: ladder.Choice) -> Verdict:
     light, view, azimuth = scene.geometries
     spectra = {
         rung: ladder.reflectance(rung, scene.albedo, light, view, azimuth, scene.sigma)
-        for rung in ladder.RUNGS
+        for rung in models.NAMES
     }
-    errors = dict.fromkeys(ladder.RUNGS, 0.0)
+    errors = dict.fromkeys(models.NAMES, 0.0)
     for name in scene.illuminants:
         matrix = _weights(name)
         reference = spectra["reference"] @ matrix
-        for rung in ladder.RUNGS[:-1]:
+        for rung in models.NAMES[:-1]:
             found = difference(spectra[rung] @ matrix, reference, matrix.sum(axis=0))
             errors[rung] = max(errors[rung], float(found.max()))
-    cheapest = next(rung for rung in ladder.RUNGS if errors[rung] <= scene.tolerance)
+    cheapest = next(rung for rung in models.NAMES if errors[rung] <= scene.tolerance)
     return Verdict(choice, errors, cheapest, scene.tolerance)
 
 
@@ -209,7 +208,7 @@ def report(verdicts: Sequence[Verdict]) -> None:
     """Print how good the choices are."""
     right = sum(verdict.choice.model == verdict.cheapest for verdict in verdicts)
     dearer = sum(
-        ladder.RUNGS.index(verdict.choice.model) > ladder.RUNGS.index(verdict.cheapest)
+        models.NAMES.index(verdict.choice.model) > models.NAMES.index(verdict.cheapest)
         for verdict in verdicts
     )
     excess = np.array([verdict.excess for verdict in verdicts])
@@ -220,7 +219,7 @@ def report(verdicts: Sequence[Verdict]) -> None:
         f"by {max(0.0, excess.max() - 1):.1%} at most\n"
     )
     chosen = Counter(verdict.choice.model for verdict in verdicts)
-    for rung in ladder.RUNGS:
+    for rung in models.NAMES:
         true = np.array([verdict.true_errors[rung] for verdict in verdicts])
         gap = np.array([verdict.choice.errors[rung] for verdict in verdicts]) - true
         sys.stdout.write(
@@ -236,7 +235,7 @@ def _time_shared(scenes: Sequence[Scene]) -> float:
     sigma = np.array([scene.sigma for scene in scenes])
     light = _weights("D65")
     start = time.process_time()
-    ladder.choose_model(albedos, sigma, tuple(geometries), [light], difference=difference)
+    ladder.choose_model(albedos, sigma, tuple(geometries), [light])
     return (time.process_time() - start) / len(scenes)
 
 

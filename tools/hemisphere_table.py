@@ -29,7 +29,7 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon import assign, colorimetry, outputs, presets, target, working_space
 from rough_spectra.addon.spectrophotometer.measure import Geometry, measure
-from rough_spectra.core import geometry, ladder, reading
+from rough_spectra.core import color_difference, geometry, ladder, reading
 from rough_spectra.core.arrays import Array
 
 SIGMAS = (15, 30, 45)
@@ -110,7 +110,7 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
             ("Diffuse BSDF, matched", seen[:, members]),
             ("Lambertian, same 45°/0° reading", np.broadcast_to(flat, wanted.shape)),
         ):
-            apart = colorimetry.delta_e(lab, wanted)
+            apart = color_difference.delta_e(lab, wanted)
             rows.append(
                 Row(
                     round(float(np.degrees(first.sigma))),

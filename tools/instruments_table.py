@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far apart two instruments read the same surface: table, data and figure of the manual.
+"""Which instruments there are, and how far apart they read: tables, data and figure of the manual.
 
     python3 tools/instruments_table.py
 
-runs itself where colour-science is, to write docs/data/instruments.csv and the table of
+runs itself where colour-science is, to write docs/data/instruments.csv and the two tables of
 docs/instruments.md, and then where matplotlib is, for the figure. Equal numbers give equal bytes.
 """
 
@@ -26,6 +26,7 @@ FIGURE = ROOT / "docs" / "images" / "instruments"
 SIGMAS = (15, 30, 45)
 """Degrees."""
 START, END = "<!-- table: instruments -->\n", "<!-- end -->"
+WHICH = "<!-- table: which -->\n"
 FIELDS = ("instrument", "title", "sigma_degrees", "mean_lightness", "mean", "maximum", "patch")
 NOTE = (
     "# CIEDE2000 between the reading of each instrument and that at 45a:0; ColorChecker N Ohta as "
@@ -40,7 +41,7 @@ def rows() -> list[dict[str, Any]]:
         importlib.import_module("run_command_line").load_extension()
     import numpy as np
     from rough_spectra.addon import colorimetry, presets
-    from rough_spectra.core import instruments, reading
+    from rough_spectra.core import color_difference, instruments, reading
 
     samples = [sample for sample in presets.load_all("colorchecker") if sample.kind == "albedo"]
     albedos = np.stack([sample.values for sample in samples])
@@ -54,7 +55,7 @@ def rows() -> list[dict[str, Any]]:
         usual = lab("45a:0", degrees)
         for name, instrument in instruments.REGISTRY.items():
             here = lab(name, degrees)
-            apart = colorimetry.delta_e(usual, here)
+            apart = color_difference.delta_e(usual, here)
             most = int(np.argmax(apart))
             values = (
                 name,
@@ -68,6 +69,50 @@ def rows() -> list[dict[str, Any]]:
             )
             found.append(dict(zip(FIELDS, values, strict=True)))
     return found
+
+
+def described() -> str:
+    """Give the table of what there is: name, light and view of every record."""
+    if "rough_spectra" not in sys.modules:
+        importlib.import_module("run_command_line").load_extension()
+    from rough_spectra.core import instruments
+
+    lines = ["| name | light | view |", "| --- | --- | --- |"]
+    for name, of in instruments.REGISTRY.items():
+        light = words(of.light)
+        if of.trap:
+            cut = f"a cone of half-angle {of.trap:g}° in the mirror direction"
+            light += f" but {cut} (specular excluded)"
+        elif of.light == instruments.HEMISPHERE:
+            light += " (sphere, specular included)"
+        elif not of.light.is_symmetric:
+            light += ", from one side"
+        view = words(of.view)
+        if not of.light.is_symmetric and not of.view.is_symmetric:
+            far = of.azimuth > 90
+            beyond = far and of.view.tilt > of.light.tilt
+            view += (
+                ", beyond the mirror direction"
+                if beyond
+                else f" on the side of the {'mirror direction' if far else 'light'}"
+            )
+        lines.append(f"| `{name}` | {light} | {view} |")
+    return "\n".join(lines) + "\n"
+
+
+def words(beam: Any) -> str:
+    """Say where a beam is."""
+    inner, outer = beam.tilt - beam.half_angle, beam.tilt + beam.half_angle
+    if beam.all_around:
+        if outer >= 90 and inner <= 0:
+            return "whole hemisphere"
+        return (
+            f"ring from {inner:g}° to {outer:g}°" if beam.half_angle else f"ring at {beam.tilt:g}°"
+        )
+    axis = f"{beam.tilt:g}°" if beam.tilt else "the normal"
+    if beam.half_angle:
+        return f"cone of half-angle {beam.half_angle:g}° around {axis}"
+    return axis if beam.tilt else "along the normal"
 
 
 def csv_text(found: list[dict[str, Any]]) -> str:
@@ -93,10 +138,10 @@ def markdown(found: list[dict[str, Any]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def fill(page: str, table: str) -> str:
+def fill(page: str, table: str, start: str = START) -> str:
     """Put the table between its marks in the page."""
-    before, rest = page.split(START)
-    return before + START + "\n" + table + "\n" + END + rest.split(END, 1)[1]
+    before, rest = page.split(start)
+    return before + start + "\n" + table + "\n" + END + rest.split(END, 1)[1]
 
 
 def draw() -> None:
@@ -157,6 +202,7 @@ def main(arguments: list[str]) -> int:
         found = rows()
         DATA.write_text(csv_text(found), encoding="utf-8", newline="\n")
         page = fill(PAGE.read_text("utf-8"), markdown(found))
+        page = fill(page, described(), WHICH)
         PAGE.write_text(page, encoding="utf-8", newline="\n")
         return 0
     if arguments == ["--draw"]:

@@ -189,11 +189,11 @@ def errors(scene: Any, materials: list[Any], passes: dict[str, np.ndarray]) -> d
 
 def difference(shown: np.ndarray, truth: np.ndarray, white: np.ndarray) -> float:
     """Mean ΔE00 of colors (pixels, 3), each seen under the light of its place."""
-    from rough_spectra.addon import colorimetry
+    from rough_spectra.core import color_difference
 
     level = white[:, 1:2]
-    labs = [colorimetry.xyz_to_lab(xyz / level, white / level) for xyz in (shown, truth)]
-    return float(np.mean(colorimetry.delta_e(*labs)))
+    labs = [color_difference.xyz_to_lab(xyz / level, white / level) for xyz in (shown, truth)]
+    return float(np.mean(color_difference.delta_e(*labs)))
 
 
 def main() -> None:

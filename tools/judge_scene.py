@@ -70,8 +70,8 @@ def picture(depsgraph: Any, scene: Any) -> dict[Any, tuple[Any, ...]]:
 
 def errors(seen: Mapping[Any, tuple[Any, ...]]) -> dict[Any, float]:
     """Mean ΔE00 over the hits of each material, as its shader is now."""
-    from rough_spectra.addon import colorimetry, light_spectrum, nodes, storage, working_space
-    from rough_spectra.core import cycles, ladder
+    from rough_spectra.addon import light_spectrum, nodes, storage, working_space
+    from rough_spectra.core import color_difference, cycles, ladder
 
     from_xyz = working_space.current().from_xyz
     found = {}
@@ -99,7 +99,7 @@ def errors(seen: Mapping[Any, tuple[Any, ...]]) -> dict[Any, float]:
             np.add.at(total, places, part * samples.light[:, np.newaxis])
         level = sums[2, :, 1:2]
         labs = [_lab(part / level, sums[2] / level) for part in sums[:2]]
-        found[material] = float(colorimetry.delta_e(*labs).mean())
+        found[material] = float(color_difference.delta_e(*labs).mean())
     return found
 
 
@@ -119,9 +119,9 @@ def everywhere(view: Any) -> Any:
 
 
 def _lab(xyz: np.ndarray, white: np.ndarray) -> np.ndarray:
-    from rough_spectra.addon import colorimetry
+    from rough_spectra.core import color_difference
 
-    return colorimetry.xyz_to_lab(xyz, white)
+    return color_difference.xyz_to_lab(xyz, white)
 
 
 def main() -> None:

@@ -42,9 +42,9 @@ def difference_of_a_step(sample: Any) -> float:
     Over `DIRECTIONS` of light and view below 80°, all bounces counted, under D65.
     """
     colorimetry = importlib.import_module("rough_spectra.addon.colorimetry")
-    geometry, ladder, reading = (
+    color_difference, geometry, ladder, reading = (
         importlib.import_module(f"rough_spectra.core.{name}")
-        for name in ("geometry", "ladder", "reading")
+        for name in ("color_difference", "geometry", "ladder", "reading")
     )
     weights = colorimetry.weights(sample.wavelengths, "D65", 2)
     directions = geometry.hemisphere(DIRECTIONS)
@@ -52,11 +52,12 @@ def difference_of_a_step(sample: Any) -> float:
     def seen(sigma: float) -> Any:
         albedo = reading.to_albedo(sample.reflectance, sigma, "closure", sample.instrument)
         spectra = ladder.reflectance("closure", np.minimum(albedo, 1), *directions, sigma)
-        return colorimetry.xyz_to_lab(spectra @ weights, weights.sum(axis=0))
+        return color_difference.xyz_to_lab(spectra @ weights, weights.sum(axis=0))
 
     sigma = np.radians(sample.sigma_degrees)
     return max(
-        float(colorimetry.delta_e(seen(sigma + step), seen(sigma)).mean()) for step in (-STEP, STEP)
+        float(color_difference.delta_e(seen(sigma + step), seen(sigma)).mean())
+        for step in (-STEP, STEP)
     )
 
 

@@ -28,7 +28,7 @@ if "rough_spectra" not in sys.modules:
 from rough_spectra.addon import colorimetry, outputs, presets
 from rough_spectra.addon.sample import Sample
 from rough_spectra.addon.science import colour
-from rough_spectra.core import reading, vcavity
+from rough_spectra.core import color_difference, reading, vcavity
 
 Array = NDArray[np.float64]
 
@@ -132,13 +132,14 @@ def rows() -> list[Row]:
         weights = colorimetry.weights(wavelengths, "D65", observer)
         white = weights.sum(axis=0)
         before = albedo @ weights
-        lab = colorimetry.xyz_to_lab(before, white)
+        lab = color_difference.xyz_to_lab(before, white)
         target = predict(albedo, SIGMA, "reference") @ weights
         for model in MODELS:
             after = predict(albedo, SIGMA, model) @ weights
             k = after[:, 1:2] / before[:, 1:2]
             lab_after, lab_darkened, lab_equal, lab_target = (
-                colorimetry.xyz_to_lab(xyz, white) for xyz in (after, k * before, after / k, target)
+                color_difference.xyz_to_lab(xyz, white)
+                for xyz in (after, k * before, after / k, target)
             )
             columns = (
                 k[:, 0],
@@ -148,10 +149,10 @@ def rows() -> list[Row]:
                 ab_distance(lab, lab_darkened),
                 ab_distance(lab_darkened, lab_after),
                 ab_distance(lab, lab_equal),
-                colorimetry.delta_e(lab, lab_after),
-                colorimetry.delta_e(lab, lab_equal),
+                color_difference.delta_e(lab, lab_after),
+                color_difference.delta_e(lab, lab_equal),
                 np.linalg.norm(uv(before) - uv(after), axis=-1),
-                colorimetry.delta_e(lab_target, lab_after),
+                color_difference.delta_e(lab_target, lab_after),
             )
             table = np.stack(columns, axis=-1).tolist()
             found += [
@@ -212,7 +213,7 @@ def _distances(
     """Distance in the a*b* plane of the two-bounce reading: as it is, at equal luminance."""
     weights = colorimetry.weights(wavelengths, illuminant, observer)
     before, after = albedo @ weights, predict(albedo, SIGMA, "two-bounce") @ weights
-    lab, as_is, equal = colorimetry.xyz_to_lab(
+    lab, as_is, equal = color_difference.xyz_to_lab(
         np.stack((before, after, after * before[1] / after[1])), weights.sum(axis=0)
     )
     return float(ab_distance(lab, as_is)), float(ab_distance(lab, equal))

@@ -6,9 +6,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core import cycles, geometry, ladder, reading, yardstick
+from ...core import (
+    color_difference,
+    cycles,
+    cycles_instrument,
+    geometry,
+    ladder,
+    yardstick,
+)
 from ...core.arrays import Array
-from .. import colorimetry, scene_match, target
+from .. import scene_match, target
 from ..rgb_space import WorkingSpace
 from ..scene_view import SceneView
 from ..target import MATCH_GEOMETRIES, VIRTUAL, Request
@@ -35,11 +42,11 @@ def differences(
     """
     (seen, albedo), (color, roughness) = spectra, shader
     bands = request.sample.wavelengths
-    at_instrument = cycles.reflectance(color, roughness, *reading.INSTRUMENT_ANGLES[VIRTUAL])
+    at_instrument = cycles_instrument.reflectance(color, roughness, VIRTUAL)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
-        wanted = colorimetry.xyz_to_lab(seen @ light.weights(bands), light.white)
-        apart = colorimetry.delta_e(scene_match.to_lab(at_instrument, light, space), wanted)
+        wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)
+        apart = color_difference.delta_e(scene_match.to_lab(at_instrument, light, space), wanted)
         over = target.differences(request, view, color, roughness, space)
         high = scene_match.percentile(over, view.place_weights, 0.95)
         return float(apart), float(np.average(over, weights=view.place_weights)), high
@@ -49,7 +56,7 @@ def differences(
     wanted = space.to_lab(reflected @ rgb, request.illuminant)
     shown = cycles.reflectance(color, np.full(MATCH_GEOMETRIES, roughness), *angles)
     found = space.to_lab(np.vstack((shown, at_instrument)), request.illuminant)
-    *over_angles, apart = colorimetry.delta_e(found, wanted)
+    *over_angles, apart = color_difference.delta_e(found, wanted)
     return float(apart), float(np.mean(over_angles)), float(np.percentile(over_angles, 95))
 
 
@@ -74,7 +81,7 @@ def under_main_light(
     Scene-linear RGB, shape (3,), adapted to the working space's white: it can be put on a screen.
     """
     light = view.lights[0]
-    adapt = space.from_xyz @ colorimetry.adaptation(light.white, space.white)
+    adapt = space.from_xyz @ color_difference.adaptation(light.white, space.white)
     return adapt @ (seen @ light.weights(bands)), adapt @ scene_match.to_xyz(shown, light, space)
 
 

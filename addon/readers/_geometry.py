@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import re
 
-from ...core.instruments import ASPECULAR, REGISTRY
+from ...core.instruments import HEMISPHERE, REGISTRY, Instrument
 from ._document import quote
 
 ASSUMED = "45a:0"
 """Where a file says nothing: the geometry of most portable instruments, and of ISO 13655."""
 
+_OTHER = "is not among the instruments"
 _LONGEST = 200  # characters of a description that are looked at
 _NUMBER = r"([-+]?\d+(?:[.,]\d+)?)"
 _RING = r"(annular|a|circumferential|c|ring|directional|x)?"
@@ -110,10 +111,10 @@ def _multi_angle(plain: str) -> tuple[str, str] | None:
         return None
     light = _value(match[2]) if match[2] else 45.0
     angle = _value(next(text for text in (match[1], match[3], match[4]) if text))
-    nearest = min(ASPECULAR, key=lambda known: abs(known - angle))
-    name = f"45as{nearest}"
-    exact = nearest == angle and light == 45.0
-    return name, "" if exact else "is not among the instruments"
+    known = {i.aspecular: i for i in REGISTRY.values() if i.aspecular is not None}
+    nearest = min(known, key=lambda aspecular: abs(aspecular - angle))
+    exact = nearest == angle and light == known[nearest].light.tilt
+    return known[nearest].name, "" if exact else _OTHER
 
 
 def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
@@ -124,17 +125,28 @@ def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
     says = specular or specular_of(plain)
     angle = _value(match[2] or match[3] or match[6]) if match else _angle_alone(plain)
     whole = bool(_ONE_DIRECTION.search(plain)) or (match is not None and "h" in match[0])
-    if both or angle == 0.0:
-        # A detector at 0° looks at its own opening, which is a gloss trap (ISO 2469 has one too).
-        return "de:8" if says != "SCI" and not both else "di:8", "is not among the instruments"
-    name = "de:8" if says == "SCE" else "di:8"
-    if angle is not None and angle != 8.0:
-        return name, "is not among the instruments"
+    # A detector at 0° looks at its own opening, which is a gloss trap (ISO 2469 has one too).
+    trapped = says == "SCE" or (angle == 0.0 and says != "SCI")
+    nearest = _nearest_sphere(angle, trapped and not both)
+    if both or (angle is not None and angle != nearest.view.tilt):
+        return nearest.name, _OTHER
     if angle is None:
-        return name, "does not name an angle"
-    if not says and not whole:
-        return name, "does not say whether specular light is included"
-    return name, ""
+        return nearest.name, "does not name an angle"
+    if not says and not whole and angle != 0.0:
+        return nearest.name, "does not say whether specular light is included"
+    return nearest.name, ""
+
+
+def _nearest_sphere(angle: float | None, trapped: bool) -> Instrument:
+    """Return the sphere, with a gloss trap or without, whose detector looks from nearest by."""
+    spheres = [
+        instrument
+        for instrument in REGISTRY.values()
+        if instrument.light == HEMISPHERE and bool(instrument.trap) == trapped
+    ]
+    if angle is None:
+        return spheres[0]
+    return min(spheres, key=lambda instrument: abs(instrument.view.tilt - angle))
 
 
 def _angle_alone(plain: str) -> float | None:
@@ -151,14 +163,32 @@ def _two_angles(plain: str) -> tuple[str, str] | None:
     light, view = abs(_value(words[1])), abs(_value(words[3 if match else 2]))
     if max(light, view) >= 90.0:
         return None  # a ratio
-    if {light, view} != {0.0, 45.0}:
-        return ASSUMED, "is not among the instruments"
     ring = (match[2] or match[4] or "")[:1] if match else "x"
     if not ring:
         ring = "x" if _SIDE_WORD.search(plain) and not _RING_WORD.search(plain) else "a"
-    if ring in ("x", "d"):
-        return "45x:0", ""
-    return ("45a:0" if light == 45.0 else "0:45a"), ""
+    name = _of_angles(light, view, one_sided=ring in ("x", "d"))
+    return (name, "") if name else (ASSUMED, _OTHER)
+
+
+def _of_angles(light: float, view: float, one_sided: bool) -> str | None:
+    """Return the ideal instrument of two angles, one of them the normal.
+
+    Of the same sides if there is one, and in the same order: else what reads the same.
+    """
+    fits = [
+        instrument
+        for instrument in REGISTRY.values()
+        if instrument.aspecular is None
+        and instrument.light.half_angle == instrument.view.half_angle == 0.0
+        and {instrument.light.tilt, instrument.view.tilt} == {light, view}
+        and 0.0 in (light, view)
+    ]
+
+    def rank(instrument: Instrument) -> tuple[bool, bool]:
+        ring = instrument.light.all_around or instrument.view.all_around
+        return ring == one_sided, instrument.light.tilt != light
+
+    return min(fits, key=rank).name if fits else None
 
 
 def geometry_of_device(model: str) -> str:

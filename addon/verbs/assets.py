@@ -18,7 +18,7 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assets`."""
-    from ...core.ladder import RUNGS
+    from ...core.models import NAMES
     from ..colorimetry import ILLUMINANTS, OBSERVERS
 
     parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="the folder")
@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
-    parser.add_argument("--model", choices=("auto", *RUNGS), default="auto")
+    parser.add_argument("--model", choices=("auto", *NAMES), default="auto")
     parser.add_argument("--shader", choices=("diffuse", "principled"), default="diffuse")
     parser.add_argument("--author", metavar="NAME", help="author of the assets")
 

@@ -17,7 +17,7 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assign`."""
-    from ...core.ladder import RUNGS
+    from ...core.models import NAMES
     from ..colorimetry import ILLUMINANTS, OBSERVERS
 
     source = parser.add_mutually_exclusive_group(required=True)
@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
     parser.add_argument(
         "--model",
-        choices=("auto", *RUNGS),
+        choices=("auto", *NAMES),
         default="auto",
         help="how light between facets is counted; auto takes the cheapest that is good enough",
     )

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon import colorimetry, judgement, presets, readers, target, working_space
 from rough_spectra.addon.sample import Sample
+from rough_spectra.core import color_difference
 
 NIX = sorted((Path(__file__).parents[1] / "fixtures" / "nix").glob("*.csv"))
 
@@ -73,7 +74,7 @@ def shifted(delta_e):
     """The Lab of the smooth spectrum, made lighter by about this ΔE00."""
     lab = colorimetry.spectrum_to_lab(SMOOTH, NM, "D50", 2)
     other = lab
-    while colorimetry.delta_e(lab, other) < delta_e:
+    while color_difference.delta_e(lab, other) < delta_e:
         other = other + np.array([0.001, 0, 0])
     return other
 

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon import colorimetry, library, presets, readers, swatches
 from rough_spectra.addon.sample import Sample
+from rough_spectra.core import color_difference
 from rough_spectra.core.errors import InputError, OutputError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -271,9 +272,15 @@ def test_nearest_agrees_with_one_by_one(tmp_path):
     matrix = np.array(
         [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
     )
-    lab = colorimetry.xyz_to_lab((matrix @ linear) / matrix.sum(axis=1) * white, white)
+    lab = color_difference.xyz_to_lab((matrix @ linear) / matrix.sum(axis=1) * white, white)
     expected = sorted(
-        (float(colorimetry.delta_e(colorimetry.spectrum_to_lab(s.reflectance, s.wavelengths), lab)))
+        (
+            float(
+                color_difference.delta_e(
+                    colorimetry.spectrum_to_lab(s.reflectance, s.wavelengths), lab
+                )
+            )
+        )
         for s in (library.load(e.id, tmp_path) for e in library.entries(tmp_path))
         if s.wavelengths[0] < 700
     )
@@ -291,7 +298,7 @@ def test_swatches_of_known_colors():
     # The published sRGB of ColorChecker 14 Green (BabelColor, 2012) is 70 148 73; ΔE00 below 3.
     green = presets.load("14")
     assert (
-        colorimetry.delta_e(
+        color_difference.delta_e(
             swatches.of_samples([green])[1][0], swatches.to_lab(np.array([70, 148, 73]) / 255)
         )
         < 3
@@ -325,6 +332,7 @@ from pathlib import Path
 import numpy as np
 from rough_spectra.addon import library, outputs
 from rough_spectra.addon.sample import Sample
+from rough_spectra.core import color_difference
 NM = np.arange(400.0, 701.0, 10.0)
 folder = Path({str(folder)!r})
 def add(name, level):

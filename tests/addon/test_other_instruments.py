@@ -7,17 +7,35 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from rough_spectra.addon import assign, properties, storage, target, working_space
-from rough_spectra.core import reading
+from rough_spectra.core import models, reading
 from rough_spectra.core.instruments import REGISTRY
 
 SIGMA = np.radians(30.0)
 
 
-def test_the_menu_has_every_instrument_and_keeps_its_numbers():
-    items = {item[0]: item[3] for item in properties.INSTRUMENT_ITEMS}
-    assert list(items) == list(REGISTRY)
-    assert sorted(items.values()) == list(range(len(items)))
-    assert items["45a:0"] == 0
+STORED = {
+    "instrument": [
+        *("45a:0", "0:45a", "45x:0", "45a:0-iso", "0:45a-iso", "45x:0-iso", "di:8", "de:8"),
+        *("45as-15", "45as15", "45as25", "45as45", "45as75", "45as110"),
+    ],
+    "model": ["two-bounce", "first-order", "closure", "auto", "lambert", "reference"],
+}
+"""What files hold, in the order of their numbers. Lines are added at the end and never change."""
+
+
+@pytest.mark.parametrize(
+    ("setting", "items", "names"),
+    [
+        ("instrument", properties.INSTRUMENT_ITEMS, [*REGISTRY]),
+        ("model", properties.MODEL_ITEMS, ["auto", *models.NAMES]),
+    ],
+)
+def test_menus_have_every_record_and_keep_the_numbers_that_files_hold(setting, items, names):
+    assert [item[0] for item in items] == names
+    numbers = {item[3]: item[0] for item in items}
+    assert len(numbers) == len(items), "two have the same number"
+    assert [numbers[number] for number in sorted(numbers)] == STORED[setting]
+    assert sorted(numbers) == list(range(len(items)))
 
 
 @pytest.mark.parametrize("instrument", sorted(REGISTRY))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, colorimetry, spectra, target, working_space
+from rough_spectra.addon import assign, spectra, target, working_space
 from rough_spectra.addon.preview import (
     compose,
     data,
@@ -18,7 +18,7 @@ from rough_spectra.addon.preview import (
     text,
     words,
 )
-from rough_spectra.core import reading
+from rough_spectra.core import color_difference, reading
 
 DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
 LIGHT = looks.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
@@ -218,8 +218,8 @@ def test_color_blind_readers_tell_the_curves_apart(look, deficiency):
     from_rgb = np.array(
         ((0.4124, 0.3576, 0.1805), (0.2126, 0.7152, 0.0722), (0.0193, 0.1192, 0.9505))
     )
-    lab = colorimetry.xyz_to_lab(seen @ from_rgb.T, from_rgb.sum(axis=1))
-    apart = colorimetry.delta_e(lab[:, np.newaxis], lab)
+    lab = color_difference.xyz_to_lab(seen @ from_rgb.T, from_rgb.sum(axis=1))
+    apart = color_difference.delta_e(lab[:, np.newaxis], lab)
     # Differences that are seen at a glance; and the curves differ in dash and thickness, too.
     assert apart[0, 1] > 25
     assert min(apart[0, 2], apart[1, 2]) > 15

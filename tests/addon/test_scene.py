@@ -28,7 +28,7 @@ from rough_spectra.addon import (
     working_space,
 )
 from rough_spectra.addon.scene_analysis import sampling
-from rough_spectra.core import cycles, geometry, reading
+from rough_spectra.core import color_difference, cycles, geometry, reading
 from rough_spectra.core.errors import InputError, MaterialError
 
 from tools import judge_scene, make_room
@@ -154,9 +154,10 @@ def test_spectra_of_standard_lights_give_the_colors_of_their_illuminants(colorch
     spectra = {"A": light_spectrum.planck(2855.5), "D50": light_spectrum.daylight(5003)}
     for name, spd in spectra.items():
         matrix = light_spectrum.weights(tuple(bands.tolist()), tuple(spd.tolist()))
-        own = colorimetry.xyz_to_lab(values @ matrix, matrix.sum(axis=0))
+        own = color_difference.xyz_to_lab(values @ matrix, matrix.sum(axis=0))
         assert (
-            colorimetry.delta_e(own, colorimetry.spectrum_to_lab(values, bands, name)).max() < 0.02
+            color_difference.delta_e(own, colorimetry.spectrum_to_lab(values, bands, name)).max()
+            < 0.02
         )
 
 
@@ -234,8 +235,8 @@ def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
         assert found.over_scene == pytest.approx(over, abs=1e-9)
         seen = cycles.reflectance(*shader, *reading.INSTRUMENT_ANGLES["45a:0"])
         for light, apart in zip(view.lights, found.instrument.tolist(), strict=True):
-            wanted = colorimetry.xyz_to_lab(read @ light.weights(bands), light.white)
-            own = colorimetry.delta_e(scene_match.to_lab(seen, light, space), wanted)
+            wanted = color_difference.xyz_to_lab(read @ light.weights(bands), light.white)
+            own = color_difference.delta_e(scene_match.to_lab(seen, light, space), wanted)
             assert apart == pytest.approx(float(own), abs=1e-9)
 
 

@@ -8,7 +8,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 
-from core import cycles, geometry
+from core import cycles, cycles_match
 from core.errors import DomainError
 
 HALF_PI = math.pi / 2
@@ -149,7 +149,7 @@ def test_precision_and_broadcasting(dtype, color_shape, lobe_shape):
         r = cycles.reflectance(color, roughness, np.full(lobe_shape, 0.2), 0.3, 0.4)
         assert r.dtype == dtype
         assert r.shape == (*np.broadcast_shapes(color_shape[:-1], lobe_shape), color_shape[-1])
-    back = cycles.color_for_reading(color, np.full(lobe_shape, 0.5))
+    back = cycles_match.color_for_reading(color, np.full(lobe_shape, 0.5))
     assert back.dtype == dtype
     assert back.shape == (*np.broadcast_shapes(color_shape[:-1], lobe_shape), color_shape[-1])
 
@@ -158,7 +158,7 @@ def test_nothing_in_gives_nothing_out():
     assert cycles.reflectance(np.zeros((0, 3)), 0.5, 0.1, 0.2, 0.3).shape == (0, 3)
     assert cycles.reflectance([0.1, 0.2, 0.3], 0.5, np.zeros(0), 0.2, 0.3).shape == (0, 3)
     assert cycles.reflectance(np.zeros((2, 0)), 0.5, 0.1, 0.2, 0.3).shape == (2, 0)
-    assert cycles.color_for_reading(np.zeros((0, 3)), 0.5).shape == (0, 3)
+    assert cycles_match.color_for_reading(np.zeros((0, 3)), 0.5).shape == (0, 3)
 
 
 def test_nan_stays_where_it_was():
@@ -168,100 +168,10 @@ def test_nan_stays_where_it_was():
     r = cycles.reflectance(color, roughness, light, 0.3, 0.4)
     expected = np.array([False, True, True, False])[:, np.newaxis] | np.isnan(color)
     np.testing.assert_array_equal(np.isnan(r), expected)
-    back = cycles.color_for_reading(color, roughness)
+    back = cycles_match.color_for_reading(color, roughness)
     np.testing.assert_array_equal(
         np.isnan(back), np.isnan(roughness)[:, np.newaxis] | np.isnan(color)
     )
-
-
-@pytest.mark.parametrize(("dtype", "tolerance"), [(np.float64, 1e-14), (np.float32, 2e-6)])
-def test_color_comes_back_from_its_reading(dtype, tolerance):
-    color = np.concatenate(([0, 1e-9, 1e-4], np.linspace(0.01, 1, 40))).astype(dtype)
-    roughness = np.array([0, 1e-9, 0.01, 0.25, 0.5, 0.75, 1], dtype)
-    read = cycles.reflectance(color, roughness, *ANGLES_45_0)
-    back = cycles.color_for_reading(read, roughness)
-    np.testing.assert_allclose(back, np.broadcast_to(color, back.shape), rtol=tolerance, atol=0)
-
-
-def test_colors_out_of_gamut_are_not_clipped():
-    read = np.array([-0.05, 0.0, 1.2])
-    color = cycles.color_for_reading(read, 0.6)
-    assert color[0] < 0
-    assert color[1] == 0
-    assert color[2] > 1
-    np.testing.assert_allclose(cycles.reflectance(color, 0.6, *ANGLES_45_0), read, rtol=1e-13)
-
-
-def identity(rgb):
-    return rgb
-
-
-def distance(a, b):
-    return np.sqrt(((a - b) ** 2).sum(axis=-1))
-
-
-def test_match_finds_cycles_own_materials():
-    """Targets rendered by the closure itself have one right answer."""
-    rng = np.random.default_rng(3)
-    color, roughness = rng.uniform(0.05, 0.9, (40, 3)), rng.uniform(0, 1, 40)
-    roughness[:2] = 0, 1
-    directions = geometry.hemisphere(32)
-    targets = cycles.reflectance(color[:, None], roughness[:, None], *directions)
-    read = cycles.reflectance(color, roughness, *ANGLES_45_0)
-    found_color, found = cycles.match(read, targets, directions, identity, distance)
-    # Half of the last step, 1/128: where the right answer is a kink, a parabola cannot do better.
-    np.testing.assert_allclose(found, roughness, atol=0.5 / 128)
-    np.testing.assert_array_equal(found[:2], roughness[:2])
-    np.testing.assert_allclose(
-        cycles.reflectance(found_color, found, *ANGLES_45_0), read, rtol=1e-13
-    )
-
-
-def test_match_of_one_is_that_of_many():
-    """What a material becomes doesn't depend on what is matched beside it."""
-    rng = np.random.default_rng(5)
-    directions = geometry.hemisphere(16)
-    targets, read = rng.uniform(0.1, 0.9, (150, 16, 3)), rng.uniform(0.1, 0.9, (150, 3))
-    color, roughness = cycles.match(read, targets, directions, identity, distance)
-    for i in (0, 63, 64, 149):
-        one = cycles.match(read[i : i + 1], targets[i : i + 1], directions, identity, distance)
-        np.testing.assert_array_equal(one[0][0], color[i])
-        assert one[1][0] == roughness[i]
-
-
-def test_match_is_as_good_as_trying_a_thousand():
-    """Bumpy costs, as random targets have them; on the smooth ones of surfaces it is far closer."""
-    rng = np.random.default_rng(7)
-    directions = geometry.hemisphere(16)
-    read = rng.uniform(0.1, 0.9, (30, 3))
-    shape = cycles.reflectance(read[:, None], rng.uniform(0, 1, (30, 1)), *directions)
-    targets = shape * rng.uniform(0.95, 1.05, shape.shape)
-
-    def cost(roughness):
-        color = cycles.color_for_reading(read, roughness)
-        seen = cycles.reflectance(
-            color[:, None], np.broadcast_to(roughness, 30)[:, None], *directions
-        )
-        return distance(seen, targets).mean(axis=-1)
-
-    _, found = cycles.match(read, targets, directions, identity, distance)
-    least = np.min([cost(np.full(30, s)) for s in np.linspace(0, 1, 1001)], axis=0)
-    assert (cost(found) / least).max() < 1.002
-
-
-def test_no_reading_up_to_1_needs_a_color_above_1():
-    """At 45°/0° a white lobe of any roughness reads at least 1, so nothing has to be given up."""
-    color = cycles.color_for_reading(np.linspace(0, 1, 101), np.linspace(0, 1, 101)[:, None])
-    # One rounding at roughness 0.
-    assert color.max() <= 1 + 4e-16
-
-
-def test_match_of_no_materials():
-    color, roughness = cycles.match(
-        np.zeros((0, 3)), np.zeros((0, 8, 3)), geometry.hemisphere(8), identity, distance
-    )
-    assert color.shape == (0, 3)
-    assert roughness.shape == (0,)
 
 
 @pytest.mark.parametrize(

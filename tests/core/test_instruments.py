@@ -8,7 +8,9 @@ import pytest
 from core import (
     closure,
     instrument_curves,
+    instrument_directions,
     instruments,
+    models,
     oren_nayar,
     reading,
     vcavity,
@@ -35,13 +37,15 @@ def test_the_names_and_the_default():
     for name in NAMES:
         instrument = instruments.find(name)
         assert instrument.name == name
+        assert instrument.menu
+        assert not instrument.description.endswith(".")
         assert instrument.title
         assert all(ord(letter) < 128 for letter in name)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_weights_and_angles(name):
-    found = instruments.find(name)
+    found = instrument_directions.of(name)
     assert np.sum(found.weights) == pytest.approx(1, rel=1e-15)
     assert (found.weights > 0).all() or name == "de:8"
     for angles, top in ((found.theta_i, 90), (found.theta_r, 90), (found.delta_phi, 180)):
@@ -129,6 +133,30 @@ def test_published_model_agrees_with_random_directions(name):
         assert (np.abs(found - mean) < 4 * noise + 1e-6).all()
 
 
+@pytest.mark.parametrize(
+    ("light", "view", "azimuth"),
+    [((45, 5), (30, 5), 180), ((45, 0), (20, 8), 0), ((60, 5), (10, 0), 90)],
+)
+def test_tilted_cones_agree_with_random_directions(light, view, azimuth):
+    """What no instrument has yet: apertures on both sides, away from the normal."""
+    record = instruments.Instrument(
+        *("x", "", "", "", 99), instruments.Beam(*light), instruments.Beam(*view), float(azimuth)
+    )
+    of = instrument_directions.build(record)
+    numbers = np.random.default_rng(4).random((100_000, 4))
+    lit = in_cone(numbers[:, :2], *light, azimuth)
+    seen = in_cone(numbers[:, 2:], *view, 0)
+    between = np.arctan2(lit[:, 1], lit[:, 0]) - np.arctan2(seen[:, 1], seen[:, 0])
+    weight = lit[:, 2] * seen[:, 2]
+    assert np.sum(of.weights) == pytest.approx(1, rel=1e-14)
+    for found, values in zip(
+        oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, 0.7),
+        oren_nayar.factors(np.arccos(lit[:, 2]), np.arccos(seen[:, 2]), between, 0.7),
+        strict=True,
+    ):
+        assert found @ of.weights == pytest.approx(values @ weight / weight.sum(), rel=1e-3)
+
+
 @pytest.mark.parametrize("name", ["45x:0-iso", "di:8", "de:8"])
 def test_reference_agrees_with_spread_directions(name):
     # 400 directions in an even sequence: 0.2 % was seen, for 2 % of plain random ones.
@@ -163,7 +191,8 @@ def test_gloss_trap_is_cut_out():
 
 @pytest.mark.parametrize("name", AVERAGING)
 def test_twice_the_nodes_change_nothing(name):
-    coarse, fine = instruments.find(name), instruments.build(refinement=2)[name]
+    coarse = instrument_directions.of(name)
+    fine = instrument_directions.build(instruments.find(name), refinement=2)
     assert fine.weights.size >= 4 * coarse.weights.size
     sigma = np.radians([5.0, 20, 50, 90])
     albedo = np.array([0.1, 0.5, 0.9, 1.0])
@@ -181,10 +210,10 @@ def test_twice_the_nodes_change_nothing(name):
             rows = rows + np.tensordot(of.weights[part], answer, 1)
         cavity.append(vcavity_series.evaluate(shares @ rows, albedo))
     for first, second in (published, cavity):
-        np.testing.assert_allclose(first, second, rtol=instruments.QUADRATURE_ERROR)
+        np.testing.assert_allclose(first, second, rtol=instrument_directions.QUADRATURE_ERROR)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", NAMES)
 def test_level_surface_reads_its_albedo(name, model):
     for dtype in (np.float64, np.float32):
@@ -199,7 +228,7 @@ def test_level_surface_reads_its_albedo(name, model):
     np.testing.assert_array_equal(reading.from_albedo(ALBEDOS, 0.0, model, name), ALBEDOS)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(("dtype", "tolerance"), [(np.float64, 1e-12), (np.float32, 1e-5)])
 def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
@@ -211,7 +240,7 @@ def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
     np.testing.assert_allclose(back, np.broadcast_to(albedo, back.shape), rtol=tolerance)
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", EQUAL_TO_RING)
 def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
     for dtype in (np.float64, np.float32):
@@ -227,7 +256,7 @@ def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
     )
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 def test_reciprocity(model):
     there, back = (
         reading.from_albedo(ALBEDOS, SIGMAS, model, name) for name in ("45a:0-iso", "0:45a-iso")
@@ -245,7 +274,7 @@ def test_reciprocity_of_the_solver():
 
 @pytest.mark.parametrize("name", ["45a:0-iso", "di:8", "45as-15", "45as110"])
 def test_tables_follow_the_solver_between_their_nodes(name):
-    of = instruments.find(name)
+    of = instrument_directions.of(name)
     sigma = np.radians([0.3, 0.616, 4.321, 15.1, 31.7, 47.3, 80.9])
     shares = vcavity_slopes.weights(sigma, vcavity.STANDARD.slopes)
     expected = 0
@@ -259,7 +288,7 @@ def test_tables_follow_the_solver_between_their_nodes(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_published_coefficients_are_the_mean_of_the_model(name):
-    of = instruments.find(name)
+    of = instrument_directions.of(name)
     means = oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, SIGMAS[:, np.newaxis])
     for found, values in zip(reading.coefficients(SIGMAS, name), means, strict=True):
         np.testing.assert_allclose(found, values @ of.weights, rtol=1e-13, atol=1e-15)
@@ -306,7 +335,7 @@ def test_no_instrument_reads_below_0_and_the_backscatter_of_white_above_1_is_kep
     assert found < 1
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 @pytest.mark.parametrize("name", ["di:8", "45as15"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_shapes_precision_and_nan(name, model, dtype):
@@ -328,7 +357,7 @@ def test_shapes_precision_and_nan(name, model, dtype):
     assert np.isfinite(reading.white_reading(right_angle, model, name)).all()
 
 
-@pytest.mark.parametrize("model", reading.MODELS)
+@pytest.mark.parametrize("model", models.NAMES)
 def test_unknown_instruments_are_refused_with_the_known_ones(model):
     for function in (reading.from_albedo, reading.to_albedo):
         with pytest.raises(DomainError) as caught:

@@ -9,7 +9,7 @@ from rough_spectra.addon import target
 from rough_spectra.addon.rgb_space import WorkingSpace
 from rough_spectra.addon.sample import Sample
 
-from core import cycles, grid, oren_nayar, reading, vcavity
+from core import cycles, cycles_match, grid, models, oren_nayar, reading, vcavity
 from tests.stability import checks
 
 REC709_FROM_XYZ = np.linalg.inv(
@@ -74,7 +74,7 @@ def test_published_model_is_left_as_published():
 
 
 def targets_of_matching(monkeypatch):
-    """Targets that `addon.target` hands to `cycles.match` for a dark rough surface seen steeply."""
+    """Targets that `addon.target` hands to the match for a dark rough surface seen steeply."""
     seen = []
 
     def match(readings, targets, *rest, **keywords):
@@ -85,7 +85,7 @@ def targets_of_matching(monkeypatch):
         return tuple(np.resize(angle, count) for angle in checks.opposite_geometries())
 
     monkeypatch.setattr(target.geometry, "hemisphere", hemisphere)
-    monkeypatch.setattr(target.cycles, "match", match)
+    monkeypatch.setattr(target.cycles_match, "match", match)
     wavelengths = np.arange(380.0, 731, 10)
     sample = Sample("Soot", wavelengths, np.full(wavelengths.size, 0.05), "albedo")
     request = target.Request(sample, np.radians(70.0))
@@ -133,7 +133,7 @@ def test_noise_below_black_averages_out():
 
 
 def test_socket_colors_out_of_range_come_back():
-    checks.check_color_noise(cycles.color_for_reading, cycles.reflectance)
+    checks.check_color_noise(cycles_match.color_for_reading, cycles.reflectance)
 
 
 def test_readings_far_below_black():
@@ -143,10 +143,10 @@ def test_readings_far_below_black():
 @pytest.mark.parametrize(
     "function",
     [
-        *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in reading.MODELS),
-        *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in reading.MODELS),
+        *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in models.NAMES),
+        *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in models.NAMES),
         lambda v, s: oren_nayar.reflectance(v, 0.7, 0.3, 2.0, s),
-        lambda v, s: cycles.color_for_reading(v, s / 2),
+        lambda v, s: cycles_match.color_for_reading(v, s / 2),
         lambda v, s: cycles.reflectance(v, s / 2, 0.7, 0.3, 2.0),
     ],
 )
