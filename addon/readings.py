@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -19,7 +19,7 @@ import numpy as np
 
 from ..core.arrays import Array
 from ..core.errors import OutputError
-from . import colorimetry, facts, scene_match, stamp, storage, target, working_space
+from . import colorimetry, facts, scene_match, settled, stamp, storage, target, working_space
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
 from .spectrophotometer import measure
@@ -66,13 +66,16 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     for surface, material in surfaces:
         request, warnings, model_reason, shader_reason = None, [], "", ""
         if facts.has_spectrum(material):
-            request, model_reason = _settled(material)
+            request, model_reason = settled.of(material)
             reasons = stamp.stale_reasons(material, space)
             found = stamp.get_stamp(material)
             warnings = [f"stale: {reason}" for reason in reasons]
-            if found is not None:
+            if found is not None and not reasons and not found.kept:
                 warnings += found.warnings
                 shader_reason = found.shader_reason
+            else:
+                # What was derived is not what is shown: only what is said of the target holds.
+                warnings += target.remarks(request)
         promised = _promised(material, request)
         if promised is not None:
             warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
@@ -86,14 +89,6 @@ def _promised(material: Any, request: target.Request | None) -> target.Solution 
     if request is None or request.scene is None:
         return None
     return target.solve([storage.load(material)], working_space.current())[0]
-
-
-def _settled(material: Any) -> tuple[target.Request, str]:
-    """Give what the material stores with its model settled, as it was when it was assigned."""
-    request, found = storage.load(material), stamp.get_stamp(material)
-    if found is not None and found.inputs == stamp.inputs_digest(material.rough_spectra):
-        return replace(request, model=found.model), found.model_reason
-    return target.settle([request])[0]
 
 
 def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:

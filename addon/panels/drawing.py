@@ -8,7 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .. import measured, stamp
+from .. import measured, settled, stamp
 from ..operators import common
 from ..preview import icons
 from . import redraw, sentences, text
@@ -54,7 +54,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
     if inputs.kind == "reading":
         column.prop(group, "instrument")
     column.prop(group, "sigma", slider=True)
-    _draw_sigma_range(column, shown.state.stamp)
+    _draw_sigma_range(column, settled.derived(shown.facts))
     if shown.facts.analyzed:
         column.prop(group, "use_scene")
     if not inputs.scene_view:
@@ -151,10 +151,12 @@ def draw_measurement(layout: Any, context: Any) -> None:
 
 def _draw_measured(layout: Any, context: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
     found = measured.get(common.active_material(context), shown.facts)
-    last = shown.state.stamp
-    if found is None or last is None or found.delta_e is None:
+    if found is None or found.delta_e is None:
         return
-    told = sentences.measurement(last.delta_e_instrument, found.delta_e, found.current, here.style)
+    predicted = found.predicted
+    if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
+        predicted = of_now[0]
+    told = sentences.measurement(predicted, found.delta_e, found.current, here.style)
     text.draw(layout.column(align=True), told)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from .. import facts, stamp
+from .. import facts, settled, stamp
 from ..operators import common
 from ..preview import icons, theme
 from . import sentences, text
@@ -85,7 +85,7 @@ class Shown:
 
     def apart(self) -> tuple[float, float, float] | None:
         """Give ΔE00 of what is in the shader node: as stored, or computed with the pictures."""
-        stored = stamp.numbers(self.facts)
+        stored = settled.numbers(self.facts, self.facts.flat)
         return stored or icons.differences(self.uid, self._pictured)
 
 

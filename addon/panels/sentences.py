@@ -12,7 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
-from .. import stamp
+from .. import settled, stamp
 from ..facts import Facts
 from ..preview import words
 from .text import Format, Sentence
@@ -107,13 +107,14 @@ def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentenc
 
 @lru_cache(maxsize=_KEPT)
 def measurement(
-    predicted: float, measured: float, current: bool, how: Style
+    predicted: float | None, measured: float, current: bool, how: Style
 ) -> tuple[Sentence, ...]:
-    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since."""
-    told = [
-        (_difference(iface_("Predicted"), predicted), "BLANK1"),
-        (_difference(iface_("Measured"), measured), "BLANK1"),
-    ]
+    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since.
+
+    There may be no prediction.
+    """
+    told = [] if predicted is None else [(_difference(iface_("Predicted"), predicted), "BLANK1")]
+    told.append((_difference(iface_("Measured"), measured), "BLANK1"))
     if not current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
     return tuple(how.format.sentence(text, icon) for text, icon in told)
@@ -127,9 +128,11 @@ def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     last, view = stamp.judge(found).stamp, found.inputs.scene_view
     if not view or last is None:
         return ()
-    told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
-    if last.scene_reason:
-        told.append((last.scene_reason, "INFO"))
+    told = []
+    if settled.numbers(found, found.flat) is not None:
+        told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
+        if last.scene_reason:
+            told.append((last.scene_reason, "INFO"))
     analyzed = stamp.analyzed_scene(view)
     if analyzed not in {"", name}:
         text = iface_("Analyzed in scene {name}; analyze again if that is not this one")
