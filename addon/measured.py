@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from . import facts
+from . import facts, nodes
 from .facts import Facts
 
 
@@ -53,8 +53,17 @@ def _fingerprint(found: Facts) -> str:
         facts.digest(found.inputs),
         found.working_space,
         *(f"{value:.7f}" for value in sockets),
+        *_besides(surface),
     )
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
+
+
+def _besides(surface: nodes.Surface | None) -> list[str]:
+    """Tell what else shows; nothing for a plain surface, so that older notes stay valid."""
+    if surface is None:
+        return []
+    told = [*surface.linked, *surface.disturbing, *(f"{value:.7f}" for value in surface.values)]
+    return told + ["muted"] * surface.muted + ["bumped"] * surface.bumped
 
 
 def note(

@@ -8,7 +8,7 @@ Finding never changes anything, so a whole selection is checked before the first
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -67,6 +67,7 @@ _SOCKETS = {sockets.node: sockets for sockets in _SHADERS.values()}
 _SET_ASIDE = "rough_spectra_set_aside"
 """Custom property of a node that another one took the place of, with its name then: a copy that
 somebody made of it has another name."""
+_DISPLACEMENT = "Displacement"
 _NODE_DISTANCE = 300.0
 
 
@@ -105,6 +106,12 @@ class Surface(NamedTuple):
         Whether the node is.
     disturbing
         See `disturbing_sockets`.
+    values
+        Values of all sockets where any disturbs, since the light depends on all of them then; else
+        empty.
+    bumped
+        Whether the surface is turned point by point: by its Normal, or by the output's
+        displacement.
     """
 
     node: str
@@ -115,6 +122,8 @@ class Surface(NamedTuple):
     roughness_linked: bool
     muted: bool
     disturbing: tuple[str, ...]
+    values: tuple[float, ...]
+    bumped: bool
 
     @property
     def linked(self) -> list[str]:
@@ -163,21 +172,20 @@ def find(material: Any, shader: Shader = "AUTO") -> Place:
 
 def shader_node(material: Any) -> Any | None:
     """Give the Diffuse or Principled BSDF behind the active output, or None."""
-    link = _surface_link(_output(material))
-    if link is None or link.from_node.bl_idname not in _SOCKETS:
-        return None
-    return link.from_node
+    return _shader_of(_output(material))
 
 
 def surface(material: Any) -> Surface | None:
     """Read the Diffuse or Principled BSDF behind the active output; None where there is none."""
-    node = shader_node(material)
-    if node is None:
+    output = _output(material)
+    node = _shader_of(output)
+    if output is None or node is None:
         return None
     shader, inputs = node.bl_idname, node.inputs
-    color_at, roughness_at, neutral = _places(node, shader)
+    color_at, roughness_at, normal_at, neutral = _places(node, shader)
     color, roughness = inputs[color_at], inputs[roughness_at]
     red, green, blue, _ = color.default_value
+    disturbing = tuple(_in_use(inputs, neutral))
     return Surface(
         node.name,
         shader,
@@ -186,7 +194,9 @@ def surface(material: Any) -> Surface | None:
         color.is_linked,
         roughness.is_linked,
         node.mute,
-        tuple(_in_use(inputs, neutral)),
+        disturbing,
+        tuple(_values(inputs)) if disturbing else (),
+        inputs[normal_at].is_linked or output.inputs[_DISPLACEMENT].is_linked,
     )
 
 
@@ -216,8 +226,15 @@ def roughness_socket(node: Any) -> Any:
     return node.inputs[_SOCKETS[node.bl_idname].roughness]
 
 
-def _places(node: Any, shader: str) -> tuple[int, int, tuple[tuple[str, int, float], ...]]:
-    """Give the numbers of the sockets for color, roughness, and whatever else has to be neutral.
+def _shader_of(output: Any | None) -> Any | None:
+    link = _surface_link(output)
+    if link is None or link.from_node.bl_idname not in _SOCKETS:
+        return None
+    return link.from_node
+
+
+def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int, float], ...]]:
+    """Give the numbers of the sockets for color, roughness, normal, and what has to be neutral.
 
     All nodes of a type have the same sockets. A panel reads eleven at every redraw: found by number
     that takes two thirds of the time (10 µs for nine, where by name it was 15).
@@ -226,11 +243,12 @@ def _places(node: Any, shader: str) -> tuple[int, int, tuple[tuple[str, int, flo
         find, sockets = node.inputs.find, _SOCKETS[shader]
         neutral = dict.fromkeys(sockets.zeroed, 0.0) | dict(sockets.neutral)
         rest = tuple((name, find(name), value) for name, value in neutral.items())
-        _numbers[shader] = (find(sockets.color), find(sockets.roughness), rest)
+        own = find(sockets.color), find(sockets.roughness), find(sockets.normal)
+        _numbers[shader] = (*own, rest)
     return _numbers[shader]
 
 
-_numbers: dict[str, tuple[int, int, tuple[tuple[str, int, float], ...]]] = {}
+_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = {}
 
 
 def disturbing_sockets(node: Any) -> list[str]:
@@ -238,7 +256,7 @@ def disturbing_sockets(node: Any) -> list[str]:
 
     Empty for a Diffuse BSDF. The specular level counts, which `write` sets to 0.
     """
-    return _in_use(node.inputs, _places(node, node.bl_idname)[2])
+    return _in_use(node.inputs, _places(node, node.bl_idname)[-1])
 
 
 def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
@@ -246,6 +264,12 @@ def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[st
     return [
         name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
+
+
+def _values(inputs: Any) -> Iterator[float]:
+    for socket in inputs:
+        value: Any = getattr(socket, "default_value", 0.0)
+        yield from map(comparable, value if hasattr(value, "__len__") else (value,))
 
 
 def _refuse_read_only(material: Any) -> None:

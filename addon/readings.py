@@ -19,7 +19,17 @@ import numpy as np
 
 from ..core.arrays import Array
 from ..core.errors import OutputError
-from . import colorimetry, facts, scene_match, settled, stamp, storage, target, working_space
+from . import (
+    colorimetry,
+    facts,
+    nodes,
+    scene_match,
+    settled,
+    stamp,
+    storage,
+    target,
+    working_space,
+)
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
 from .spectrophotometer import measure
@@ -28,6 +38,9 @@ _IN_SCENE = (
     "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
     "{:.2f} from the spectrum's own reading"
 )
+
+_ALONE = "{}; the predicted reading is the spectrum's alone"
+_BUMPED = "bump is not counted: the predicted reading is of the surface without it"
 
 
 @dataclass(frozen=True)
@@ -76,6 +89,12 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
             else:
                 # What was derived is not what is shown: only what is said of the target holds.
                 warnings += target.remarks(request)
+            surface_now = nodes.surface(material)
+            reason = settled.obstacle(surface_now)
+            if reason is not None:
+                warnings.append(_ALONE.format(reason))
+            elif surface_now is not None and surface_now.bumped:
+                warnings.append(_BUMPED)
         promised = _promised(material, request)
         if promised is not None:
             warnings.append(_IN_SCENE.format(promised.delta_e_instrument))

@@ -6,7 +6,8 @@ The one answer for panel, pictures, bake, check, measurement and scene: the targ
 spectrum and of the settings as they are, whatever the shader node was derived from. What the stamp
 says of it is taken where it was derived from these very settings; else a model that is left to
 choose is chosen anew. `derived` and `numbers` only look that up, for a panel that draws; the others
-compute.
+compute. Where a surface shows what nobody predicts, such as gloss, there is no number: `obstacle`
+says so.
 """
 
 from __future__ import annotations
@@ -41,6 +42,56 @@ class Settled(NamedTuple):
 
     request: Request
     model_reason: str
+
+
+class Obstacle(NamedTuple):
+    """Why there is no telling how far a surface is from its target.
+
+    Parameters
+    ----------
+    template
+        The reason, without its first capital and its full stop, with a place for the names.
+    names
+        Of sockets.
+    """
+
+    template: str
+    names: str = ""
+
+    def __str__(self) -> str:
+        return self.template.format(names=self.names)
+
+
+_NO_NODE = Obstacle(
+    "the surface comes from no Diffuse or Principled BSDF: there is no color to compare"
+)
+_MUTED = Obstacle("the shader node is muted: there is no color to compare")
+LINKED = Obstacle("color or roughness comes from another node: there is no one color to compare")
+_NO_NUMBER = Obstacle("color or roughness is no number: there is no color to compare")
+_ABOVE = Obstacle("no ΔE00 is predicted for a color above 1")
+_IN_USE = "no ΔE00 is predicted with {names} in use"
+_ROUNDING = 1e-6
+"""Above 1; sockets are single precision."""
+
+
+def obstacle(surface: nodes.Surface | None) -> Obstacle | None:
+    """Say why there is no number for what a surface shows; None where there is one.
+
+    A bump or normal map is none: it turns each point, which shows as it was predicted in the
+    directions seen from there. Of the mean reading it changes little.
+    """
+    if surface is None:
+        return _NO_NODE
+    if surface.muted:
+        return _MUTED
+    if surface.color_linked or surface.roughness_linked:
+        return LINKED
+    if surface.disturbing:
+        return Obstacle(_IN_USE, ", ".join(surface.disturbing))
+    if not all(map(math.isfinite, (*surface.color, surface.roughness))):
+        return _NO_NUMBER
+    # Cycles limits what such a surface sends on, in a way of its own.
+    return _ABOVE if max(surface.color) > 1 + _ROUNDING else None
 
 
 def derived(found: Facts) -> Stamp | None:
@@ -93,28 +144,23 @@ def of(material: Any, known: Facts | None = None) -> Settled:
 
 
 def shader(material: Any, known: Facts | None = None) -> tuple[Array, float]:
-    """Color, shape (3,), and roughness in the shader node, or as they were derived.
+    """Color, shape (3,), and roughness that the surface shows, within 0 to 1 as Cycles takes them.
 
     Parameters as in `of`.
 
     Raises
     ------
     MaterialError
-        If there is neither, or a socket holds no number.
+        If there is an `obstacle`.
     """
     import numpy as np
 
     found = nodes.surface(material) if known is None else known.surface
-    if found is not None:
-        if not all(map(math.isfinite, (*found.color, found.roughness))):
-            msg = f"Material {material.name!r}: {found.node!r} holds a value that is no number."
-            raise MaterialError(msg)
-        return np.array(found.color), found.roughness
-    last = stamp.get_stamp(material)
-    if last is None:
-        msg = f"Material {material.name!r} has no color derived from its spectrum yet; renew it."
+    reason = obstacle(found)
+    if found is None or reason is not None:
+        msg = f"Material {material.name!r}: {reason}."
         raise MaterialError(msg)
-    return np.array(last.color), last.roughness
+    return np.clip(found.color, 0.0, 1.0), min(max(found.roughness, 0.0), 1.0)
 
 
 def differences(

@@ -97,21 +97,18 @@ def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
 def draw_difference(layout: Any, context: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
     here = current(context)
-    otherwise = "Color or roughness comes from another node: there is no one color to compare"
-    shown = _of_one_color(layout, here, otherwise)
-    if shown is None:
+    if here.shown is None:
+        return
+    shown = here.shown
+    if shown.obstacle is not None:
+        text.draw(layout, sentences.obstacle(shown.obstacle, here.style))
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
         text.draw(layout, sentences.difference(shown.facts, apart, here.style))
-
-
-def _of_one_color(layout: Any, here: redraw.Redraw, otherwise: str) -> redraw.Shown | None:
-    """Give the material if its node holds a color to picture; if another node does, say so."""
-    if here.shown is None or not here.shown.is_textured:
-        return here.shown
-    text.draw(layout, sentences.of(otherwise, "INFO", here.style))
-    return None
+    if shown.is_bumped:
+        told = "Bump is not counted: numbers are of the surface without it"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
 
 
 def _draw_swatches(
@@ -131,8 +128,13 @@ def _draw_swatches(
 def draw_plots(layout: Any, context: Any) -> None:
     """Show the range of σ, spectrum and angles."""
     here = current(context)
-    shown = _of_one_color(layout, here, "There is no one color to plot")
-    if shown is None:
+    if here.shown is None:
+        return
+    shown = here.shown
+    if shown.obstacle is not None:
+        one = "There is no one color to plot"
+        told = one if shown.obstacle == settled.LINKED else "There is no color to plot"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
         return
     units = icons.fit(here.width, shown.unit)
     layout.template_icon(shown.picture("sheet", units), scale=units)

@@ -74,10 +74,14 @@ class Shown:
         self._pictured = (found, look)
 
     @property
-    def is_textured(self) -> bool:
-        """Whether another node sets color or roughness, so that the sockets' values don't show."""
-        surface = self.facts.surface
-        return surface is not None and (surface.color_linked or surface.roughness_linked)
+    def obstacle(self) -> settled.Obstacle | None:
+        """Why the surface cannot be compared with the target, if it cannot."""
+        return settled.obstacle(self.facts.surface)
+
+    @property
+    def is_bumped(self) -> bool:
+        """Whether the surface is turned point by point, which no number counts."""
+        return self.facts.surface is not None and self.facts.surface.bumped
 
     def picture(self, figure: str, units: float) -> int:
         """Give the icon of a figure for `template_icon` with this scale."""

@@ -70,10 +70,16 @@ def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     state = stamp.judge(found)
     icon, sentences = "INFO" if state.kind in ("kept", "linked") else "ERROR", []
     for reason in map(tip_, state.reasons):
-        text = reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
-        sentences.append(how.format.sentence(text, icon, _BOX))
+        sentences.append(how.format.sentence(_capital(reason), icon, _BOX))
         icon = "BLANK1"
     return tuple(sentences)
+
+
+@lru_cache(maxsize=64)
+def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
+    """Say why there is no number."""
+    told = tip_(found.template).format(names=found.names)
+    return (how.format.sentence(_capital(told), "INFO"),)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -151,6 +157,10 @@ def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sent
         tuple(write(f"{iface_(label)}: {value}") for label, value in about),
         (*told, *(write(text, "INFO") for text in notes)),
     )
+
+
+def _capital(reason: str) -> str:
+    return reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
 
 
 def _difference(where: str, delta_e: float) -> str:

@@ -114,7 +114,7 @@ def collect(
     Raises
     ------
     MaterialError
-        If the material has no spectrum that can be read, or nothing was derived from it yet.
+        If the material has no spectrum that can be read, or its surface has an obstacle.
     DomainError
         If the spectrum does not cover the visible range.
     """
@@ -127,15 +127,12 @@ def collect(
 def of_request(
     request: Request, color: Array, roughness: float, space: WorkingSpace, engine: str = "Cycles"
 ) -> Data:
-    """Compute the same from a request with a settled model, and what is in the shader node."""
+    """Compute the same from a request with a settled model, and what the shader node shows."""
     sample, light = request.sample, request.illuminant
     bands = sample.wavelengths
     weights = space.rgb_weights(bands, light)
     luminance = colorimetry.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
-    # Sockets may hold anything; what the closure does to a color above 1 is not defined.
-    color = np.clip(color, 0, 1)
-    roughness = min(max(roughness, 0.0), 1.0)
     shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument

@@ -168,6 +168,18 @@ def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
     assert not icons._pending
 
 
+@pytest.mark.parametrize("roughness", [-0.5, 1.5])
+def test_a_roughness_that_cycles_clips_is_pictured_clipped(material, roughness):
+    node, space = nodes.shader_node(material), working_space.current()
+    found = []
+    for value in (roughness, min(max(roughness, 0.0), 1.0)):
+        nodes.roughness_socket(node).default_value = value
+        ask(material, "swatches")
+        assert icons._work() is None
+        found.append((settled.differences(material, space), pixels("swatches").tolist()))
+    assert found[0] == found[1]
+
+
 def test_pictures_of_removed_materials_are_not_made(material):
     ask(material)
     bpy.data.materials.remove(material)

@@ -15,6 +15,7 @@ from rough_spectra.addon import (
     nodes,
     presets,
     readings,
+    scene_report,
     scene_view,
     settled,
     stamp,
@@ -259,3 +260,95 @@ def test_what_was_derived_is_said_only_of_what_is_shown(assigned):
         group.sigma = math.radians(10)
     [after] = readings.prepare([("", material)])
     assert [w for w in after.warnings if not w.startswith("stale: ")] == []
+
+
+def use(name):
+    def change(material):
+        nodes.shader_node(material).inputs[name].default_value = 0.5
+
+    return change
+
+
+def link_texture(material):
+    tree, node = material.node_tree, nodes.shader_node(material)
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], nodes.color_socket(node))
+
+
+def mute(material):
+    nodes.shader_node(material).mute = True
+
+
+def link_another_shader(material):
+    tree = material.node_tree
+    glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
+    tree.links.new(glossy.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
+
+
+def set_color(value):
+    def change(material):
+        nodes.color_socket(nodes.shader_node(material)).default_value[1] = value
+
+    return change
+
+
+OBSTACLES = {
+    **{
+        f"no ΔE00 is predicted with {name} in use": use(name)
+        for name in ("Specular IOR Level", *nodes._PURE_DIFFUSE)
+    },
+    "color or roughness comes from another node: there is no one color to compare": link_texture,
+    "the shader node is muted: there is no color to compare": mute,
+    "the surface comes from no Diffuse or Principled BSDF: there is no color to compare": (
+        link_another_shader
+    ),
+    "color or roughness is no number: there is no color to compare": set_color(math.nan),
+    "no ΔE00 is predicted for a color above 1": set_color(1.2),
+}
+
+
+@pytest.mark.parametrize("kept", [False, True])
+@pytest.mark.parametrize("sentence", OBSTACLES)
+def test_there_is_no_number_for_what_is_not_predicted(assigned, sentence, kept):
+    """Neither in the panel nor in a bake, and a scene is not said to have been off by any."""
+    material = assigned("auto")
+    material.rough_spectra.shader = "PRINCIPLED"
+    [before] = readings.prepare([("", material)])
+    OBSTACLES[sentence](material)
+    if kept:
+        storage.keep(material)
+    look = theme.current(bpy.context.preferences)
+    shown = Shown(material.session_uid, facts.of(material), look, 20)
+    assert str(shown.obstacle) == sentence
+    shown.picture("swatches", 5.0)
+    icons._work()
+    assert (shown.apart(), shown.picture("swatches", 5.0)) == (None, 0)
+    [item] = readings.prepare([("", material)])
+    assert f"{sentence}; the predicted reading is the spectrum's alone" in item.warnings
+    assert item.shader_reason == ""
+    # The target is that of the spectrum, whatever else shows.
+    [told, same] = (readings.compare([each], None).entries[0] for each in (item, before))
+    assert told.predicted == same.predicted
+    assert scene_report._mean_now(None, material) is None
+
+
+def test_several_are_named_together(assigned):
+    material = assigned("auto")
+    material.rough_spectra.shader = "PRINCIPLED"
+    for name in ("Specular IOR Level", "Coat Weight"):
+        use(name)(material)
+    found = settled.obstacle(nodes.surface(material))
+    assert str(found) == "no ΔE00 is predicted with Specular IOR Level, Coat Weight in use"
+
+
+@pytest.mark.parametrize("where", ["Normal", "Displacement"])
+def test_bump_is_told_of_and_takes_no_number_away(assigned, where):
+    material = assigned("auto")
+    before = of_bake(material)
+    tree, node = material.node_tree, nodes.shader_node(material)
+    place = node if where == "Normal" else tree.get_output_node("CYCLES")
+    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], place.inputs[where])
+    assert stamp.state(material).kind == "fresh"
+    assert of_bake(material) == before
+    assert of_panel(material) == pytest.approx(before[1], abs=_ROUNDING)
+    [item] = readings.prepare([("", material)])
+    assert any(warning.startswith("bump is not counted") for warning in item.warnings)

@@ -302,6 +302,33 @@ def test_what_another_node_sets_is_not_compared(green):
     assert not any(line.startswith("picture") for line in page)
 
 
+def test_gloss_is_not_compared_and_a_measurement_of_it_stands_alone(green):
+    green.rough_spectra.shader = "PRINCIPLED"
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    assert any("ΔE00" in line for line in drawn())
+    node.inputs["Specular IOR Level"].default_value = 0.5
+    for act in (lambda: None, lambda: storage.keep(green)):
+        act()
+        page = drawn()
+        assert any("No ΔE00 is predicted with Specular IOR" in line for line in page)
+        assert not any("ΔE00 0" in line for line in page)
+        assert "There is no color to plot" in page
+        assert not any(line.startswith("picture") for line in page)
+    measured.note(green, measured.fingerprint(green), (0.1, 0.2, 0.1), 5.5)
+    page = drawn()
+    assert "Measured: ΔE00 5.50, visible" in page
+    assert not any(line.startswith("Predicted") for line in page)
+
+
+def test_bump_is_said_not_to_be_counted(green):
+    tree = green.node_tree
+    assert not sentence_with("Bump is not counted")
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], node.inputs["Normal"])
+    assert sentence_with("Bump is not counted")
+    assert "45°/0°: ΔE00 0.00, not visible" in drawn()
+
+
 def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
     wide = drawn()
     narrow = drawn(context(region=types.SimpleNamespace(width=230)))
