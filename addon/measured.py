@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from . import facts
+from . import facts, nodes
 from .facts import Facts
 
 
@@ -29,11 +29,15 @@ class Measured:
         ΔE00 from the prediction; None where the material stores no spectrum.
     current
         Whether the material is still as it was measured.
+    predicted
+        ΔE00 that was predicted of it then, with the target of its settings then; None where there
+        is no prediction, and in older files.
     """
 
     rgb: tuple[float, float, float]
     delta_e: float | None
     current: bool
+    predicted: float | None = None
 
 
 def fingerprint(material: Any) -> str:
@@ -49,11 +53,26 @@ def _fingerprint(found: Facts) -> str:
         facts.digest(found.inputs),
         found.working_space,
         *(f"{value:.7f}" for value in sockets),
+        *_besides(surface),
     )
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
 
 
-def note(material: Any, of: str, rgb: tuple[float, float, float], delta_e: float | None) -> None:
+def _besides(surface: nodes.Surface | None) -> list[str]:
+    """Tell what else shows; nothing for a plain surface, so that older notes stay valid."""
+    if surface is None:
+        return []
+    told = [*surface.linked, *surface.disturbing, *(f"{value:.7f}" for value in surface.values)]
+    return told + ["muted"] * surface.muted + ["bumped"] * surface.bumped
+
+
+def note(
+    material: Any,
+    of: str,
+    rgb: tuple[float, float, float],
+    delta_e: float | None,
+    predicted: float | None = None,
+) -> None:
     """Keep a measurement with its material.
 
     Parameters
@@ -62,10 +81,11 @@ def note(material: Any, of: str, rgb: tuple[float, float, float], delta_e: float
         A `bpy.types.Material` that is not linked.
     of
         Its `fingerprint` when the measurement began.
-    rgb, delta_e
+    rgb, delta_e, predicted
         As in `Measured`.
     """
-    material.rough_spectra.measured = json.dumps({"of": of, "rgb": rgb, "delta_e_00": delta_e})
+    told = {"of": of, "rgb": rgb, "delta_e_00": delta_e, "predicted_delta_e_00": predicted}
+    material.rough_spectra.measured = json.dumps(told)
 
 
 def get(material: Any, known: Facts | None = None) -> Measured | None:
@@ -76,16 +96,22 @@ def get(material: Any, known: Facts | None = None) -> Measured | None:
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
-    of, rgb, delta_e = found
-    return Measured(rgb, delta_e, of == _fingerprint(known or facts.of(material)))
+    of, rgb, delta_e, predicted = found
+    current = of == _fingerprint(known or facts.of(material))
+    return Measured(rgb, delta_e, current, predicted)
 
 
 @lru_cache(maxsize=64)
-def _parsed(text: str) -> tuple[str, tuple[float, float, float], float | None] | None:
+def _parsed(
+    text: str,
+) -> tuple[str, tuple[float, float, float], float | None, float | None] | None:
     try:
         data = json.loads(text)
         red, green, blue = map(float, data["rgb"])
-        delta_e = data["delta_e_00"]
-        return str(data["of"]), (red, green, blue), None if delta_e is None else float(delta_e)
+        delta_e, predicted = (
+            None if value is None else float(value)
+            for value in (data["delta_e_00"], data.get("predicted_delta_e_00"))
+        )
+        return str(data["of"]), (red, green, blue), delta_e, predicted
     except (ValueError, KeyError, TypeError):
         return None

@@ -8,6 +8,7 @@ Finding never changes anything, so a whole selection is checked before the first
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -17,12 +18,6 @@ from ..core.errors import MaterialError
 
 Shader = Literal["AUTO", "DIFFUSE", "PRINCIPLED"]
 
-_NODE_TYPES = {"DIFFUSE": "ShaderNodeBsdfDiffuse", "PRINCIPLED": "ShaderNodeBsdfPrincipled"}
-_COLOR_SOCKETS = {"ShaderNodeBsdfDiffuse": "Color", "ShaderNodeBsdfPrincipled": "Base Color"}
-_ROUGHNESS_SOCKETS = {
-    "ShaderNodeBsdfDiffuse": "Roughness",
-    "ShaderNodeBsdfPrincipled": "Diffuse Roughness",
-}
 _SPECULAR_SOCKET = "Specular IOR Level"
 _PURE_DIFFUSE = {
     "Metallic": 0.0,
@@ -35,7 +30,44 @@ _PURE_DIFFUSE = {
     "Thin Film Thickness": 0.0,
 }
 """Principled sockets that have to keep these values for the surface to be the Diffuse closure."""
-_NEUTRAL = ((_SPECULAR_SOCKET, 0.0), *_PURE_DIFFUSE.items())
+
+
+class _Sockets(NamedTuple):
+    """What a shader node and its sockets are called.
+
+    Parameters
+    ----------
+    node
+        Type of the node.
+    color, roughness, normal
+        What all shader nodes have; roughness is that of the diffuse closure.
+    zeroed
+        What is set to 0 besides.
+    neutral
+        What has to keep these values, and is never set.
+    """
+
+    node: str
+    color: str
+    roughness: str
+    normal: str
+    zeroed: tuple[str, ...]
+    neutral: Mapping[str, float]
+
+
+_SHADERS = {
+    "DIFFUSE": _Sockets("ShaderNodeBsdfDiffuse", "Color", "Roughness", "Normal", (), {}),
+    "PRINCIPLED": _Sockets(
+        *("ShaderNodeBsdfPrincipled", "Base Color", "Diffuse Roughness", "Normal"),
+        zeroed=(_SPECULAR_SOCKET,),
+        neutral=_PURE_DIFFUSE,
+    ),
+}
+_SOCKETS = {sockets.node: sockets for sockets in _SHADERS.values()}
+_SET_ASIDE = "rough_spectra_set_aside"
+"""Custom property of a node that another one took the place of, with its name then: a copy that
+somebody made of it has another name."""
+_DISPLACEMENT = "Displacement"
 _NODE_DISTANCE = 300.0
 
 
@@ -48,9 +80,10 @@ class Place:
     material
         A `bpy.types.Material`.
     node_name
-        The shader node that is there already, or an empty string where one has to be made.
+        The shader node that is there already, in use or set aside by an earlier change of shader;
+        or an empty string where one has to be made.
     make
-        Type of the node to make, or an empty string.
+        Type of the node to link to the output, or an empty string where it is.
     """
 
     material: Any
@@ -73,6 +106,12 @@ class Surface(NamedTuple):
         Whether the node is.
     disturbing
         See `disturbing_sockets`.
+    values
+        Values of all sockets where any disturbs, since the light depends on all of them then; else
+        empty.
+    bumped
+        Whether the surface is turned point by point: by its Normal, or by the output's
+        displacement.
     """
 
     node: str
@@ -83,12 +122,14 @@ class Surface(NamedTuple):
     roughness_linked: bool
     muted: bool
     disturbing: tuple[str, ...]
+    values: tuple[float, ...]
+    bumped: bool
 
     @property
     def linked(self) -> list[str]:
         """Names of those of color and roughness that another node sets."""
-        color = [_COLOR_SOCKETS[self.shader]] * self.color_linked
-        return color + [_ROUGHNESS_SOCKETS[self.shader]] * self.roughness_linked
+        sockets = _SOCKETS[self.shader]
+        return [sockets.color] * self.color_linked + [sockets.roughness] * self.roughness_linked
 
 
 def find(material: Any, shader: Shader = "AUTO") -> Place:
@@ -101,7 +142,8 @@ def find(material: Any, shader: Shader = "AUTO") -> Place:
     shader
         "AUTO" takes the Diffuse or Principled BSDF that is there, or a new Diffuse BSDF where
         there is none. "DIFFUSE" and "PRINCIPLED" ask for that node; where the other one is in
-        use a new node takes its link, and the old one stays in the tree.
+        use it takes its place, and the other one stays in the tree. It is the node that an earlier
+        change has set aside, if nobody uses that, else a new one.
 
     Raises
     ------
@@ -113,38 +155,37 @@ def find(material: Any, shader: Shader = "AUTO") -> Place:
     output = _output(material)
     link = _surface_link(output)
     if link is None:
-        return Place(material, "", _NODE_TYPES["DIFFUSE" if shader == "AUTO" else shader])
+        return _place_for(material, _SHADERS["DIFFUSE" if shader == "AUTO" else shader].node)
     node = link.from_node
-    if node.bl_idname not in _COLOR_SOCKETS:
+    if node.bl_idname not in _SOCKETS:
         msg = (
             f"Material {material.name!r}: its surface comes from {node.name!r} "
             f"({node.bl_label}), which Rough Spectra cannot set; link a Diffuse or Principled "
             "BSDF to the material output."
         )
         raise MaterialError(msg)
-    if shader != "AUTO" and node.bl_idname != _NODE_TYPES[shader]:
-        return Place(material, "", _NODE_TYPES[shader])
+    if shader != "AUTO" and node.bl_idname != _SHADERS[shader].node:
+        return _place_for(material, _SHADERS[shader].node)
     _refuse_unpredictable(material, node)
     return Place(material, node.name, "")
 
 
 def shader_node(material: Any) -> Any | None:
     """Give the Diffuse or Principled BSDF behind the active output, or None."""
-    link = _surface_link(_output(material))
-    if link is None or link.from_node.bl_idname not in _COLOR_SOCKETS:
-        return None
-    return link.from_node
+    return _shader_of(_output(material))
 
 
 def surface(material: Any) -> Surface | None:
     """Read the Diffuse or Principled BSDF behind the active output; None where there is none."""
-    node = shader_node(material)
-    if node is None:
+    output = _output(material)
+    node = _shader_of(output)
+    if output is None or node is None:
         return None
     shader, inputs = node.bl_idname, node.inputs
-    color_at, roughness_at, neutral = _places(node, shader)
+    color_at, roughness_at, normal_at, neutral = _places(node, shader)
     color, roughness = inputs[color_at], inputs[roughness_at]
     red, green, blue, _ = color.default_value
+    disturbing = tuple(_in_use(inputs, neutral))
     return Surface(
         node.name,
         shader,
@@ -153,7 +194,9 @@ def surface(material: Any) -> Surface | None:
         color.is_linked,
         roughness.is_linked,
         node.mute,
-        tuple(_in_use(inputs, neutral)),
+        disturbing,
+        tuple(_values(inputs)) if disturbing else (),
+        inputs[normal_at].is_linked or output.inputs[_DISPLACEMENT].is_linked,
     )
 
 
@@ -175,29 +218,37 @@ def write(place: Place, color: tuple[float, float, float], roughness: float) -> 
 
 def color_socket(node: Any) -> Any:
     """Give the socket that holds a Diffuse or Principled BSDF's color."""
-    return node.inputs[_COLOR_SOCKETS[node.bl_idname]]
+    return node.inputs[_SOCKETS[node.bl_idname].color]
 
 
 def roughness_socket(node: Any) -> Any:
     """Give the socket that holds Cycles' diffuse roughness."""
-    return node.inputs[_ROUGHNESS_SOCKETS[node.bl_idname]]
+    return node.inputs[_SOCKETS[node.bl_idname].roughness]
 
 
-def _places(node: Any, shader: str) -> tuple[int, int, tuple[tuple[str, int, float], ...]]:
-    """Give the numbers of the sockets for color, roughness, and whatever else has to be neutral.
+def _shader_of(output: Any | None) -> Any | None:
+    link = _surface_link(output)
+    if link is None or link.from_node.bl_idname not in _SOCKETS:
+        return None
+    return link.from_node
+
+
+def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int, float], ...]]:
+    """Give the numbers of the sockets for color, roughness, normal, and what has to be neutral.
 
     All nodes of a type have the same sockets. A panel reads eleven at every redraw: found by number
     that takes two thirds of the time (10 µs for nine, where by name it was 15).
     """
     if shader not in _numbers:
-        find = node.inputs.find
-        neutral = _NEUTRAL if shader == "ShaderNodeBsdfPrincipled" else ()
-        rest = tuple((name, find(name), value) for name, value in neutral)
-        _numbers[shader] = (find(_COLOR_SOCKETS[shader]), find(_ROUGHNESS_SOCKETS[shader]), rest)
+        find, sockets = node.inputs.find, _SOCKETS[shader]
+        neutral = dict.fromkeys(sockets.zeroed, 0.0) | dict(sockets.neutral)
+        rest = tuple((name, find(name), value) for name, value in neutral.items())
+        own = find(sockets.color), find(sockets.roughness), find(sockets.normal)
+        _numbers[shader] = (*own, rest)
     return _numbers[shader]
 
 
-_numbers: dict[str, tuple[int, int, tuple[tuple[str, int, float], ...]]] = {}
+_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = {}
 
 
 def disturbing_sockets(node: Any) -> list[str]:
@@ -205,7 +256,7 @@ def disturbing_sockets(node: Any) -> list[str]:
 
     Empty for a Diffuse BSDF. The specular level counts, which `write` sets to 0.
     """
-    return _in_use(node.inputs, _places(node, node.bl_idname)[2])
+    return _in_use(node.inputs, _places(node, node.bl_idname)[-1])
 
 
 def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
@@ -213,6 +264,12 @@ def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[st
     return [
         name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
+
+
+def _values(inputs: Any) -> Iterator[float]:
+    for socket in inputs:
+        value: Any = getattr(socket, "default_value", 0.0)
+        yield from map(comparable, value if hasattr(value, "__len__") else (value,))
 
 
 def _refuse_read_only(material: Any) -> None:
@@ -241,10 +298,8 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
     if node.mute:
         msg = f"{where} is muted; unmute it first."
         raise MaterialError(msg)
-    written = [_COLOR_SOCKETS[node.bl_idname], _ROUGHNESS_SOCKETS[node.bl_idname]]
-    if node.bl_idname == "ShaderNodeBsdfPrincipled":
-        written.append(_SPECULAR_SOCKET)
-    for name in written:
+    sockets = _SOCKETS[node.bl_idname]
+    for name in (sockets.color, sockets.roughness, *sockets.zeroed):
         if node.inputs[name].is_linked:
             msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
             raise MaterialError(msg)
@@ -252,15 +307,13 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
             msg = f"{where}: {name} is animated or driven; clear that, so that it can be set."
             raise MaterialError(msg)
     for name in disturbing_sockets(node):
-        if name in _PURE_DIFFUSE:
+        if name in sockets.neutral:
             msg = (
                 f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-                f"for; set it to {_PURE_DIFFUSE[name]:g}, or choose Diffuse as the shader."
+                f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
             )
             raise MaterialError(msg)
-    if node.bl_idname != "ShaderNodeBsdfPrincipled":
-        return
-    for name in _PURE_DIFFUSE:
+    for name in sockets.neutral:
         if _is_animated(material.node_tree, node.inputs[name]):
             msg = f"{where}: {name} is animated or driven; clear that, or choose Diffuse."
             raise MaterialError(msg)
@@ -325,7 +378,31 @@ def _link_to(socket: Any) -> Any:
     raise ValueError(msg)
 
 
+def _place_for(material: Any, kind: str) -> Place:
+    """Give the place of a node of this type that is to take over the surface.
+
+    The one that was set aside keeps what the user chose in it, and no tree grows with each change.
+    One that the user linked anywhere since, or that cannot be set, is left alone.
+    """
+    for node in material.node_tree.nodes if _uses_nodes(material) else ():
+        if node.bl_idname != kind or node.get(_SET_ASIDE) != node.name or not _is_loose(node):
+            continue
+        try:
+            _refuse_unpredictable(material, node)
+        except MaterialError:
+            continue
+        return Place(material, str(node.name), kind)
+    return Place(material, "", kind)
+
+
+def _is_loose(node: Any) -> bool:
+    """Whether nothing comes of a node: no link leaves it, but to reroutes that end nowhere."""
+    followers = [link.to_node for output in node.outputs for link in output.links]
+    return all(each.bl_idname == "NodeReroute" and _is_loose(each) for each in followers)
+
+
 def _make(place: Place) -> Any:
+    """Link a node to the output, one that was set aside or a new one."""
     material = place.material
     if not _uses_nodes(material):
         material.use_nodes = True
@@ -333,8 +410,30 @@ def _make(place: Place) -> Any:
     output = tree.get_output_node("CYCLES")
     if output is None:
         output = tree.nodes.new("ShaderNodeOutputMaterial")
-    node = tree.nodes.new(place.make)
-    x, y = output.location
-    node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
+    link = _surface_link(output)
+    before = None if link is None else link.from_node
+    if place.node_name:
+        node = tree.nodes[place.node_name]
+        del node[_SET_ASIDE]
+    else:
+        node = tree.nodes.new(place.make)
+        x, y = output.location
+        node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
+    if before is not None:
+        before[_SET_ASIDE] = before.name
+        _carry_over(before, node)
     return node
+
+
+def _carry_over(before: Any, node: Any) -> None:
+    """Let a shader node show what the one before it did, beyond what is derived: bump and alpha."""
+    color_socket(node).default_value[3] = color_socket(before).default_value[3]
+    old = before.inputs[_SOCKETS[before.bl_idname].normal]
+    new = node.inputs[_SOCKETS[node.bl_idname].normal]
+    links = node.id_data.links
+    if new.is_linked:
+        links.remove(_link_to(new))
+    if old.is_linked:
+        link = _link_to(old)
+        links.new(link.from_socket, new).is_muted = link.is_muted

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -24,8 +24,10 @@ from . import (
     colorimetry,
     derivation,
     facts,
+    nodes,
     rgb_space,
     scene_match,
+    settled,
     solution,
     stamp,
     storage,
@@ -40,6 +42,9 @@ _IN_SCENE = (
     "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
     "{:.2f} from the spectrum's own reading"
 )
+
+_ALONE = "{}; the predicted reading is the spectrum's alone"
+_BUMPED = "bump is not counted: the predicted reading is of the surface without it"
 
 
 @dataclass(frozen=True)
@@ -78,13 +83,22 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     for surface, material in surfaces:
         request, warnings, model_reason, shader_reason = None, [], "", ""
         if facts.has_spectrum(material):
-            request, model_reason = _settled(material)
+            request, model_reason = settled.of(material)
             reasons = stamp.stale_reasons(material, space)
             found = derivation.get_stamp(material)
             warnings = [f"stale: {reason}" for reason in reasons]
-            if found is not None:
+            if found is not None and not reasons and not found.kept:
                 warnings += found.warnings
                 shader_reason = found.shader_reason
+            else:
+                # What was derived is not what is shown: only what is said of the target holds.
+                warnings += target.remarks(request)
+            surface_now = nodes.surface(material)
+            reason = settled.obstacle(surface_now)
+            if reason is not None:
+                warnings.append(_ALONE.format(reason))
+            elif surface_now is not None and surface_now.bumped:
+                warnings.append(_BUMPED)
         promised = _promised(material, request)
         if promised is not None:
             warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
@@ -98,14 +112,6 @@ def _promised(material: Any, request: target.Request | None) -> solution.Solutio
     if request is None or request.scene is None:
         return None
     return target.solve([storage.load(material)], working_space.current())[0]
-
-
-def _settled(material: Any) -> tuple[target.Request, str]:
-    """Give what the material stores with its model settled, as it was when it was assigned."""
-    request, found = storage.load(material), derivation.get_stamp(material)
-    if found is not None and found.inputs == derivation.inputs_digest(material.rough_spectra):
-        return replace(request, model=found.model), found.model_reason
-    return target.settle([request])[0]
 
 
 def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError, MaterialError
-from . import assign, facts, nodes, stamp, storage, target, working_space
+from . import assign, facts, settled, stamp, storage, target, working_space
 from .scene_analysis import SceneReport
 from .solution import Solution
 
@@ -26,7 +26,7 @@ class Change:
         A `bpy.types.Material`.
     before
         Mean ΔE00 over the scene's lights and directions of what its shader showed, or None where
-        the surface came from another node.
+        that cannot be said, as with gloss.
     solution
         What was matched.
     """
@@ -131,14 +131,13 @@ def table(report: SceneReport, changes: Sequence[Change]) -> list[str]:
 
 
 def _mean_now(report: SceneReport, material: Any) -> float | None:
-    node = nodes.shader_node(material)
-    if node is None:
+    found = facts.of(material)
+    if settled.obstacle(found.surface) is not None:
         return None
-    view = report.views[material]
-    color = np.array(nodes.color_socket(node).default_value[:3])
-    roughness = float(np.clip(nodes.roughness_socket(node).default_value, 0, 1))
+    color, roughness = settled.shader(material, found)
+    view, rough = report.views[material], 0.0 if found.flat else roughness
     request, space = storage.load(material, view), working_space.current()
-    apart = target.differences(request, view, color, roughness, space)
+    apart = target.differences(request, view, color, rough, space)
     return float(np.average(apart, weights=view.place_weights))
 
 

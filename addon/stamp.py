@@ -72,18 +72,6 @@ def judge(found: Facts) -> State:
     return State("fresh", (), last)
 
 
-def numbers(found: Facts) -> tuple[float, float, float] | None:
-    """Give the stamp's ΔE00 if they are those of what the scene's engine shows now.
-
-    At the instrument, and mean and 95th percentile over all angles.
-    """
-    known = judge(found)
-    last = known.stamp
-    if last is None or known.kind != "fresh" or (found.flat and not found.inputs.scene_view):
-        return None
-    return last.delta_e_instrument, last.delta_e_mean, last.delta_e_95
-
-
 def stale_reasons(material: Any, working_space: str) -> list[str]:
     """Say why the color in the shader node no longer follows from the spectrum; empty if it does.
 

@@ -35,6 +35,7 @@ __all__ = [
     "Request",
     "choose",
     "differences",
+    "remarks",
     "settle",
     "solve",
     "target_reading",
@@ -188,6 +189,16 @@ def differences(
     [albedo] = spectra.albedos([settled], settled.model)
     bands, shader = settled.sample.wavelengths, (color, roughness)
     return scene_match.judge(view, shader, albedo, settled.model, settled.sigma, bands, space)
+
+
+def remarks(request: Request) -> tuple[str, ...]:
+    """Say what is to be known of spectrum and target, whatever shader shows them.
+
+    `request` has a settled model.
+    """
+    [judged] = judgement.judge_each([request.sample])
+    infeasible = _infeasible(request)
+    return (*request.sample.altered, *judged, *([infeasible] if infeasible else []))
 
 
 def _solve_in_scene(

@@ -11,6 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
+from ...core.errors import MaterialError
 from . import background, common
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
         # A pointer to a material does not survive an undo while the measurement runs.
         self._ids = [material.session_uid for material in materials]
         self._states = [measured.fingerprint(material) for material in materials]
+        self._predicted = [_predicted(material) for material in materials]
         return materials
 
     def take(self, values: Array) -> str:
@@ -71,11 +73,24 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
             )
         ]
         present = {material.session_uid: material for material in bpy.data.materials}
-        for entry, uid, state in zip(entries, self._ids, self._states, strict=True):
+        rows = zip(entries, self._ids, self._states, self._predicted, strict=True)
+        for entry, uid, state, predicted in rows:
             material = present.get(uid)
             if material is not None and material.is_editable and entry.measured is not None:
-                measured.note(material, state, entry.measured.rgb, entry.delta_e_00)
+                measured.note(material, state, entry.measured.rgb, entry.delta_e_00, predicted)
         return _sentence(entries)
+
+
+def _predicted(material: Any) -> float | None:
+    """ΔE00 at the instrument that Cycles is to show now; None where that cannot be said."""
+    from .. import facts, settled, working_space
+
+    if not facts.has_spectrum(material):
+        return None
+    try:
+        return settled.differences(material, working_space.current())[0]
+    except MaterialError:
+        return None
 
 
 def _sentence(entries: Any) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from .. import derivation, measured
+from .. import derivation, measured, settled
 from ..operators import common
 from ..preview import icons
 from . import redraw, sentences, text
@@ -54,7 +54,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
     if inputs.kind == "reading":
         column.prop(group, "instrument")
     column.prop(group, "sigma", slider=True)
-    _draw_sigma_range(column, shown.state.stamp)
+    _draw_sigma_range(column, settled.derived(shown.facts))
     if shown.facts.analyzed:
         column.prop(group, "use_scene")
     if not inputs.scene_view:
@@ -97,21 +97,18 @@ def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
 def draw_difference(layout: Any, context: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
     here = current(context)
-    otherwise = "Color or roughness comes from another node: there is no one color to compare"
-    shown = _of_one_color(layout, here, otherwise)
-    if shown is None:
+    if here.shown is None:
+        return
+    shown = here.shown
+    if shown.obstacle is not None:
+        text.draw(layout, sentences.obstacle(shown.obstacle, here.style))
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
         text.draw(layout, sentences.difference(shown.facts, apart, here.style))
-
-
-def _of_one_color(layout: Any, here: redraw.Redraw, otherwise: str) -> redraw.Shown | None:
-    """Give the material if its node holds a color to picture; if another node does, say so."""
-    if here.shown is None or not here.shown.is_textured:
-        return here.shown
-    text.draw(layout, sentences.of(otherwise, "INFO", here.style))
-    return None
+    if shown.is_bumped:
+        told = "Bump is not counted: numbers are of the surface without it"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
 
 
 def _draw_swatches(
@@ -131,8 +128,13 @@ def _draw_swatches(
 def draw_plots(layout: Any, context: Any) -> None:
     """Show the range of σ, spectrum and angles."""
     here = current(context)
-    shown = _of_one_color(layout, here, "There is no one color to plot")
-    if shown is None:
+    if here.shown is None:
+        return
+    shown = here.shown
+    if shown.obstacle is not None:
+        one = "There is no one color to plot"
+        told = one if shown.obstacle == settled.LINKED else "There is no color to plot"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
         return
     units = icons.fit(here.width, shown.unit)
     layout.template_icon(shown.picture("sheet", units), scale=units)
@@ -151,10 +153,12 @@ def draw_measurement(layout: Any, context: Any) -> None:
 
 def _draw_measured(layout: Any, context: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
     found = measured.get(common.active_material(context), shown.facts)
-    last = shown.state.stamp
-    if found is None or last is None or found.delta_e is None:
+    if found is None or found.delta_e is None:
         return
-    told = sentences.measurement(last.delta_e_instrument, found.delta_e, found.current, here.style)
+    predicted = found.predicted
+    if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
+        predicted = of_now[0]
+    told = sentences.measurement(predicted, found.delta_e, found.current, here.style)
     text.draw(layout.column(align=True), told)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from .. import facts, stamp
+from .. import facts, settled, stamp
 from ..operators import common
 from ..preview import icons, looks, theme
 from . import sentences, text
@@ -74,10 +74,14 @@ class Shown:
         self._pictured = (found, look)
 
     @property
-    def is_textured(self) -> bool:
-        """Whether another node sets color or roughness, so that the sockets' values don't show."""
-        surface = self.facts.surface
-        return surface is not None and (surface.color_linked or surface.roughness_linked)
+    def obstacle(self) -> settled.Obstacle | None:
+        """Why the surface cannot be compared with the target, if it cannot."""
+        return settled.obstacle(self.facts.surface)
+
+    @property
+    def is_bumped(self) -> bool:
+        """Whether the surface is turned point by point, which no number counts."""
+        return self.facts.surface is not None and self.facts.surface.bumped
 
     def picture(self, figure: str, units: float) -> int:
         """Give the icon of a figure for `template_icon` with this scale."""
@@ -85,7 +89,7 @@ class Shown:
 
     def apart(self) -> tuple[float, float, float] | None:
         """Give ΔE00 of what is in the shader node: as stored, or computed with the pictures."""
-        stored = stamp.numbers(self.facts)
+        stored = settled.numbers(self.facts, self.facts.flat)
         return stored or icons.differences(self.uid, self._pictured)
 
 

@@ -12,7 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
-from .. import derivation, stamp
+from .. import derivation, settled, stamp
 from ..facts import Facts
 from ..preview import words
 from .text import Format, Sentence
@@ -70,10 +70,16 @@ def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     state = stamp.judge(found)
     icon, sentences = "INFO" if state.kind in ("kept", "linked") else "ERROR", []
     for reason in map(tip_, state.reasons):
-        text = reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
-        sentences.append(how.format.sentence(text, icon, _BOX))
+        sentences.append(how.format.sentence(_capital(reason), icon, _BOX))
         icon = "BLANK1"
     return tuple(sentences)
+
+
+@lru_cache(maxsize=64)
+def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
+    """Say why there is no number."""
+    told = tip_(found.template).format(names=found.names)
+    return (how.format.sentence(_capital(told), "INFO"),)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -107,13 +113,14 @@ def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentenc
 
 @lru_cache(maxsize=_KEPT)
 def measurement(
-    predicted: float, measured: float, current: bool, how: Style
+    predicted: float | None, measured: float, current: bool, how: Style
 ) -> tuple[Sentence, ...]:
-    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since."""
-    told = [
-        (_difference(iface_("Predicted"), predicted), "BLANK1"),
-        (_difference(iface_("Measured"), measured), "BLANK1"),
-    ]
+    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since.
+
+    There may be no prediction.
+    """
+    told = [] if predicted is None else [(_difference(iface_("Predicted"), predicted), "BLANK1")]
+    told.append((_difference(iface_("Measured"), measured), "BLANK1"))
     if not current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
     return tuple(how.format.sentence(text, icon) for text, icon in told)
@@ -127,9 +134,11 @@ def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     last, view = stamp.judge(found).stamp, found.inputs.scene_view
     if not view or last is None:
         return ()
-    told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
-    if last.scene_reason:
-        told.append((last.scene_reason, "INFO"))
+    told = []
+    if settled.numbers(found, found.flat) is not None:
+        told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
+        if last.scene_reason:
+            told.append((last.scene_reason, "INFO"))
     analyzed = derivation.analyzed_scene(view)
     if analyzed not in {"", name}:
         text = iface_("Analyzed in scene {name}; analyze again if that is not this one")
@@ -148,6 +157,10 @@ def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sent
         tuple(write(f"{iface_(label)}: {value}") for label, value in about),
         (*told, *(write(text, "INFO") for text in notes)),
     )
+
+
+def _capital(reason: str) -> str:
+    return reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
 
 
 def _difference(where: str, delta_e: float) -> str:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -12,17 +12,9 @@ import numpy as np
 
 from ...core import cycles, reading
 from ...core.arrays import Array
-from ...core.errors import MaterialError
-from .. import (
-    colorimetry,
-    derivation,
-    nodes,
-    scene_match,
-    spectra,
-    srgb,
-    storage,
-)
-from ..request import AUTO, VIRTUAL, Request
+from .. import colorimetry, scene_match, settled, spectra, srgb
+from ..facts import Facts
+from ..request import VIRTUAL, Request
 from ..rgb_space import WorkingSpace, matrix_of
 from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
 from .raster import Color
@@ -98,7 +90,9 @@ class Data:
     engine: str
 
 
-def collect(material: Any, space: WorkingSpace, engine: str = "CYCLES") -> Data:
+def collect(
+    material: Any, space: WorkingSpace, flat: bool = False, known: Facts | None = None
+) -> Data:
     """Compute what a material's figures show.
 
     Parameters
@@ -107,71 +101,33 @@ def collect(material: Any, space: WorkingSpace, engine: str = "CYCLES") -> Data:
         A `bpy.types.Material` with a spectrum.
     space
         The working space that its node is in.
-    engine
-        The scene's render engine; only Cycles shows the roughness.
+    flat
+        Whether an engine shows it that ignores roughness.
+    known
+        The material's facts, for who has just read them.
 
     Raises
     ------
     MaterialError
-        If the material has no spectrum that can be read, or nothing was derived from it yet.
+        If the material has no spectrum that can be read, or its surface has an obstacle.
     DomainError
         If the spectrum does not cover the visible range.
     """
-    color, roughness = written(material)
-    rough = roughness if engine == "CYCLES" else 0.0
-    name = "Cycles" if engine == "CYCLES" else "Eevee"
-    return of_request(settled(material), color, rough, space, name)
-
-
-def settled(material: Any) -> Request:
-    """Give what a material stores, with the model that its stamp says was chosen.
-
-    Raises
-    ------
-    MaterialError
-        If the material has no spectrum that can be read.
-    """
-    request, found = storage.load(material), derivation.get_stamp(material)
-    if request.model != AUTO:
-        return request
-    return replace(request, model=found.model if found is not None else "closure")
-
-
-def written(material: Any) -> tuple[Array, float]:
-    """Color and roughness in the material's shader node, or as they were derived.
-
-    Raises
-    ------
-    MaterialError
-        If there is neither, or a socket holds no number.
-    """
-    node = nodes.shader_node(material)
-    if node is not None:
-        color = np.array(nodes.color_socket(node).default_value[:3], np.float64)
-        roughness = float(nodes.roughness_socket(node).default_value)
-        if not np.isfinite((*color, roughness)).all():
-            msg = f"Material {material.name!r}: {node.name!r} holds a value that is no number."
-            raise MaterialError(msg)
-        return color, roughness
-    found = derivation.get_stamp(material)
-    if found is None:
-        msg = f"Material {material.name!r} has no color derived from its spectrum yet; renew it."
-        raise MaterialError(msg)
-    return np.array(found.color), found.roughness
+    color, roughness = settled.shader(material, known)
+    request = settled.of(material, known).request
+    rough, engine = (0.0, "Eevee") if flat else (roughness, "Cycles")
+    return of_request(request, color, rough, space, engine)
 
 
 def of_request(
     request: Request, color: Array, roughness: float, space: WorkingSpace, engine: str = "Cycles"
 ) -> Data:
-    """Compute the same from a request with a settled model, and what is in the shader node."""
+    """Compute the same from a request with a settled model, and what the shader node shows."""
     sample, light = request.sample, request.illuminant
     bands = sample.wavelengths
     weights = space.rgb_weights(bands, light)
     luminance = colorimetry.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
-    # Sockets may hold anything; what the closure does to a color above 1 is not defined.
-    color = np.clip(color, 0, 1)
-    roughness = min(max(roughness, 0.0), 1.0)
     shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument

@@ -27,7 +27,7 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
-from .. import changes, facts, stamp
+from .. import changes, facts
 from ..facts import Facts
 from . import looks, theme
 
@@ -72,7 +72,7 @@ _collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
 _swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
 _pending: dict[_Wish, State] = {}
-_differences: dict[int, tuple[State, tuple[float, float, float] | None]] = {}
+_differences: dict[int, tuple[State, tuple[float, float, float]]] = {}
 
 
 def unit(scale: float, pixel_size: float) -> int:
@@ -235,34 +235,23 @@ def _work() -> float | None:
 
 
 def _make(material: Any, wishes: Sequence[_Wish]) -> None:
-    from .. import working_space
+    from .. import settled, working_space
     from . import compose, data
 
     found, look = facts.of(material), theme.current(bpy.context.preferences)
     state = (found, look)
     try:
         space = working_space.current()
-        shown = data.collect(material, space, found.engine)
+        shown = data.collect(material, space, found.flat, found)
+        apart = settled.differences(material, space, found.flat, found)
     except RoughSpectraError:
         # The panel says what is wrong with the material; there is nothing to picture.
         for wish in wishes:
             _store(wish, state, None)
         return
-    _differences[material.session_uid] = (state, _compared(material, found, space))
+    _differences[material.session_uid] = (state, apart)
     for wish in wishes:
         _store(wish, state, compose.picture(wish.figure, shown, wish.side, look))
-
-
-def _compared(material: Any, found: Facts, space: Any) -> tuple[float, float, float] | None:
-    """Compare the shader node with the target where the stamp does not say how far they are."""
-    if stamp.numbers(found) is not None:
-        return None
-    from . import data, shown
-
-    request = data.settled(material)
-    color, roughness = data.written(material)
-    shader = (color, 0.0 if found.flat else roughness)
-    return shown.differences(request, data.spectra_of(request), shader, space)
 
 
 def _store(wish: _Wish, state: State, canvas: Any) -> None:

@@ -31,6 +31,11 @@ def socket_of(material):
     return nodes.color_socket(nodes.shader_node(material))
 
 
+def link_to(material, socket):
+    tree = material.node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], socket)
+
+
 CHANGES = {
     "sigma": lambda m: setattr(m.rough_spectra, "sigma", 0.5),
     "kind": lambda m: setattr(m.rough_spectra, "kind", "reading"),
@@ -51,6 +56,8 @@ CHANGES = {
         nodes.roughness_socket(nodes.shader_node(m)), "default_value", 0.1
     ),
     "gloss": lambda m: setattr(nodes.shader_node(m).inputs["Coat Weight"], "default_value", 0.1),
+    "bump": lambda m: link_to(m, nodes.shader_node(m).inputs["Normal"]),
+    "displacement": lambda m: link_to(m, m.node_tree.nodes["Material Output"].inputs[2]),
     "name": lambda m: setattr(nodes.shader_node(m), "name", "Plaster"),
     "mute": lambda m: setattr(nodes.shader_node(m), "mute", True),
     "link": lambda m: m.node_tree.links.clear(),

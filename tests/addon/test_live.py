@@ -75,6 +75,31 @@ def test_another_shader_is_made_at_once(material):
     assert stamp.state(material).kind == "fresh"
 
 
+def test_shaders_are_changed_back_and_forth_and_undone(material):
+    """Six changes leave one node more, and undo takes them back one by one."""
+    window = bpy.data.window_managers[0].windows[0]
+
+    def seen():
+        wall = bpy.data.materials["Wall"]
+        tree = wall.node_tree
+        return nodes.shader_node(wall).name, sorted(tree.nodes.keys()), stamp.state(wall).kind
+
+    with bpy.context.temp_override(window=window, screen=window.screen):
+        bpy.ops.ed.undo_push(message="start")
+        steps = [seen()]
+        for shader in ("DIFFUSE", "PRINCIPLED") * 3:
+            bpy.data.materials["Wall"].rough_spectra.shader = shader
+            bpy.ops.ed.undo_push(message="step")
+            steps.append(seen())
+        assert [len(names) for _, names, _ in steps] == [2, *[3] * 6]
+        assert steps[1] == steps[3] == steps[5]
+        assert steps[2] == steps[4] == steps[6]
+        assert {kind for _, _, kind in steps} == {"fresh"}
+        for expected in reversed(steps[:-1]):
+            bpy.ops.ed.undo()
+            assert seen() == expected
+
+
 def test_what_does_not_change_the_color_writes_nothing(material):
     before = material.rough_spectra.stamp
     material.rough_spectra.observer = "10"

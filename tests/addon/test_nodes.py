@@ -146,6 +146,138 @@ def test_asking_for_the_other_shader_keeps_the_old_one_in_the_tree(make_material
     assert written(material, shader) == node
 
 
+DIFFUSE, PRINCIPLED_NODE = "ShaderNodeBsdfDiffuse", "ShaderNodeBsdfPrincipled"
+
+
+@pytest.fixture
+def bumpy(make_material):
+    """A Principled BSDF as an artist leaves it: with gloss of its own, and a bump map."""
+    material = make_material(node=PRINCIPLED_NODE, Roughness=0.25, Coat_Roughness=0.5, IOR=1.75)
+    tree, node = material.node_tree, surface(material)
+    node.name = "Plaster"
+    node.inputs["Base Color"].default_value = (0.1, 0.2, 0.3, 0.5)
+    noise, bump = tree.nodes.new("ShaderNodeTexNoise"), tree.nodes.new("ShaderNodeBump")
+    tree.links.new(noise.outputs[0], bump.inputs["Height"])
+    tree.links.new(bump.outputs[0], node.inputs["Normal"])
+    return material
+
+
+def bump_of(node):
+    """Name of the node behind a shader's normal, or None."""
+    links = node.inputs["Normal"].links
+    return links[0].from_node.name if links else None
+
+
+def test_changing_the_shader_back_and_forth_loses_and_adds_nothing(bumpy):
+    first = surface(bumpy)
+    for _ in range(3):
+        diffuse = written(bumpy, "DIFFUSE")
+        assert (bump_of(diffuse), nodes.color_socket(diffuse).default_value[3]) == ("Bump", 0.5)
+        principled = written(bumpy, "PRINCIPLED")
+        assert principled == first
+        assert bump_of(principled) == "Bump"
+        gloss = [principled.inputs[name].default_value for name in ("Roughness", "IOR")]
+        assert gloss == [0.25, 1.75]
+        assert len(bumpy.node_tree.nodes) == 5
+
+
+def test_what_happened_to_the_bump_meanwhile_is_carried_back(bumpy):
+    tree, first = bumpy.node_tree, surface(bumpy)
+    diffuse = written(bumpy, "DIFFUSE")
+    tree.links.remove(diffuse.inputs["Normal"].links[0])
+    assert written(bumpy, "PRINCIPLED") == first
+    assert bump_of(first) is None
+    other = tree.nodes.new("ShaderNodeNormalMap")
+    tree.links.new(other.outputs[0], first.inputs["Normal"]).is_muted = True
+    assert written(bumpy, "DIFFUSE") == diffuse
+    [link] = diffuse.inputs["Normal"].links
+    assert (link.from_node, link.is_muted) == (other, True)
+
+
+def use_in_a_mix(tree, node):
+    tree.links.new(node.outputs[0], tree.nodes.new("ShaderNodeMixShader").inputs[1])
+
+
+def use_in_another_output(tree, node):
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.target = "EEVEE"
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+
+
+def use_behind_a_reroute(tree, node):
+    reroute = tree.nodes.new("NodeReroute")
+    tree.links.new(node.outputs[0], reroute.inputs[0])
+    use_in_a_mix(tree, reroute)
+
+
+def replace_by_a_copy(tree, node):
+    """As with Shift D: the copy takes along custom properties, under a name of its own."""
+    other = tree.nodes.new(node.bl_idname)
+    for key, value in node.items():
+        other[key] = value
+    tree.nodes.remove(node)
+
+
+def make_metal(_tree, node):
+    node.inputs["Metallic"].default_value = 1.0
+
+
+def link_color(tree, node):
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], node.inputs["Base Color"])
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        *(use_in_a_mix, use_in_another_output, use_behind_a_reroute),
+        *(replace_by_a_copy, make_metal, link_color),
+    ],
+)
+def test_a_node_that_somebody_uses_or_that_cannot_be_set_is_left_alone(bumpy, use):
+    first, tree = surface(bumpy), bumpy.node_tree
+    written(bumpy, "DIFFUSE")
+    use(tree, first)
+    before, count = described(bumpy)[1], len(tree.nodes)
+    node = written(bumpy, "PRINCIPLED")
+    left = [row for row in described(bumpy)[1] if row[0] != node.name]
+    kept = [row for row in before if row[1] != DIFFUSE]
+    assert [row for row in left if row[1] != DIFFUSE] == kept
+    # The one that was made instead is used from now on.
+    for _ in range(2):
+        written(bumpy, "DIFFUSE")
+        assert written(bumpy, "PRINCIPLED") == node
+        assert len(tree.nodes) == count + 1
+
+
+def test_a_shader_that_was_never_in_use_is_not_taken(bumpy):
+    """Prepared by hand and not linked yet."""
+    own = bumpy.node_tree.nodes.new(DIFFUSE)
+    own.inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
+    assert written(bumpy, "DIFFUSE") != own
+    assert tuple(own.inputs["Color"].default_value) == (1.0, 0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize("reroutes", [1, 2])
+def test_behind_reroutes_the_shader_that_was_there_is_used_again(make_material, reroutes):
+    material = make_material()
+    tree, first = material.node_tree, surface(material)
+    source = first.outputs[0]
+    for _ in range(reroutes):
+        reroute = tree.nodes.new("NodeReroute")
+        tree.links.new(source, reroute.inputs[0])
+        source = reroute.outputs[0]
+    tree.links.new(source, tree.get_output_node("CYCLES").inputs["Surface"])
+    written(material, "PRINCIPLED")
+    assert written(material, "DIFFUSE") == first
+
+
+def test_a_copied_material_uses_its_own_nodes_again(bumpy):
+    written(bumpy, "DIFFUSE")
+    copy = bumpy.copy()
+    assert written(copy, "PRINCIPLED") == copy.node_tree.nodes["Plaster"]
+    assert surface(bumpy).bl_idname == DIFFUSE
+
+
 def test_reroutes_are_seen_through(make_material):
     material = make_material()
     tree = material.node_tree

@@ -11,6 +11,7 @@ from rough_spectra.addon import (
     light_spectrum,
     nodes,
     scene_view,
+    settled,
     target,
     working_space,
 )
@@ -119,7 +120,7 @@ def test_the_plot_over_angles_is_of_the_scenes_main_light(material):
     found = data.collect(material, space)
     assert found.target_curve.max() < 0.9 * before.target_curve.max()
     # A surface without roughness sends on its color times the light's.
-    color, _ = data.written(material)
+    color, _ = settled.shader(material)
     node = nodes.shader_node(material)
     nodes.roughness_socket(node).default_value = 0
     seen = color * np.maximum(space.from_xyz @ lights[0].white, 0)
@@ -147,7 +148,7 @@ def test_a_picture_has_the_colors_of_its_figure(material):
     ask(material)
     icons._work()
     look = theme.current(bpy.context.preferences)
-    found = data.collect(material, working_space.current(), bpy.context.scene.render.engine)
+    found = data.collect(material, working_space.current(), facts.engine_is_flat())
     wide = side(10)
     canvas = compose.picture("sheet", found, wide, look)
     np.testing.assert_array_equal(np.rint(pixels() * 255), canvas)
@@ -170,6 +171,18 @@ def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
     assert icons._work() is None
     assert asked(material, "sheet", 10) == 0
     assert not icons._pending
+
+
+@pytest.mark.parametrize("roughness", [-0.5, 1.5])
+def test_a_roughness_that_cycles_clips_is_pictured_clipped(material, roughness):
+    node, space = nodes.shader_node(material), working_space.current()
+    found = []
+    for value in (roughness, min(max(roughness, 0.0), 1.0)):
+        nodes.roughness_socket(node).default_value = value
+        ask(material, "swatches")
+        assert icons._work() is None
+        found.append((settled.differences(material, space), pixels("swatches").tolist()))
+    assert found[0] == found[1]
 
 
 def test_pictures_of_removed_materials_are_not_made(material):

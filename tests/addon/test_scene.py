@@ -16,6 +16,7 @@ from rough_spectra.addon import (
     derivation,
     light_spectrum,
     measured,
+    nodes,
     presets,
     readings,
     scene_analysis,
@@ -428,6 +429,10 @@ def test_engine_without_roughness_gets_the_flat_color_of_the_scene(plate):
     flat = target.differences(request, view, np.array(found.color), 0.0, space)
     same = target.differences(request, view, rough.solution.color, 0.0, space)
     assert np.average(flat, weights=view.weights) < np.average(same, weights=view.weights)
+    # A roughness that this engine does not show makes no difference.
+    nodes.roughness_socket(nodes.shader_node(plate)).default_value = 0.9
+    [change] = scene_report.follow(report)
+    assert change.before == pytest.approx(np.average(flat, weights=view.place_weights), abs=1e-4)
 
 
 def test_following_can_be_switched_off_and_on(plate):

@@ -55,6 +55,40 @@ def test_all_materials_with_a_spectrum_are_measured(scene):
     assert all(found.delta_e < 0.05 for found in readings.values() if found)
 
 
+def test_gloss_and_bump_are_measured_and_only_bump_hardly_shows():
+    """What is said of both when nothing is measured is held to a render."""
+    materials = []
+    for name in ("Bumpy", "Glossy"):
+        materials.append(rgb_material(name))
+        mesh_object(name, materials[-1])
+        OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/24-black-2", sigma=0.3)
+        materials[-1].rough_spectra.shader = "PRINCIPLED"
+        assert measured.get(materials[-1]) is None
+    bumpy, glossy = materials
+    tree = bumpy.node_tree
+    noise, bump = tree.nodes.new("ShaderNodeTexNoise"), tree.nodes.new("ShaderNodeBump")
+    tree.links.new(noise.outputs[0], bump.inputs["Height"])
+    tree.links.new(bump.outputs[0], tree.nodes["Principled BSDF"].inputs["Normal"])
+    gloss = glossy.node_tree.nodes["Principled BSDF"].inputs
+    gloss["Specular IOR Level"].default_value = 0.5
+    gloss["Roughness"].default_value = 0.8
+    assert OPS.measure("EXEC_DEFAULT", scope="ALL") == {"FINISHED"}
+    found = measured.get(bumpy)
+    assert found.predicted == pytest.approx(0, abs=0.01)
+    assert 0 < found.delta_e < 0.1
+    found = measured.get(glossy)
+    assert found.predicted is None
+    assert found.delta_e > 1
+    # Each of them is measured before the last change as soon as what it adds has changed.
+    assert found.current
+    gloss["Roughness"].default_value = 0.6
+    assert not measured.get(glossy).current
+    gloss["Specular IOR Level"].default_value = 0.0
+    assert not measured.get(glossy).current
+    tree.links.remove(tree.nodes["Principled BSDF"].inputs["Normal"].links[0])
+    assert not measured.get(bumpy).current
+
+
 def test_without_anything_to_measure_the_operator_says_so():
     with pytest.raises(RuntimeError, match="There is no material to measure"):
         OPS.measure("EXEC_DEFAULT")

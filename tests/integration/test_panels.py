@@ -179,6 +179,9 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     """The render is the judge of the number that the panel computes after an edit by hand."""
     node = next(node for node in green.node_tree.nodes if node.type == "BSDF_DIFFUSE")
     node.inputs["Color"].default_value = (0.09, 0.27, 0.11, 1)
+    # Rougher, another model is taken than the color was derived with.
+    green.rough_spectra.sigma = 1.2
+    assert "two-bounce" in green.rough_spectra.stamp
     drawn()
     icons._work()
     at_instrument, mean, high = differences(green)
@@ -186,7 +189,9 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     assert at_instrument == pytest.approx(measured.get(green).delta_e, abs=0.01)
     assert at_instrument > 1
     assert high > mean > 0
-    assert f"45°/0°: ΔE00 {at_instrument:.2f}, visible" in drawn()
+    page = drawn()
+    assert f"45°/0°: ΔE00 {at_instrument:.2f}, visible" in page
+    assert page[page.index(f"Predicted: ΔE00 {at_instrument:.2f}, visible") + 1].startswith("Meas")
     OPS.renew("EXEC_DEFAULT")
     assert "45°/0°: ΔE00 0.00, not visible" in drawn()
 
@@ -200,6 +205,24 @@ def test_the_range_of_sigma_stands_below_the_slider(green):
     limit = math.degrees(reading.sigma_max(max(spectrum["values"])))  # the closed form
     page = drawn()
     assert page[page.index("sigma") + 2] == f"Fits up to {limit:.1f}°"
+
+
+def test_what_was_derived_before_is_not_told_of_a_stale_material(green):
+    """Neither how far σ may go with other settings, nor what each light of the scene shows."""
+    OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/19-white-9-5", sigma=0.2)
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    group = green.rough_spectra
+    group.kind, group.model = "reading", "two-bounce"
+    assert any(line.startswith("Fits up to") for line in drawn())
+    assert sentence_with("Matched to one color of light")
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    node.inputs["Color"].default_value = (0.5, 0.1, 0.1, 1)
+    page = drawn()
+    assert any(line.startswith("Fits up to") for line in page)
+    assert not any(line.startswith(("Matched to", "Sun")) for line in page)
+    group.instrument = "di:8"
+    assert not any(line.startswith("Fits up to") for line in drawn())
 
 
 def test_another_engine_is_named_as_what_limits(green):
@@ -277,6 +300,33 @@ def test_what_another_node_sets_is_not_compared(green):
     assert not any("ΔE00" in line for line in page)
     assert "There is no one color to plot" in page
     assert not any(line.startswith("picture") for line in page)
+
+
+def test_gloss_is_not_compared_and_a_measurement_of_it_stands_alone(green):
+    green.rough_spectra.shader = "PRINCIPLED"
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    assert any("ΔE00" in line for line in drawn())
+    node.inputs["Specular IOR Level"].default_value = 0.5
+    for act in (lambda: None, lambda: storage.keep(green)):
+        act()
+        page = drawn()
+        assert any("No ΔE00 is predicted with Specular IOR" in line for line in page)
+        assert not any("ΔE00 0" in line for line in page)
+        assert "There is no color to plot" in page
+        assert not any(line.startswith("picture") for line in page)
+    measured.note(green, measured.fingerprint(green), (0.1, 0.2, 0.1), 5.5)
+    page = drawn()
+    assert "Measured: ΔE00 5.50, visible" in page
+    assert not any(line.startswith("Predicted") for line in page)
+
+
+def test_bump_is_said_not_to_be_counted(green):
+    tree = green.node_tree
+    assert not sentence_with("Bump is not counted")
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], node.inputs["Normal"])
+    assert sentence_with("Bump is not counted")
+    assert "45°/0°: ΔE00 0.00, not visible" in drawn()
 
 
 def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
