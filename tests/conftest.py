@@ -3,12 +3,18 @@
 """Let tests import `core` from the repository's root and the extension as `rough_spectra`."""
 
 import importlib.util
+import os
 import sys
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# OpenBLAS splits even small matrices among all cores, and its threads wait for each other by
+# spinning: where another process has a core, as the other Blender's tests have, eigenvalues of
+# 80 × 80 took twenty times as long. Asked for before numpy starts; child processes inherit it.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 sys.path.insert(0, str(ROOT))
 if "rough_spectra" not in sys.modules:
