@@ -149,12 +149,15 @@ def compare(assigned: Assigned, directions: Directions, rgb: Array) -> list[Row]
     """
     requests = assigned.requests
     seen = working_space.current().to_lab(rgb, "D65")
+    # All σ of a model at once: the reference then solves each geometry once.
+    models = [[request for request in requests if request.model == model] for model in TARGETS]
+    truth = np.concatenate([model_lab(each, directions) for each in models])
     rows = []
     for start in range(0, len(requests), assigned.patches):
         alike = range(start, start + assigned.patches)
         members = [i for i in alike if assigned.within_gamut[i]]
         first = requests[start]
-        wanted = np.swapaxes(model_lab([requests[i] for i in members], directions), 0, 1)
+        wanted = np.swapaxes(truth[members], 0, 1)
         flat = np.stack([lambert_lab(requests[i]) for i in members])
         for material, lab in (
             ("Diffuse BSDF, matched", seen[:, members]),
@@ -177,7 +180,7 @@ def compare(assigned: Assigned, directions: Directions, rgb: Array) -> list[Row]
 
 
 def model_lab(requests: list[target.Request], directions: Directions) -> Array:
-    """L*a*b* of the spectral model of requests alike in all but spectrum.
+    """L*a*b* of the spectral model of requests for one model, on one wavelength grid.
 
     Returns
     -------
@@ -185,8 +188,8 @@ def model_lab(requests: list[target.Request], directions: Directions) -> Array:
     negative, which counts as black.
     """
     albedos = np.stack([request.sample.values for request in requests])[:, np.newaxis]
-    model, sigma = TARGETS[requests[0].model], requests[0].sigma
-    spectra = ladder.reflectance(model, albedos, *directions, sigma)
+    sigmas = np.array([[request.sigma] for request in requests])
+    spectra = ladder.reflectance(TARGETS[requests[0].model], albedos, *directions, sigmas)
     return colorimetry.spectrum_to_lab(np.maximum(spectra, 0), requests[0].sample.wavelengths)
 
 
