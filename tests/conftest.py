@@ -7,6 +7,7 @@ import os
 import sys
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -17,6 +18,10 @@ ROOT = Path(__file__).resolve().parents[1]
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 sys.path.insert(0, str(ROOT))
+# An example that takes long is no fault: it depends on the machine, and on what else runs there.
+hypothesis.settings.register_profile("untimed", deadline=None)
+hypothesis.settings.load_profile("untimed")
+
 if "rough_spectra" not in sys.modules:
     spec = importlib.util.spec_from_file_location(
         "rough_spectra", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
