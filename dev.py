@@ -15,14 +15,14 @@ import contextlib
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
-from tools.ground import environments, package, wheels
+from tools.ground import environments, package, side_by_side, wheels
 from tools.ground.environments import Environment
 from tools.ground.errors import GroundError
+from tools.ground.side_by_side import Result, Step
 
 ROOT = Path(__file__).resolve().parent
 BUILD = ROOT / "build"
@@ -122,45 +122,47 @@ def script(name: str) -> Path:
 # Commands ----------------------------------------------------------------------------------------
 
 
-@dataclass
-class Step:
-    """One line of the summary that closes a test run."""
+def test_blenders(ready: dict[str, Environment], arguments: Sequence[str]) -> list[Step]:
+    """Describe pytest over each bpy module; one screen and one desktop Blender do for one of them.
 
-    name: str
-    result: str
-    seconds: float = 0.0
-    failed: bool = False
-
-
-def timed(name: str, command: Sequence[str | Path], cwd: Path = ROOT, **extra: str) -> Step:
-    """Run one step of the tests."""
-    say(f"\n=== {name}")
-    start = time.monotonic()
-    status = call(command, cwd, **extra)
-    result = "ok" if status == 0 else f"FAILED (exit status {status})"
-    return Step(name, result, time.monotonic() - start, status != 0)
+    What runs in the desktop Blender is the same, whichever bpy module the tests stand on.
+    """
+    steps = [test_blender(name, environment, arguments) for name, environment in ready.items()]
+    alone = {"ROUGH_SPECTRA_BLENDER": ""}
+    return steps[:1] + [replace(s, settings={**s.settings, **alone}) for s in steps[1:]]
 
 
 def test_blender(name: str, environment: Environment, arguments: Sequence[str]) -> Step:
-    """Run pytest over a bpy module, away from the user's own Blender settings."""
+    """Describe pytest over a bpy module, away from the user's settings and the other's files.
+
+    Temporary files need no care: pytest makes a folder of its own for each run.
+    """
     wheels.ensure(ROOT, environment.python)
-    user = CACHE / f"blender-user-{name}"
-    user.mkdir(parents=True, exist_ok=True)
-    pytest = module(environment, "pytest", "--durations=10", *arguments)
-    return timed(f"tests, Blender {name}", pytest, BLENDER_USER_RESOURCES=str(user))
+    own = {
+        "BLENDER_USER_RESOURCES": CACHE / f"blender-user-{name}",
+        "HYPOTHESIS_STORAGE_DIRECTORY": CACHE / f"hypothesis-{name}",
+    }
+    for folder in own.values():
+        folder.mkdir(parents=True, exist_ok=True)
+    cache = f"cache_dir={CACHE / f'pytest-{name}'}"
+    pytest = module(environment, "pytest", "--durations=10", "-o", cache, *arguments)
+    settings = {key: str(folder) for key, folder in own.items()}
+    if sys.stdout.isatty():
+        settings["PY_COLORS"] = "1"  # for one whose output is kept until its turn
+    return Step(f"tests, Blender {name}", pytest, ROOT, settings)
 
 
 def lint() -> list[Step]:
-    """Run both halves of ruff."""
+    """Describe both halves of ruff."""
     ruff = module(prepare_tools(), "ruff")
     return [
-        timed("lint (ruff check)", [*ruff, "check"]),
-        timed("layout (ruff format)", [*ruff, "format", "--check"]),
+        Step("lint (ruff check)", [*ruff, "check"], ROOT),
+        Step("layout (ruff format)", [*ruff, "format", "--check"], ROOT),
     ]
 
 
 def types() -> list[Step]:
-    """Check types of a copy of what ships, named as Blender names it.
+    """Describe the check of types, over a copy of what ships, named as Blender names it.
 
     The extension's relative imports climb to its package, and a clone's folder may have any name.
     """
@@ -171,32 +173,33 @@ def types() -> list[Step]:
     package.stage(ROOT, shipped / "rough_spectra", ["__init__.py"], package.CODE_FOLDERS)
     parts = ["-p", "rough_spectra.core", "-p", "rough_spectra.addon"]
     return [
-        timed("types of core and addon (mypy)", [*mypy, *parts], shipped),
-        timed("types of dev.py and tools (mypy)", mypy, MYPYPATH=str(shipped)),
+        Step("types of core and addon (mypy)", [*mypy, *parts], shipped),
+        Step("types of dev.py and tools (mypy)", mypy, ROOT, {"MYPYPATH": str(shipped)}),
     ]
 
 
 def command_test(options: argparse.Namespace) -> int:
-    """Run the tests over each Blender, then lint, layout and types."""
+    """Run the tests over each Blender, lint, layout and types, side by side on several cores."""
     wanted = options.only or [*BLENDERS, "lint", "types"]
     names = [name for name in BLENDERS if name in wanted]
     ready = prepare_blenders(names)
     if "lint" in wanted or "types" in wanted:
         prepare_tools()
-    steps = [test_blender(name, ready[name], options.arguments) for name in ready]
-    for name in names:
-        if name not in ready:
-            strict = bool(os.environ.get("CI")) or bool(options.only)
-            steps.append(Step(f"tests, Blender {name}", missing(name), failed=strict))
-    if "lint" in wanted:
-        steps += lint()
-    if "types" in wanted:
-        steps += types()
+    tested = test_blenders(ready, options.arguments)
+    checked = [*(lint() if "lint" in wanted else []), *(types() if "types" in wanted else [])]
+    ran = side_by_side.run([*tested, *checked], side_by_side.cores(), say)
+    strict = bool(os.environ.get("CI")) or bool(options.only)
+    left_out = [
+        Result(f"tests, Blender {name}", missing(name), failed=strict)
+        for name in names
+        if name not in ready
+    ]
+    results = [*ran[: len(tested)], *left_out, *ran[len(tested) :]]
     say("\n=== summary")
-    for step in steps:
-        say(f"{step.seconds:7.1f} s  {step.name}: {step.result}")
-    failed = sum(step.failed for step in steps)
-    say(f"{failed} of {len(steps)} steps failed." if failed else "All steps passed.")
+    for each in results:
+        say(f"{each.seconds:7.1f} s  {each.name}: {each.result}")
+    failed = sum(each.failed for each in results)
+    say(f"{failed} of {len(results)} steps failed." if failed else "All steps passed.")
     return 1 if failed else 0
 
 

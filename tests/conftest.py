@@ -3,14 +3,25 @@
 """Let tests import `core` from the repository's root and the extension as `rough_spectra`."""
 
 import importlib.util
+import os
 import sys
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# OpenBLAS splits even small matrices among all cores, and its threads wait for each other by
+# spinning: where another process has a core, as the other Blender's tests have, eigenvalues of
+# 80 × 80 took twenty times as long. Asked for before numpy starts; child processes inherit it.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 sys.path.insert(0, str(ROOT))
+# An example that takes long is no fault: it depends on the machine, and on what else runs there.
+hypothesis.settings.register_profile("untimed", deadline=None)
+hypothesis.settings.load_profile("untimed")
+
 if "rough_spectra" not in sys.modules:
     spec = importlib.util.spec_from_file_location(
         "rough_spectra", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
@@ -35,3 +46,15 @@ def extension():
     yield extension
     bpy.ops.wm.read_factory_settings(use_empty=True)
     extension.unregister()
+
+
+@pytest.fixture
+def empty_file(extension):
+    """Open an empty file with the factory's settings.
+
+    Preferences stay, which no test leaves changed: with them Blender registers all its own add-ons
+    anew, and takes five times as long.
+    """
+    import bpy
+
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -27,9 +27,17 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import assign, colorimetry, outputs, presets, target, working_space
+from rough_spectra.addon import (
+    assign,
+    colorimetry,
+    nodes,
+    outputs,
+    presets,
+    target,
+    working_space,
+)
 from rough_spectra.addon.spectrophotometer.measure import Geometry, measure
-from rough_spectra.core import color_difference, geometry, ladder, reading
+from rough_spectra.core import color_difference, cycles, geometry, ladder, reading
 from rough_spectra.core.arrays import Array
 
 SIGMAS = (15, 30, 45)
@@ -71,19 +79,32 @@ class Row:
     geometries: int
 
 
-def compute(count: int = GEOMETRIES) -> list[Row]:
-    """Render and compare; the extension has to be registered.
+Directions = tuple[Array, Array, Array]
+"""θi, θr and Δφ, radians, each of shape (geometries,)."""
 
-    Parameters
+
+@dataclass(frozen=True)
+class Assigned:
+    """The materials, and what they were assigned with: all patches at one σ, then at the next.
+
+    Attributes
     ----------
-    count
-        How many geometries, spread with cosine density below 80°.
-
-    Returns
-    -------
-    Two rows a model and roughness: the matched material as rendered, and the Lambertian one.
+    materials, requests
+        One a patch, roughness and model.
+    within_gamut
+        Whether the color could be met.
+    patches
+        How many follow each other with the same roughness and model.
     """
-    directions = geometry.hemisphere(count)
+
+    materials: list[Any]
+    requests: list[target.Request]
+    within_gamut: list[bool]
+    patches: int
+
+
+def prepare() -> Assigned:
+    """Assign every preset at every roughness; the extension has to be registered."""
     samples = presets.load_all("colorchecker")
     requests = [
         target.Request(sample, float(np.radians(degrees)), model)
@@ -93,18 +114,50 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
     ]
     materials = [bpy.data.materials.new(request.sample.name) for request in requests]
     solutions = assign.assign(list(zip(materials, requests, strict=True)))
-    space = working_space.current()
-    measured = measure(materials, to_measure(*directions), samples=1)[:, :, 0]
-    seen = space.to_lab(measured, "D65")
+    within = [not any("gamut" in warning for warning in s.warnings) for s in solutions]
+    return Assigned(materials, requests, within, len(samples))
+
+
+def rendered(materials: list[Any], directions: Directions) -> Array:
+    """RGB that Cycles shows, shape (geometries, materials, 3): a render each geometry."""
+    return measure(materials, to_measure(*directions), samples=1)[:, :, 0]
+
+
+def computed(materials: list[Any], directions: Directions) -> Array:
+    """RGB of the same by the core's formula of Cycles, from what the nodes hold."""
+    found = [nodes.surface(material) for material in materials]
+    colors = np.array([surface.color for surface in found if surface is not None], np.float64)
+    roughness = np.array([surface.roughness for surface in found if surface is not None])
+    return cycles.reflectance(colors, roughness, *(angle[:, np.newaxis] for angle in directions))
+
+
+def compare(assigned: Assigned, directions: Directions, rgb: Array) -> list[Row]:
+    """Compare what materials show with the spectral truth.
+
+    Parameters
+    ----------
+    assigned
+        The materials.
+    directions
+        Where they were looked at.
+    rgb
+        What they showed there, shape (geometries, materials, 3).
+
+    Returns
+    -------
+    Two rows a model and roughness: the matched material as it showed, and the Lambertian one.
+    """
+    requests = assigned.requests
+    seen = working_space.current().to_lab(rgb, "D65")
+    # All σ of a model at once: the reference then solves each geometry once.
+    models = [[request for request in requests if request.model == model] for model in TARGETS]
+    truth = np.concatenate([model_lab(each, directions) for each in models])
     rows = []
-    for start in range(0, len(requests), len(samples)):
-        members = [
-            i
-            for i in range(start, start + len(samples))
-            if not any("gamut" in warning for warning in solutions[i].warnings)
-        ]
+    for start in range(0, len(requests), assigned.patches):
+        alike = range(start, start + assigned.patches)
+        members = [i for i in alike if assigned.within_gamut[i]]
         first = requests[start]
-        wanted = np.swapaxes(model_lab([requests[i] for i in members], directions), 0, 1)
+        wanted = np.swapaxes(truth[members], 0, 1)
         flat = np.stack([lambert_lab(requests[i]) for i in members])
         for material, lab in (
             ("Diffuse BSDF, matched", seen[:, members]),
@@ -120,14 +173,14 @@ def compute(count: int = GEOMETRIES) -> list[Row]:
                     float(np.percentile(apart, 95)),
                     float(apart.max()),
                     len(members),
-                    count,
+                    len(directions[0]),
                 )
             )
     return rows
 
 
-def model_lab(requests: list[target.Request], directions: tuple[Array, Array, Array]) -> Array:
-    """L*a*b* of the spectral model of requests alike in all but spectrum.
+def model_lab(requests: list[target.Request], directions: Directions) -> Array:
+    """L*a*b* of the spectral model of requests for one model, on one wavelength grid.
 
     Returns
     -------
@@ -135,8 +188,8 @@ def model_lab(requests: list[target.Request], directions: tuple[Array, Array, Ar
     negative, which counts as black.
     """
     albedos = np.stack([request.sample.values for request in requests])[:, np.newaxis]
-    model, sigma = TARGETS[requests[0].model], requests[0].sigma
-    spectra = ladder.reflectance(model, albedos, *directions, sigma)
+    sigmas = np.array([[request.sigma] for request in requests])
+    spectra = ladder.reflectance(TARGETS[requests[0].model], albedos, *directions, sigmas)
     return colorimetry.spectrum_to_lab(np.maximum(spectra, 0), requests[0].sample.wavelengths)
 
 
@@ -203,7 +256,8 @@ def main() -> int:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     extension.register()
     try:
-        rows = compute()
+        assigned, directions = prepare(), geometry.hemisphere(GEOMETRIES)
+        rows = compare(assigned, directions, rendered(assigned.materials, directions))
     finally:
         # Blender trips over classes that are still registered when it ends.
         bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -15,8 +15,8 @@ FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 
 
 @pytest.fixture(autouse=True)
-def _fresh_blender(extension):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+def _fresh_blender(empty_file):
+    """Every test begins with an empty file."""
 
 
 @pytest.fixture

@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 import textwrap
-import time
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +19,12 @@ from rough_spectra.addon.sample import Sample
 from rough_spectra.core import color_difference
 from rough_spectra.core.errors import InputError, OutputError
 
+from tests import pace
+
 ROOT = Path(__file__).resolve().parents[2]
 NM = np.arange(400.0, 701.0, 10.0)
+SECONDS = 120
+"""After which a child hangs."""
 
 
 def sample(name, level=0.4, **fields):
@@ -309,12 +312,9 @@ def test_asking_again_costs_no_reading_and_a_change_is_seen(tmp_path):
     library.add([sample(f"{i}", i / 2000) for i in range(1000)], "mine", tmp_path)
     assert library.cached(tmp_path) is None
     first = library.contents(tmp_path)
-    start = time.perf_counter()
-    for _ in range(10):
-        assert library.contents(tmp_path) is first
-        assert library.cached(tmp_path) is first
-        library.search("77", tmp_path)
-    print(f"asked again: {(time.perf_counter() - start) / 30 * 1e6:.0f} µs")
+    assert library.search("77", tmp_path)
+    assert library.contents(tmp_path) is first
+    assert library.cached(tmp_path) is first
     library.add([sample("new", 0.9)], "mine", tmp_path)
     assert library.cached(tmp_path) is None
     assert len(own(tmp_path)) == 1001
@@ -354,7 +354,7 @@ def test_two_processes_that_add_at_once_lose_nothing(tmp_path):
     """
     both = [child(tmp_path, f"who = {who!r}\n{textwrap.dedent(work)}") for who in "AB"]
     for process in both:
-        assert process.wait(60) == 0, process.stderr.read()
+        assert process.wait(SECONDS) == 0, process.stderr.read()
         process.stderr.close()
         process.stdout.close()
     names = [found.name for found in readers.read(tmp_path / "mine.json")]
@@ -378,7 +378,7 @@ def test_a_killed_process_leaves_the_old_file_and_no_lock(tmp_path, moment):
         add("lost", 0.3)
         """,
     )
-    assert process.wait(60) == -signal.SIGKILL
+    assert process.wait(SECONDS) == -signal.SIGKILL
     process.stderr.close()
     process.stdout.close()
     assert (tmp_path / "mine.json").read_bytes() == old
@@ -405,8 +405,6 @@ def test_a_lock_that_another_keeps_is_a_sentence_and_not_a_hang(tmp_path):
 def test_ten_thousand_samples_are_added_quickly(tmp_path):
     values = np.random.default_rng(1).uniform(0.1, 0.6, (10_000, NM.size))
     many = [Sample(f"patch {i // 2}", NM, row, "reading") for i, row in enumerate(values)]
-    start = time.perf_counter()
-    assert len(library.add(many, "chart", tmp_path).names) == 10_000
-    seconds = time.perf_counter() - start
-    print(f"added in {seconds:.2f} s")
-    assert seconds < 5  # seen: 0.7; quadratic would be minutes
+    # Seen: 40 paces; quadratic would be thousands.
+    with pace.at_most(250):
+        assert len(library.add(many, "chart", tmp_path).names) == 10_000

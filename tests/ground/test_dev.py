@@ -14,14 +14,14 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def stubbed(monkeypatch):
-    """Nothing is set up or run; the list receives the names of the steps."""
+    """Nothing is set up or run; the list receives the steps."""
     ran = []
 
-    def timed(name, _command, *_, **__):
-        ran.append(name)
-        return dev.Step(name, "ok")
+    def run(steps, _lanes, _say):
+        ran.extend(steps)
+        return [dev.Result(step.name, "ok") for step in steps]
 
-    monkeypatch.setattr(dev, "timed", timed)
+    monkeypatch.setattr(dev.side_by_side, "run", run)
     monkeypatch.setattr(dev.environments, "prepare", lambda *_: True)
     monkeypatch.setattr(dev.package, "stage", lambda *_: None)
     monkeypatch.setattr(dev.wheels, "ensure", lambda *_: None)
@@ -31,7 +31,7 @@ def stubbed(monkeypatch):
 
 def test_test_runs_every_step_and_sums_them_up(stubbed, capsys):
     assert dev.main(["test"]) == 0
-    assert [name.split(" (")[0] for name in stubbed] == [
+    assert [step.name.split(" (")[0] for step in stubbed] == [
         "tests, Blender 5.2",
         "tests, Blender 4.5",
         "lint",
@@ -41,20 +41,37 @@ def test_test_runs_every_step_and_sums_them_up(stubbed, capsys):
     ]
     said = capsys.readouterr().out
     assert said.endswith("All steps passed.\n")
-    assert all(f"{name}: ok" in said for name in stubbed)
+    assert all(f"{step.name}: ok" in said for step in stubbed)
 
 
 def test_one_failing_step_fails_the_run(stubbed, monkeypatch, capsys):
     monkeypatch.setattr(
-        dev, "timed", lambda name, *_, **__: dev.Step(name, "no", 0, "lint" in name)
+        dev.side_by_side,
+        "run",
+        lambda steps, *_: [dev.Result(s.name, "no", 0, "lint" in s.name) for s in steps],
     )
     assert dev.main(["test"]) == 1
     assert capsys.readouterr().out.endswith("1 of 6 steps failed.\n")
 
 
+def test_blenders_that_run_at_once_share_no_folder_and_no_screen(stubbed, monkeypatch):
+    monkeypatch.setenv("ROUGH_SPECTRA_BLENDER", "/opt/blender")
+    assert dev.main(["test", "--only", "5.2", "--only", "4.5"]) == 0
+    one, other = stubbed
+    for name in ("BLENDER_USER_RESOURCES", "HYPOTHESIS_STORAGE_DIRECTORY"):
+        assert Path(one.settings[name]).is_dir()
+        assert one.settings[name] != other.settings[name]
+    caches = [word for step in stubbed for word in step.command if "cache_dir" in str(word)]
+    assert len(set(caches)) == 2
+    assert "ROUGH_SPECTRA_BLENDER" not in one.settings
+    assert other.settings["ROUGH_SPECTRA_BLENDER"] == ""
+
+
 def test_only_picks_steps(stubbed):
     assert dev.main(["test", "--only", "lint", "--only", "4.5", "-k", "something"]) == 0
-    assert [name.split(" (")[0] for name in stubbed] == ["tests, Blender 4.5", "lint", "layout"]
+    names = [step.name.split(" (")[0] for step in stubbed]
+    assert names == ["tests, Blender 4.5", "lint", "layout"]
+    assert stubbed[0].command[-2:] == ["-k", "something"]
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Words for geometries in files: which instrument they mean, and when the user is told."""
 
-import time
-
 import pytest
 from rough_spectra.addon.readers._geometry import geometry_of_device, instrument_of, specular_of
 from rough_spectra.core.instruments import REGISTRY
+
+from tests import pace
 
 
 @pytest.mark.parametrize(
@@ -60,9 +60,8 @@ def test_known_geometries_need_no_note(text, name, specular):
     ],
 )
 def test_others_get_the_nearest_and_a_sentence(text, name, part):
-    start = time.perf_counter()
-    found, note = instrument_of(text)
-    assert time.perf_counter() - start < 1
+    with pace.at_most(50):
+        found, note = instrument_of(text)
     assert found == name
     assert part in note
     assert note.endswith(".")

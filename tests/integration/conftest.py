@@ -28,10 +28,8 @@ from tests.integration.support import (
 
 
 @pytest.fixture(autouse=True)
-def empty_blender(extension):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    yield
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+def empty_blender(empty_file):
+    """Every test begins with an empty file."""
 
 
 @pytest.fixture(scope="session")

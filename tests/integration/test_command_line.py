@@ -97,7 +97,7 @@ def test_assign_bake_check_from_start_to_end(blend, run, main, tmp_path):
     result = run("assign", "--blend", blend, *words)
     assert result.status == 0
     assert "assigned 2 materials" in result.sentence
-    result = run("check", "--blend", blend, "--max-delta-e", "0.05")
+    result = main("check", "--blend", blend, "--max-delta-e", "0.05")
     assert result.status == 0
     assert "0 of 2 materials exceed" in result.err
 
