@@ -59,7 +59,7 @@ def main(path: Path) -> None:
 
 def build() -> tuple[Any, Any]:
     """Make a world with a sky, and a camera that sees all of it."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     scene.world = world = bpy.data.worlds.new("Sky")
     if world.node_tree is None:
