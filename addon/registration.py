@@ -56,7 +56,10 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
-    # Imported only once a picture was asked for.
+    # Each is imported only once a job was started, or a picture asked for.
+    second_blender = sys.modules.get(f"{__package__}.second_blender")
+    if second_blender is not None:
+        second_blender.end_all()
     icons = sys.modules.get(f"{__package__}.preview.icons")
     if icons is not None:
         icons.clear()

@@ -28,6 +28,15 @@ _POLL_SECONDS = 0.05
 _PATIENCE_SECONDS = 5.0
 """How long a Blender that was asked to end may take before it is killed."""
 
+_open: list[Job] = []
+"""Jobs that were not closed yet."""
+
+
+def end_all() -> None:
+    """Close every job: the extension is being switched off, or Blender quits."""
+    for job in list(_open):
+        job.close()
+
 
 class Job:
     """A job under way in a second Blender.
@@ -55,11 +64,13 @@ class Job:
     def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
         self._folder: Path | None = None
         self._process: subprocess.Popen[bytes] | None = None
+        self._traces = ExitStack()
         self.total = 0
         self.done = 0
         try:
             with ExitStack() as undone:
                 undone.callback(self.close)
+                _open.append(self)
                 self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
                 job = {"asked_by": os.getpid(), **prepare(self._folder)}
                 self._start(self._folder, worker, job)
@@ -122,8 +133,12 @@ class Job:
             raise OutputError(msg)
         return path
 
+    def when_closed(self, act: Callable[[], None]) -> None:
+        """Call a function once the job is closed, whoever closes it."""
+        self._traces.callback(act)
+
     def close(self) -> None:
-        """Stop the second Blender if it still runs, and remove its files."""
+        """Stop the second Blender if it still runs, and remove its files and all other traces."""
         if self._process is not None and self._process.poll() is None:
             self._process.terminate()
             try:
@@ -133,6 +148,9 @@ class Job:
                 self._process.wait()
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
+        if self in _open:
+            _open.remove(self)
+        self._traces.close()
 
     def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
         job_path = folder / "job.json"

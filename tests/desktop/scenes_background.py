@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 import other_extension
 from driver import area, click, find, middle, move, over, press, scene, window
-from stage import OPS, empty_file, green_file, ours, state, wall
+from stage import OPS, PACKAGE, empty_file, green_file, ours, state, wall
 
 _started = []
 
@@ -144,6 +144,48 @@ def another_file_while_measuring(found):
     yield 1.0
     found["left"] = [len(children()), len(jobs())]
     found["modal"] = [op.bl_idname for op in window().modal_operators]
+
+
+def _status(shown):
+    """Follow what is written into the status bars; nothing tells what stands there."""
+    kind = bpy.types.WorkSpace
+    write = kind.status_text_set
+
+    def noted(workspace, text):
+        shown[workspace.name] = text
+        write(workspace, text)
+
+    kind.status_text_set = noted
+    return write
+
+
+@scene
+def switched_off_while_measuring(found):
+    """Disable the extension while it is measured, in another workspace than it began in."""
+    yield from green_file()
+    shown = {}
+    write = _status(shown)
+    first = window().workspace
+    try:
+        yield from _start()
+        yield lambda: bool(shown)
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.workspace.duplicate()
+        yield lambda: len(shown) == 2
+        found["ran"] = [len(children()), len(jobs()), len(shown)]
+        bpy.ops.preferences.addon_disable(module=PACKAGE)
+        yield 0.5
+        found["left"] = [len(children()), len(jobs()), [text for text in shown.values() if text]]
+        found["modal"] = [op.bl_idname for op in window().modal_operators]
+    finally:
+        bpy.types.WorkSpace.status_text_set = write
+        window().workspace = first
+        bpy.ops.preferences.addon_enable(module=PACKAGE)
+    yield from green_file()
+    yield from _start()
+    yield _ended
+    yield 0.5
+    found["measured_again"] = _measured()
 
 
 @scene

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a user finds who works in the window."""
 
+import os
+from pathlib import Path
+
 import pytest
 
 
@@ -60,6 +63,20 @@ def test_undo_while_measuring(scene):
 
 def test_another_file_while_measuring(scene):
     assert scene == {"ran": True, "left": [0, 0], "modal": []}
+
+
+def test_switched_off_while_measuring(scene):
+    assert scene["ran"] == [1, 1, 2]
+    assert scene["left"] == [0, 0, []]
+    assert scene["modal"] == []
+    assert scene["measured_again"] == [pytest.approx(0, abs=0.02), True]
+
+
+def test_quitting_while_measuring(scene):
+    [process], [folder] = scene["process"], scene["folder"]
+    assert not Path(folder).exists()
+    with pytest.raises(ProcessLookupError):
+        os.kill(process, 0)
 
 
 def test_stopping_a_bake(scene):
