@@ -23,6 +23,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ..core.errors import CancelledError, OutputError
+from . import job_failure
 
 _POLL_SECONDS = 0.05
 _PATIENCE_SECONDS = 5.0
@@ -58,8 +59,8 @@ class Job:
     """What the second Blender does, as in "measures"."""
     interrupted: ClassVar[str]
     """Sentence for an interrupt from the keyboard."""
-    remedy: ClassVar[str]
-    """What to do when the second Blender fails."""
+    smaller: ClassVar[str]
+    """How to ask for less when the memory is full, as in "measure fewer materials at once"."""
 
     def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
         self._folder: Path | None = None
@@ -124,13 +125,7 @@ class Job:
         assert self._folder is not None
         path = self._folder / name
         if self._process.returncode != 0 or not path.exists():
-            log = (self._folder / "log").read_text(encoding="utf-8", errors="replace")
-            lines = [line for line in log.splitlines() if line.strip()] or ["it said nothing"]
-            msg = (
-                f"The Blender that {self.doing} stopped with status {self._process.returncode} "
-                f"({lines[-1].strip()}); nothing was written. {self.remedy}"
-            )
-            raise OutputError(msg)
+            raise OutputError(self._failure(self._folder, self._process.returncode))
         return path
 
     def when_closed(self, act: Callable[[], None]) -> None:
@@ -151,6 +146,21 @@ class Job:
         if self in _open:
             _open.remove(self)
         self._traces.close()
+
+    def _failure(self, folder: Path, status: int) -> str:
+        """Say what became of the second Blender, and what to do."""
+        log = (folder / "log").read_text(encoding="utf-8", errors="replace")
+        said = job_failure.reason(log)
+        free = shutil.disk_usage(folder).free
+        remedy = job_failure.remedy(status, said, log, free, self.smaller)
+        if remedy is None:
+            kept = folder.with_name(f"{folder.name}.log")
+            shutil.copyfile(folder / "log", kept)
+            remedy = f"This is no fault of yours: please report it with {kept}."
+        return (
+            f"The Blender that {self.doing} stopped with status {status} ({said}); nothing was "
+            f"written. {remedy}"
+        ).rstrip()
 
     def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
         job_path = folder / "job.json"

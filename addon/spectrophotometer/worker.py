@@ -26,6 +26,10 @@ PIXELS = 6
 SAMPLES_PER_RENDER = 1024
 
 
+class LibraryError(Exception):
+    """A linked material is not where its link says."""
+
+
 def main(job_path: Path) -> None:
     """Measure all materials of the job in all its geometries."""
     job = json.loads(job_path.read_text(encoding="utf-8"))
@@ -67,10 +71,13 @@ def find(name: str, library: str | None) -> Any:
     """Give a material by name and the path of the library it is linked from."""
     if library is None:
         return bpy.data.materials[name, None]
-    with bpy.data.libraries.load(library, link=True) as (_, wanted):
-        wanted.materials = [name]
+    try:
+        with bpy.data.libraries.load(library, link=True) as (_, wanted):
+            wanted.materials = [name]
+    except OSError as error:
+        raise LibraryError(f"{library} with the linked material {name!r} cannot be read") from error
     if wanted.materials[0] is None:
-        raise KeyError(f"{name} in {library}")
+        raise LibraryError(f"{library} has no material {name!r} any more")
     return wanted.materials[0]
 
 

@@ -189,6 +189,24 @@ def switched_off_while_measuring(found):
 
 
 @scene
+def failing_to_measure(found):
+    """Ask for what a second Blender cannot do."""
+    yield from green_file()
+    measure = ours("addon.spectrophotometer.measure")
+    broken = measure.Geometry((("not an angle", 0.0),), 0.0)
+    job = measure.Measurement([wall()], [broken])
+    yield job.poll
+    try:
+        job.result()
+    except ours("core.errors").OutputError as error:
+        found["said"] = str(error)
+    job.close()
+    for log in Path(bpy.app.tempdir).parent.glob("rough-spectra-*.log"):
+        found["log"] = log.read_text(encoding="utf-8").splitlines()
+        log.unlink()
+
+
+@scene
 def stopping_a_bake(found):
     """Press ESC while readings are baked."""
     yield from green_file()

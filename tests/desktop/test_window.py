@@ -72,6 +72,11 @@ def test_switched_off_while_measuring(scene):
     assert scene["measured_again"] == [pytest.approx(0, abs=0.02), True]
 
 
+def test_failing_to_measure(scene):
+    assert scene["log"][-1] == "Blender quit"
+    assert "(TypeError: must be real number, not str); nothing was written." in scene["said"]
+
+
 def test_quitting_while_measuring(scene):
     [process], [folder] = scene["process"], scene["folder"]
     assert not Path(folder).exists()
