@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What happens to materials and to the extension, for whoever wants to know.
+"""What happens to materials, for whoever wants to know.
 
 A setting that changes is announced here, and so is what was derived from it. The properties, which
 announce, thereby know nothing of those who subscribe: what derives, and what draws.
@@ -8,39 +8,17 @@ announce, thereby know nothing of those who subscribe: what derives, and what dr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-
-class Event:
-    """Something that happens to a material, announced to all that subscribed, in their order."""
-
-    def __init__(self) -> None:
-        self._subscribers: list[Callable[..., None]] = []
-
-    def subscribe(self, subscriber: Callable[..., None]) -> None:
-        """Call `subscriber` with what is announced, from now on."""
-        self._subscribers.append(subscriber)
-
-    def unsubscribe(self, subscriber: Callable[..., None]) -> None:
-        """Undo `subscribe`."""
-        self._subscribers.remove(subscriber)
-
-    def announce(self, *what: Any) -> None:
-        """Tell every subscriber."""
-        for subscriber in tuple(self._subscribers):
-            subscriber(*what)
-
+from .events import Event
 
 setting_changed = Event()
 """Announced with the material, one with a spectrum, whose setting was changed."""
 
 derived = Event()
 """Announced with the material whose color and roughness followed a setting at once."""
-
-unregistering = Event()
-"""Announced when the extension is about to be disabled: what was kept for it is to go."""
 
 _pauses: list[None] = []
 

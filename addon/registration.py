@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import changes, command_line, live, panels, preferences, properties
+from . import command_line, events, live, panels, preferences, properties
 from .operators import (
     analyze_scene,
     assign_file,
@@ -54,7 +54,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`, in reverse."""
-    changes.unregistering.announce()
+    events.unregistering.announce()
     command_line.unregister()
     live.unregister()
     panels.unregister_menus()

@@ -23,6 +23,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ..core.errors import CancelledError, OutputError
+from . import events, job_failure
 
 _POLL_SECONDS = 0.05
 _PATIENCE_SECONDS = 5.0
@@ -49,17 +50,20 @@ class Job:
     """What the second Blender does, as in "measures"."""
     interrupted: ClassVar[str]
     """Sentence for an interrupt from the keyboard."""
-    remedy: ClassVar[str]
-    """What to do when the second Blender fails."""
+    smaller: ClassVar[str]
+    """How to ask for less when the memory is full, as in "measure fewer materials at once"."""
 
     def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
         self._folder: Path | None = None
         self._process: subprocess.Popen[bytes] | None = None
+        self._traces = ExitStack()
         self.total = 0
         self.done = 0
         try:
             with ExitStack() as undone:
                 undone.callback(self.close)
+                # Switching the extension off, or quitting Blender, ends what runs.
+                events.unregistering.subscribe(self.close)
                 self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
                 job = {"asked_by": os.getpid(), **prepare(self._folder)}
                 self._start(self._folder, worker, job)
@@ -113,17 +117,15 @@ class Job:
         assert self._folder is not None
         path = self._folder / name
         if self._process.returncode != 0 or not path.exists():
-            log = (self._folder / "log").read_text(encoding="utf-8", errors="replace")
-            lines = [line for line in log.splitlines() if line.strip()] or ["it said nothing"]
-            msg = (
-                f"The Blender that {self.doing} stopped with status {self._process.returncode} "
-                f"({lines[-1].strip()}); nothing was written. {self.remedy}"
-            )
-            raise OutputError(msg)
+            raise OutputError(self._failure(self._folder, self._process.returncode))
         return path
 
+    def when_closed(self, act: Callable[[], None]) -> None:
+        """Call a function once the job is closed, whoever closes it."""
+        self._traces.callback(act)
+
     def close(self) -> None:
-        """Stop the second Blender if it still runs, and remove its files."""
+        """Stop the second Blender if it still runs, and remove its files and all other traces."""
         if self._process is not None and self._process.poll() is None:
             self._process.terminate()
             try:
@@ -133,6 +135,23 @@ class Job:
                 self._process.wait()
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
+        events.unregistering.unsubscribe(self.close)
+        self._traces.close()
+
+    def _failure(self, folder: Path, status: int) -> str:
+        """Say what became of the second Blender, and what to do."""
+        log = (folder / "log").read_text(encoding="utf-8", errors="replace")
+        said = job_failure.reason(log)
+        free = shutil.disk_usage(folder).free
+        remedy = job_failure.remedy(status, said, log, free, self.smaller)
+        if remedy is None:
+            kept = folder.with_name(f"{folder.name}.log")
+            shutil.copyfile(folder / "log", kept)
+            remedy = f"This is no fault of yours: please report it with {kept}."
+        return (
+            f"The Blender that {self.doing} stopped with status {status} ({said}); nothing was "
+            f"written. {remedy}"
+        ).rstrip()
 
     def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
         job_path = folder / "job.json"

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Let tests import `core` from the repository's root and the extension as `rough_spectra`."""
 
+import atexit
 import importlib.util
 import os
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import hypothesis
@@ -22,6 +25,11 @@ sys.path.insert(0, str(ROOT))
 hypothesis.settings.register_profile("untimed", deadline=None)
 hypothesis.settings.load_profile("untimed")
 
+if "BLENDER_USER_RESOURCES" not in os.environ:
+    # Started without dev.py. Tests reset Blender's settings, and that would delete the wheels of
+    # the extensions in your own Blender.
+    os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="blender-user-")
+    atexit.register(shutil.rmtree, os.environ["BLENDER_USER_RESOURCES"], ignore_errors=True)
 if "rough_spectra" not in sys.modules:
     spec = importlib.util.spec_from_file_location(
         "rough_spectra", ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]

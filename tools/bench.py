@@ -261,13 +261,13 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--write", action="store_true", help="replace the manual's table by this")
     options = parser.parse_args(arguments)
     extension: Any = sys.modules["rough_spectra"]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     extension.register()
     try:
         rows = compute()
     finally:
         # Blender trips over classes that are still registered when it ends.
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         extension.unregister()
     if options.write:
         with outputs.publication() as files:

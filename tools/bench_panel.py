@@ -82,7 +82,7 @@ def lit_plane() -> Any:
     """Make a scene of a plane, two lights of different color, and a camera."""
     import bpy
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     mesh = bpy.data.meshes.new("Wall")

@@ -164,7 +164,7 @@ def sphere(rings: int = 32) -> tuple[list[Any], list[Any], list[Any]]:
 def main(folder: Path) -> None:
     """Measure both materials and write blender.json."""
     extension: Any = sys.modules["rough_spectra"]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     extension.register()
     try:
         work = Work.load(folder / "work.npz")
@@ -186,7 +186,7 @@ def main(folder: Path) -> None:
         write_json(folder / "blender.json", found)
     finally:
         # Blender trips over classes that are still registered when it ends.
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         extension.unregister()
 
 

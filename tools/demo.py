@@ -53,7 +53,7 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
     from rough_spectra.addon.target import Request
 
     start = time.monotonic()
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     pairs: list[tuple[Any, Request]] = []
     strips: list[tuple[str, list[Any]]] = []
     for sample in presets.load_all("colorchecker"):

@@ -87,6 +87,8 @@ def build(strips: Sequence[tuple[str, Sequence[Any]]], heads: Sequence[str], tit
 
 def render(scene: Any, target: Path) -> None:
     """Render the scene in Cycles on the CPU into a PNG."""
+    from rough_spectra.addon.spectrophotometer.worker import render_into
+
     settings = scene.render
     settings.engine = "CYCLES"
     settings.resolution_x, settings.resolution_y = WIDTH, HEIGHT
@@ -104,9 +106,8 @@ def render(scene: Any, target: Path) -> None:
     # The default denoiser takes longer than the render, for no difference one could see here.
     cycles.denoising_quality = cycles.denoising_prefilter = "FAST"
     cycles.max_bounces = cycles.diffuse_bounces = 2
-    settings.filepath = str(target)
     with _progress(), quiet():
-        bpy.ops.render.render(write_still=True)
+        render_into(scene, target)
     # Blender notes date and duration in the file, so no two would be equal.
     target.write_bytes(_without_texts(target.read_bytes()))
 

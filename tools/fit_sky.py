@@ -11,6 +11,7 @@ default; `sky.read` multiplies the ratios. Each render is an equirectangular pic
 
 from __future__ import annotations
 
+import importlib
 import json
 import math
 import sys
@@ -36,6 +37,7 @@ ROWS = 48
 
 def main(path: Path) -> None:
     """Render and write the table."""
+    importlib.import_module("run_command_line").load_extension()
     scene, node = build()
     table: dict[str, Any] = {"elevations": ELEVATIONS, "settings": SETTINGS, "defaults": DEFAULTS}
     table["turbidities"] = TURBIDITIES
@@ -59,7 +61,7 @@ def main(path: Path) -> None:
 
 def build() -> tuple[Any, Any]:
     """Make a world with a sky, and a camera that sees all of it."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     scene.world = world = bpy.data.worlds.new("Sky")
     if world.node_tree is None:
@@ -131,11 +133,12 @@ def render(scene: Any) -> np.ndarray:
     """Render, and give the pixels from the zenith down."""
     bpy.utils.expose_bundled_modules()
     import OpenImageIO
+    from rough_spectra.addon.spectrophotometer.worker import render_into
 
     with tempfile.TemporaryDirectory() as folder:
-        scene.render.filepath = str(Path(folder) / "sky.exr")
-        bpy.ops.render.render(write_still=True, scene=scene.name)
-        image = OpenImageIO.ImageInput.open(scene.render.filepath)
+        path = Path(folder) / "sky.exr"
+        render_into(scene, path)
+        image = OpenImageIO.ImageInput.open(str(path))
         try:
             return np.asarray(image.read_image(OpenImageIO.FLOAT), np.float64)[..., :3]
         finally:

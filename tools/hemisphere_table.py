@@ -253,14 +253,14 @@ def markdown(rows: list[Row]) -> str:
 def main() -> int:
     """Write both files; returns the exit status."""
     extension: Any = sys.modules["rough_spectra"]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     extension.register()
     try:
         assigned, directions = prepare(), geometry.hemisphere(GEOMETRIES)
         rows = compare(assigned, directions, rendered(assigned.materials, directions))
     finally:
         # Blender trips over classes that are still registered when it ends.
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         extension.unregister()
     with outputs.publication() as files:
         files.write(DATA, csv_text(rows).encode())

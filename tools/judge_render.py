@@ -59,9 +59,10 @@ def prepare(scene: Any, materials: list[Any]) -> None:
 
 def rendered(scene: Any) -> dict[str, np.ndarray]:
     """Render; gives every channel of every pass by its name."""
+    from rough_spectra.addon.spectrophotometer.worker import render_into
+
     with tempfile.TemporaryDirectory() as folder:
-        scene.render.filepath = str(Path(folder) / "picture")
-        bpy.ops.render.render(write_still=True)
+        render_into(scene, Path(folder) / "picture")
         if hasattr(bpy.utils, "expose_bundled_modules"):
             bpy.utils.expose_bundled_modules()
         import OpenImageIO
@@ -205,7 +206,7 @@ def main() -> None:
     extension.register()
     from rough_spectra.addon import assign, scene_analysis, scene_report
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     materials = make_room.furnish()
     scene = bpy.context.scene
     prepare(scene, materials)

@@ -131,7 +131,7 @@ def main() -> None:
     extension.register()
     from rough_spectra.addon import assign, scene_analysis, scene_report
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     materials = make_room.furnish()
     scene = bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()

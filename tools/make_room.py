@@ -122,6 +122,6 @@ def _lamp(
 
 
 if __name__ == "__main__":
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     furnish()
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(sys.argv[-1]).resolve()))

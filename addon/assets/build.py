@@ -97,7 +97,7 @@ class Build(Job):
 
     doing = "builds the asset library"
     interrupted = "Building was interrupted; nothing was written."
-    remedy = "Try again, or with fewer samples at once."
+    smaller = "build the library of fewer samples at once"
 
     def __init__(
         self, assets: Sequence[Asset], folder: Path, settings: Settings | None = None

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import srgb
-from ..spectrophotometer.worker import read_exr
+from ..spectrophotometer.worker import read_exr, render_into
 
 PIXELS = 128
 """Width of a preview; the Asset Browser shows 96 unless told otherwise."""
@@ -47,12 +47,11 @@ def render(materials: Sequence[Any], folder: Path) -> Iterator[tuple[Any, npt.ND
     rows = math.ceil(len(balls) / _COLUMNS)
     _camera(scene, rows)
     path = folder / "previews.exr"
-    scene.render.filepath = str(path)
     for start in range(0, len(materials), AT_ONCE):
         batch = materials[start : start + AT_ONCE]
         for ball, material in zip(balls, batch, strict=False):
             ball.material_slots[0].material = material
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        render_into(scene, path)
         picture = _srgb(read_exr(path)[::-1])
         for place, material in enumerate(batch):
             row, column = divmod(place, _COLUMNS)

@@ -20,7 +20,9 @@ PACKAGE = "rough_spectra"
 def main(job_path: Path) -> None:
     """Load the extension and let `make` do the job."""
     job = json.loads(job_path.read_text(encoding="utf-8"))
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Not read_factory_settings: it disables every add-on, and Blender then deletes the wheels of
+    # all extensions of the user, on which the Blender that asked and the next lines rely.
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     # Where the asking Blender finds the wheels; at the end, so that nothing is overshadowed.
     sys.path.extend(path for path in job["path"] if path not in sys.path)
     extension = load(Path(__file__).resolve().parents[2])

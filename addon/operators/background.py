@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -26,7 +28,6 @@ class InBackground:
     """What is reported when the user stops it."""
 
     _job: Any = None
-    _timer: Any = None
 
     if TYPE_CHECKING:  # of bpy.types.Operator, which every such class is as well
 
@@ -56,63 +57,73 @@ class InBackground:
             self._job = self.start(context)
             if bpy.app.background:
                 self._job.wait()
-                return self._finish(context)
+                return self._finish()
         except RoughSpectraError as error:
-            return self._fail(context, error)
+            return self._fail(error)
         manager = context.window_manager
-        self._timer = manager.event_timer_add(_TIMER_SECONDS, window=context.window)
+        timer = manager.event_timer_add(_TIMER_SECONDS, window=context.window)
         manager.progress_begin(0, 1)
         manager.modal_handler_add(self)
+        # Blender drops an operator without a word when its class is unregistered.
+        self._workspaces: set[str] = set()
+        self._job.when_closed(partial(_clear, timer, self._workspaces))
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Any, event: Any) -> set[str]:
         """Watch the second Blender; everything else goes to Blender as ever."""
-        if event.type == "ESC":
-            self._end(context)
-            self.report({"WARNING"}, rpt_(self.stopped))
-            return {"CANCELLED"}
-        if event.type != "TIMER":
+        if event.type not in {"ESC", "TIMER"}:
             return {"PASS_THROUGH"}
-        try:
-            if not self._job.poll():
-                self._show(context)
-                return {"PASS_THROUGH"}
-            return self._finish(context)
-        except RoughSpectraError as error:
-            return self._fail(context, error)
+        with ExitStack() as last:
+            last.callback(self._end)  # after what nobody foresaw, too
+            if event.type == "ESC":
+                self.report({"WARNING"}, rpt_(self.stopped))
+                return {"CANCELLED"}
+            try:
+                if self._job.poll():
+                    return self._finish()
+            except RoughSpectraError as error:
+                return self._fail(error)
+            self._show(context)
+            last.pop_all()
+        return {"PASS_THROUGH"}
 
-    def cancel(self, context: Any) -> None:
+    def cancel(self, _context: Any) -> None:
         """Blender is closing, or another file was opened."""
-        self._end(context)
+        self._end()
 
     def _show(self, context: Any) -> None:
         done, total = self._job.done, max(self._job.total, 1)
         context.window_manager.progress_update(done / total)
+        self._workspaces.add(context.workspace.name)
         context.workspace.status_text_set(f"{self.state(done, total)}   |   {rpt_('ESC: stop')}")
 
-    def _finish(self, context: Any) -> set[str]:
+    def _finish(self) -> set[str]:
         from ..preview import icons
 
         sentence = self.finish(self._job)
-        self._end(context)
+        self._end()
         icons.redraw()  # nobody has to touch the panel for it to show what was found
         self.report({"INFO"}, sentence)
         return {"FINISHED"}
 
-    def _fail(self, context: Any, error: RoughSpectraError) -> set[str]:
-        self._end(context)
+    def _fail(self, error: RoughSpectraError) -> set[str]:
+        self._end()
         common.report_error(self, error)
         return {"CANCELLED"}
 
-    def _end(self, context: Any) -> None:
+    def _end(self) -> None:
         if self._job is not None:
             self._job.close()
             self._job = None
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            context.window_manager.progress_end()
-            context.workspace.status_text_set(None)
-            self._timer = None
+
+
+def _clear(timer: Any, workspaces: set[str]) -> None:
+    """Take away what an operator shows; the user may have turned to another workspace meanwhile."""
+    manager = bpy.context.window_manager
+    manager.event_timer_remove(timer)
+    manager.progress_end()
+    for name in workspaces & set(bpy.data.workspaces.keys()):
+        bpy.data.workspaces[name].status_text_set(None)
 
 
 class Measuring(InBackground):

@@ -27,7 +27,7 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
-from .. import changes, facts
+from .. import changes, events, facts
 from ..facts import Facts
 from . import looks, theme
 
@@ -203,7 +203,7 @@ def clear() -> None:
         previews.remove(_collection)
         _collection = None
         changes.derived.unsubscribe(refresh)
-        changes.unregistering.unsubscribe(clear)
+        events.unregistering.unsubscribe(clear)
 
 
 def _previews() -> Any:
@@ -212,7 +212,7 @@ def _previews() -> Any:
         _collection = previews.new()
         # From the first picture on: before, there is nothing to draw anew, nor to forget.
         changes.derived.subscribe(refresh)
-        changes.unregistering.subscribe(clear)
+        events.unregistering.subscribe(clear)
     return _collection
 
 

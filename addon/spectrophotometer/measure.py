@@ -64,7 +64,7 @@ class Measurement(Job):
 
     doing = "measures"
     interrupted = "Measuring was interrupted; nothing was written."
-    remedy = "Try again, or measure fewer materials at once."
+    smaller = "measure fewer materials at once"
 
     def __init__(
         self,

@@ -26,6 +26,10 @@ PIXELS = 6
 SAMPLES_PER_RENDER = 1024
 
 
+class LibraryError(Exception):
+    """A linked material is not where its link says."""
+
+
 def main(job_path: Path) -> None:
     """Measure all materials of the job in all its geometries."""
     job = json.loads(job_path.read_text(encoding="utf-8"))
@@ -67,10 +71,13 @@ def find(name: str, library: str | None) -> Any:
     """Give a material by name and the path of the library it is linked from."""
     if library is None:
         return bpy.data.materials[name, None]
-    with bpy.data.libraries.load(library, link=True) as (_, wanted):
-        wanted.materials = [name]
+    try:
+        with bpy.data.libraries.load(library, link=True) as (_, wanted):
+            wanted.materials = [name]
+    except OSError as error:
+        raise LibraryError(f"{library} with the linked material {name!r} cannot be read") from error
     if wanted.materials[0] is None:
-        raise KeyError(f"{name} in {library}")
+        raise LibraryError(f"{library} has no material {name!r} any more")
     return wanted.materials[0]
 
 
@@ -148,14 +155,23 @@ def aim(scene: Any, camera: Any, stretch: Any, geometry: dict[str, Any]) -> None
 
 def render(scene: Any, path: Path, count: int) -> Any:
     """Render and give each sample's mean and standard deviation, shape (samples, 2, 3)."""
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    render_into(scene, path)
     pixels = read_exr(path)[::-1, :, :3].astype(np.float64)
     rows, columns = pixels.shape[0] // PIXELS, pixels.shape[1] // PIXELS
     tiles = pixels.reshape(rows, PIXELS, columns, PIXELS, 3)[:, 1:-1, :, 1:-1]
     return np.stack((tiles.mean(axis=(1, 3)), tiles.std(axis=(1, 3))), axis=2).reshape(-1, 2, 3)[
         :count
     ]
+
+
+def render_into(scene: Any, path: Path) -> None:
+    """Render a picture into a file.
+
+    Both LTS versions take what stands in braces in this path, and in no other one that is used
+    here, for a template, such as {blend_name}; doubled braces are braces.
+    """
+    scene.render.filepath = str(path).replace("{", "{{").replace("}", "}}")
+    bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def read_exr(path: Path) -> Any:

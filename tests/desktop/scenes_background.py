@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What runs in a second Blender while the window stays in use."""
 
+import importlib
 import os
 import subprocess
 from pathlib import Path
 
 import bpy
+import other_extension
 from driver import area, click, find, middle, move, over, press, scene, window
-from stage import OPS, green_file, ours, state, wall
+from stage import OPS, PACKAGE, empty_file, green_file, ours, state, wall
 
 _started = []
 
@@ -144,6 +146,66 @@ def another_file_while_measuring(found):
     found["modal"] = [op.bl_idname for op in window().modal_operators]
 
 
+def _status(shown):
+    """Follow what is written into the status bars; nothing tells what stands there."""
+    kind = bpy.types.WorkSpace
+    write = kind.status_text_set
+
+    def noted(workspace, text):
+        shown[workspace.name] = text
+        write(workspace, text)
+
+    kind.status_text_set = noted
+    return write
+
+
+@scene
+def switched_off_while_measuring(found):
+    """Disable the extension while it is measured, in another workspace than it began in."""
+    yield from green_file()
+    shown = {}
+    write = _status(shown)
+    first = window().workspace
+    try:
+        yield from _start()
+        yield lambda: bool(shown)
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.workspace.duplicate()
+        yield lambda: len(shown) == 2
+        found["ran"] = [len(children()), len(jobs()), len(shown)]
+        bpy.ops.preferences.addon_disable(module=PACKAGE)
+        yield 0.5
+        found["left"] = [len(children()), len(jobs()), [text for text in shown.values() if text]]
+        found["modal"] = [op.bl_idname for op in window().modal_operators]
+    finally:
+        bpy.types.WorkSpace.status_text_set = write
+        window().workspace = first
+        bpy.ops.preferences.addon_enable(module=PACKAGE)
+    yield from green_file()
+    yield from _start()
+    yield _ended
+    yield 0.5
+    found["measured_again"] = _measured()
+
+
+@scene
+def failing_to_measure(found):
+    """Ask for what a second Blender cannot do."""
+    yield from green_file()
+    measure = ours("addon.spectrophotometer.measure")
+    broken = measure.Geometry((("not an angle", 0.0),), 0.0)
+    job = measure.Measurement([wall()], [broken])
+    yield job.poll
+    try:
+        job.result()
+    except ours("core.errors").OutputError as error:
+        found["said"] = str(error)
+    job.close()
+    for log in Path(bpy.app.tempdir).parent.glob("rough-spectra-*.log"):
+        found["log"] = log.read_text(encoding="utf-8").splitlines()
+        log.unlink()
+
+
 @scene
 def stopping_a_bake(found):
     """Press ESC while readings are baked."""
@@ -186,3 +248,46 @@ def stopping_an_asset_library(found):
     yield 0.5
     after = len(bpy.context.preferences.filepaths.asset_libraries)
     found["left"] = [len(children()), len(jobs()), len(list(folder.iterdir())), after - before]
+
+
+SEVEN = "\n".join(["nm,Slate", *(f"{nm},{0.2 + nm / 4000:.4f}" for nm in range(380, 745, 7))])
+"""A grid for which nothing is tabulated, so that colour-science has to be there; invented."""
+
+
+@scene
+def wheels_of_extensions(found):
+    """Build asset libraries, with somebody else's extension installed that has a wheel."""
+    yield from empty_file()
+    folder = Path(bpy.app.tempdir) / "wheels"
+    folder.mkdir()
+    bpy.ops.extensions.package_install_files(
+        filepath=str(other_extension.build(folder)), repo="user_default", enable_on_install=True
+    )
+    found["before"] = _wheels()
+    (folder / "seven.csv").write_text(SEVEN, encoding="utf-8")
+    with over(area("TEXT_EDITOR")):
+        OPS.import_samples("EXEC_DEFAULT", filepath=str(folder / "seven.csv"), collection="seven")
+    library = ours("addon.library")
+    library.contents(library.user_folder())  # as the panel does: the drop list shows what is known
+    for collection in ("everyday", "seven"):
+        with over(area("TEXT_EDITOR")):
+            OPS.build_assets(
+                "EXEC_DEFAULT",
+                directory=str(folder / "library"),
+                collection=collection,
+                sigmas="20",
+                add_to_preferences=False,
+            )
+        while not _ended():  # longer than one step of a scene may take
+            yield 0.5
+    found["files"] = sorted(path.name for path in (folder / "library").glob("*.blend"))
+    found["after"] = _wheels()
+    importlib.invalidate_caches()
+    found["imported"] = importlib.import_module(other_extension.MODULE).ANSWER
+    found["ours"] = importlib.machinery.PathFinder.find_spec("colour") is not None
+
+
+def _wheels():
+    """Name what Blender unpacked of the wheels of all extensions."""
+    folder = Path(bpy.utils.user_resource("EXTENSIONS"))
+    return sorted(path.name for path in folder.glob(".local/lib/*/site-packages/*.dist-info"))

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a user finds who works in the window."""
 
+import os
+from pathlib import Path
+
 import pytest
 
 
@@ -30,6 +33,8 @@ def test_choosing_a_sample(scene):
 
 
 BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
+TOLD = (" σ 20°: ",)
+"""What a user is told of the samples in a library that a scene builds."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
 
 
@@ -60,6 +65,25 @@ def test_another_file_while_measuring(scene):
     assert scene == {"ran": True, "left": [0, 0], "modal": []}
 
 
+def test_switched_off_while_measuring(scene):
+    assert scene["ran"] == [1, 1, 2]
+    assert scene["left"] == [0, 0, []]
+    assert scene["modal"] == []
+    assert scene["measured_again"] == [pytest.approx(0, abs=0.02), True]
+
+
+def test_failing_to_measure(scene):
+    assert scene["log"][-1] == "Blender quit"
+    assert "(TypeError: must be real number, not str); nothing was written." in scene["said"]
+
+
+def test_quitting_while_measuring(scene):
+    [process], [folder] = scene["process"], scene["folder"]
+    assert not Path(folder).exists()
+    with pytest.raises(ProcessLookupError):
+        os.kill(process, 0)
+
+
 def test_stopping_a_bake(scene):
     assert scene == {"ran": True, "left": [0, 0, 0]}
 
@@ -70,6 +94,15 @@ def test_baking(scene):
 
 def test_stopping_an_asset_library(scene):
     assert scene == {"ran": True, "left": [0, 0, 0, 0]}
+
+
+def test_wheels_of_extensions(scene):
+    wheels = ["colour_science", "defusedxml", "tiny_wheel"]
+    assert [name.partition("-")[0] for name in scene["before"]] == wheels
+    assert scene["after"] == scene["before"]
+    assert scene["files"] == ["rough-spectra-everyday.blend", "rough-spectra-seven.blend"]
+    assert scene["imported"] == 42
+    assert scene["ours"]
 
 
 def test_searching(scene):
@@ -125,4 +158,4 @@ def test_nothing_unwanted_was_printed(session):
     assert session["status"] == 0
     for word in ("traceback", "error", "warning", "rough_spectra", "memory"):
         lines = [line for line in session["said"].splitlines() if word in line.lower()]
-        assert [line for line in lines if not any(own in line for own in BLENDERS_OWN)] == []
+        assert [line for line in lines if not any(own in line for own in BLENDERS_OWN + TOLD)] == []

@@ -67,11 +67,11 @@ def run(environment):
 def blender(environment):
     """Run lines in a fresh Blender and give the JSON that they print last."""
 
-    def blender(lines):
+    def blender(lines, **extra):
         code = START.format(tools=str(ROOT / "tools")) + textwrap.dedent(lines)
         done = subprocess.run(
             [sys.executable, "-c", code],
-            env=environment,
+            env=environment | extra,
             capture_output=True,
             text=True,
             timeout=SECONDS,

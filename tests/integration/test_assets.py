@@ -14,6 +14,7 @@ from rough_spectra.addon import presets, storage
 from rough_spectra.addon.assets import build, catalogs, plan, previews
 from rough_spectra.core.errors import CancelledError, InputError, OutputError
 
+from tests.desktop import other_extension
 from tests.integration.support import contents, rgb_material, spectrum_csv
 
 OTHERS = "# mine\nVERSION 1\n\n11111111-2222-3333-4444-555555555555:Metal/Rusty:Metal-Rusty\n"
@@ -221,6 +222,33 @@ def test_stopping_leaves_nothing(tmp_path):
         build.build(plan.assets([plan.of_name("14")], [10], 63), tmp_path / "new", progress=stop)
     assert list(tmp_path.iterdir()) == []
     assert set(Path(tempfile.gettempdir()).glob("rough-spectra-*")) == before
+
+
+def test_wheels_of_other_extensions_stay(blender, tmp_path):
+    """The second Blender is started as the user's, and shares the folder of their extensions."""
+    user = tmp_path / "user"
+    package = other_extension.build(tmp_path)
+    built = blender(
+        f"""
+        package = load_extension()
+        package.register()
+        bpy.ops.extensions.package_install_files(
+            filepath={str(package)!r}, repo="user_default", enable_on_install=True
+        )
+        build = importlib.import_module("rough_spectra.addon.assets.build")
+        plan = importlib.import_module("rough_spectra.addon.assets.plan")
+        from pathlib import Path
+        assets = plan.assets([plan.of_name("everyday/brick")], [10], 63)
+        built = build.build(assets, Path({str(tmp_path / "library")!r}))
+        print()
+        print(json.dumps([built.count, importlib.import_module("tiny_wheel").ANSWER]))
+        package.unregister()
+        """,
+        BLENDER_USER_RESOURCES=str(user),
+    )
+    assert built == [1, 42]
+    found = list(user.glob(f"extensions/.local/lib/*/site-packages/{other_extension.MODULE}.py"))
+    assert len(found) == 1
 
 
 def test_a_folder_that_is_a_file_is_refused_before_anything_starts(tmp_path):

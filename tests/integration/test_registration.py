@@ -99,6 +99,22 @@ def test_unregister_leaves_nothing_and_register_works_again(blender):
     assert not before["types"]
 
 
+def test_unregister_ends_jobs_under_way(blender):
+    found = blender("""
+        extension = load_extension()
+        extension.register()
+        from rough_spectra.addon.spectrophotometer import measure
+        material = bpy.data.materials.new("A")
+        job = measure.Measurement([material], [measure.RING_45_0] * 500)
+        states = []
+        for act in (lambda: None, extension.unregister, job.close):
+            act()
+            states.append([job._process.poll() is None, job._folder.exists()])
+        print(json.dumps(states))
+    """)
+    assert found == [[True, True], [False, False], [False, False]]
+
+
 def operators():
     from rough_spectra.addon import registration
 
