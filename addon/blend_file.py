@@ -11,16 +11,42 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
 
 from ..core.errors import InputError, OutputError
+from . import permissions
 
 _ZSTD_MAGIC = bytes.fromhex("28b52ffd")
 _ZSTD_SEEK_TABLE_MAGIC = bytes.fromhex("b1ea928f")
 _LAST_BLOCK = b"ENDB"
 _LONGEST_BLOCK_HEAD = 32  # bytes; the last block is nothing but its head
+
+
+def destination(output: Path | None) -> Path:
+    """Give the file that `save` will replace: a link is followed, and stays one.
+
+    Raises
+    ------
+    InputError
+        If the open file has no name yet and none is given.
+    OutputError
+        If what is there may not be replaced.
+    """
+    if output is None and not bpy.data.filepath:
+        msg = "The open file has no name; say where to save it with --output FILE."
+        raise InputError(msg)
+    path = Path(bpy.data.filepath) if output is None else output.absolute()
+    try:
+        return permissions.check(path)
+    except OutputError as error:
+        msg = f"{str(error).rstrip('.')}, with --output."
+        raise OutputError(msg) from None
+    except OSError as error:
+        raise _cannot_save(path, error) from error
 
 
 def save(output: Path | None) -> Path:
@@ -35,31 +61,23 @@ def save(output: Path | None) -> Path:
     OutputError
         If it cannot be written; the old file is as it was then.
     """
-    if output is None and not bpy.data.filepath:
-        msg = "The open file has no name; say where to save it with --output FILE."
-        raise InputError(msg)
-    path = Path(bpy.data.filepath) if output is None else output.resolve()
+    path = destination(output)
     part: Path | None = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if path.is_dir():
-            raise IsADirectoryError("it is a folder")
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
         os.close(handle)
         part = Path(name)
         part.unlink()  # Blender would keep the empty file as an older version
-        bpy.ops.wm.save_as_mainfile(filepath=name, copy=True, check_existing=False)
+        with _private():
+            bpy.ops.wm.save_as_mainfile(filepath=name, copy=True, check_existing=False)
         if not is_whole(part):
             raise OSError("the disk is full")
+        permissions.adopt(part, path)
         _keep_older(path)
         part.replace(path)
     except (RuntimeError, OSError) as error:
-        reason = " ".join((getattr(error, "strerror", None) or str(error)).split())
-        msg = (
-            f"{path} cannot be saved ({reason}); nothing was changed. Free the disk, or choose "
-            "another place with --output."
-        )
-        raise OutputError(msg) from error
+        raise _cannot_save(path, error) from error
     finally:
         if part is not None:
             part.unlink(missing_ok=True)
@@ -94,3 +112,21 @@ def _keep_older(path: Path) -> None:
         os.link(path, backup)
     except OSError:
         shutil.copy2(path, backup)
+
+
+@contextmanager
+def _private() -> Iterator[None]:
+    """Let nobody else read a file before it has the permissions of the one it replaces."""
+    before = os.umask(0o077)
+    try:
+        yield
+    finally:
+        os.umask(before)
+
+
+def _cannot_save(path: Path, error: RuntimeError | OSError) -> OutputError:
+    reason = " ".join((getattr(error, "strerror", None) or str(error)).split())
+    return OutputError(
+        f"{path} cannot be saved ({reason}); nothing was changed. Free the disk, or choose another "
+        "place with --output."
+    )

@@ -79,8 +79,7 @@ def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[A
             fields = _opened(path) if path.is_file() else (_empty(), [])
             added = _merge(*fields, samples, path.stem)
             if added.names:
-                # A link to a file elsewhere stays one.
-                files.write(path.resolve(), _to_bytes(fields[0]))
+                files.write(path, _to_bytes(fields[0]))
             found.append(added)
     return found
 
@@ -106,7 +105,7 @@ def remove(entries: Iterable[str], folder: Path) -> None:
                 pairs = zip(fields["samples"], known, strict=True)
                 kept = [record for record, slug in pairs if slug not in wanted]
                 if kept:
-                    files.write(path.resolve(), _to_bytes(fields | {"samples": kept}))
+                    files.write(path, _to_bytes(fields | {"samples": kept}))
                 else:
                     empty.append(path)
         for path in empty:
@@ -140,7 +139,7 @@ def rename(entry: str, name: str, folder: Path) -> str:
             raise InputError(msg)
         new = _free(slug_of(name), set(known) - {slug}, "-", {})
         fields["samples"][at] |= {"name": name, "id": new}
-        files.write(path.resolve(), _to_bytes(fields))
+        files.write(path, _to_bytes(fields))
     return f"{path.stem}/{new}"
 
 

@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..core.errors import OutputError
+from . import permissions
 
 _NAME_SHARE = 50
 """Characters of a target's name in its temporary one, which may not exceed 255 bytes."""
@@ -34,18 +35,16 @@ class Publication:
         self._parts: list[Path] = []
 
     def stage(self, target: Path) -> Path:
-        """Give the path to write to in place of `target`.
+        """Give the path to write to in place of `target`; a link is followed, and stays one.
 
         Raises
         ------
         OutputError
-            If the folder cannot be written.
+            If the folder cannot be written, or `target` may not be replaced.
         """
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            if target.is_dir():
-                msg = f"{target} is a folder; choose a file name."
-                raise OutputError(msg)
+            target = check_target(target)
             # Noted before it is there: an interrupt between the two would leave it behind.
             name = f".{target.name[:_NAME_SHARE]}.{secrets.token_hex(_RANDOM_BYTES)}.part"
             part = target.with_name(name)
@@ -75,7 +74,7 @@ class Publication:
             try:
                 with part.open("rb") as written:
                     os.fsync(written.fileno())
-                part.chmod(0o666 & ~_umask())
+                permissions.adopt(part, target)
             except OSError as error:
                 raise _cannot_write(target, error) from error
         done: list[tuple[Path, Path | None]] = []
@@ -103,6 +102,20 @@ class Publication:
     def _discard(self) -> None:
         for part in (*self._parts, *self._kept):
             part.unlink(missing_ok=True)
+
+
+def check_target(target: Path) -> Path:
+    """Refuse a file that may not be replaced, and give the one that the name means.
+
+    Raises
+    ------
+    OutputError
+        As `permissions.check`, or if the system does not tell.
+    """
+    try:
+        return permissions.check(target)
+    except OSError as error:
+        raise _cannot_write(target, error) from error
 
 
 def check_base(base: Path) -> None:
@@ -155,10 +168,3 @@ def _cannot_write(target: Path, error: OSError) -> OutputError:
         f"{target} cannot be written ({error.strerror or error}); nothing was changed. Free the "
         "disk or choose another place."
     )
-
-
-def _umask() -> int:
-    """Temporary files are private; results get the permissions of any new file."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -109,6 +109,8 @@ class Build(Job):
         self._titles = titles
         self._count = len(assets)
         outputs.check_base(self.blend)
+        for path in (self.blend, self._catalogs):
+            outputs.check_target(path)
         ids = catalogs.merge(self._catalogs, titles).ids
 
         def prepare(_folder: Path) -> dict[str, Any]:

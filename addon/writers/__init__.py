@@ -9,6 +9,8 @@ CGATS file without a table is no CGATS file.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from .. import outputs
@@ -17,6 +19,24 @@ from . import cgats, images, tables
 
 FORMATS = ("csv", "cgats", "exr")
 """Written beside the JSON document, which is always written."""
+
+_ENDING = re.compile(
+    r"json|(?:predicted|measured)\.(?:csv|cgats\.txt)"
+    r"|predicted(?:-[1-9]\d*)?\.spectral\.exr|measured\.exr"
+)
+
+
+def check(base: Path) -> None:
+    """Refuse a base name that `write` would, before an hour of measuring is spent on it.
+
+    Raises
+    ------
+    OutputError
+        If no file can come from the name, or one that is there may not be replaced.
+    """
+    outputs.check_base(base)
+    for path in _own(base):
+        outputs.check_target(path)
 
 
 def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) -> list[Path]:
@@ -65,3 +85,13 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
                 written.append(target)
         put("json", to_json(readings))
     return written
+
+
+def _own(base: Path) -> Iterator[Path]:
+    """Find the files that a bake to this base may have written."""
+    if not base.parent.is_dir():
+        return
+    start = f"{base.name}."
+    for path in sorted(base.parent.iterdir()):
+        if path.name.startswith(start) and _ENDING.fullmatch(path.name.removeprefix(start)):
+            yield path
