@@ -83,6 +83,14 @@ def adopt(part: Path, target: Path) -> None:
     part.chmod(mode)
 
 
+def cannot_write(target: Path, error: OSError) -> OutputError:
+    """Give the sentence for a file that the system refuses."""
+    return OutputError(
+        f"{target} cannot be written ({error.strerror or error}); nothing was changed. Free the "
+        "disk or choose another place."
+    )
+
+
 def _give(part: Path, old: os.stat_result) -> bool:
     """Give owner and group, or the group alone; False if the group cannot be given."""
     if not hasattr(os, "chown"):

@@ -10,7 +10,6 @@ CGATS file without a table is no CGATS file.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 from .. import outputs
@@ -24,6 +23,13 @@ _ENDING = re.compile(
     r"json|(?:predicted|measured)\.(?:csv|cgats\.txt)"
     r"|predicted(?:-[1-9]\d*)?\.spectral\.exr|measured\.exr"
 )
+"""What may follow the base name."""
+_CREATOR = re.compile(
+    rb'# creator: Rough Spectra |ORIGINATOR\t"Rough Spectra |Software\0string\0.{4}Rough Spectra ',
+    re.DOTALL,
+)
+_HEAD = 1024
+"""Bytes within which every file says who made it."""
 
 
 def check(base: Path) -> None:
@@ -35,12 +41,14 @@ def check(base: Path) -> None:
         If no file can come from the name, or one that is there may not be replaced.
     """
     outputs.check_base(base)
-    for path in _own(base):
-        outputs.check_target(path)
+    if base.parent.is_dir():
+        for path in outputs.listed(base.parent):
+            if _is_of(base, path):
+                outputs.check_target(path)
 
 
 def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) -> list[Path]:
-    """Write all files of a bake, or none.
+    """Write all files of a bake, or none; what an earlier bake wrote beside them goes.
 
     Parameters
     ----------
@@ -58,7 +66,7 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
     Raises
     ------
     OutputError
-        If one cannot be written; no file was touched then.
+        If one cannot be written or removed; no file was touched then.
     """
     outputs.check_base(base)
     written: list[Path] = []
@@ -84,14 +92,22 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
                 images.write(image, files.stage(target), target)
                 written.append(target)
         put("json", to_json(readings))
+        files.clear(base.parent, lambda path: _is_of(base, path) and _is_ours(path))
     return written
 
 
-def _own(base: Path) -> Iterator[Path]:
-    """Find the files that a bake to this base may have written."""
-    if not base.parent.is_dir():
-        return
+def _is_of(base: Path, path: Path) -> bool:
+    """Whether a bake to this base may write a file of this name."""
     start = f"{base.name}."
-    for path in sorted(base.parent.iterdir()):
-        if path.name.startswith(start) and _ENDING.fullmatch(path.name.removeprefix(start)):
-            yield path
+    return path.name.startswith(start) and bool(_ENDING.fullmatch(path.name.removeprefix(start)))
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether we wrote a file: somebody's measurement may be called so too."""
+    try:
+        if not path.is_file():
+            return False
+        with path.open("rb") as file:
+            return bool(_CREATOR.search(file.read(_HEAD)))
+    except OSError:  # what cannot be read is not known to be ours
+        return False
