@@ -3,27 +3,42 @@
 """Save the open .blend from the command line, whole or not at all.
 
 Blender 4.5 and 5.2 report success and put a truncated file in place of the old one when the disk
-is full. So the file is saved beside its target, looked at, and only then renamed.
+is full and the file is compressed. So it is saved beside its target, looked at, and only then
+renamed.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
+import struct
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 import bpy
 
 from ..core.errors import InputError, OutputError
 from . import permissions
 
-_ZSTD_MAGIC = bytes.fromhex("28b52ffd")
-_ZSTD_SEEK_TABLE_MAGIC = bytes.fromhex("b1ea928f")
+_NAME = b"BLENDER"
+_HEAD = len(_NAME) + 1
 _LAST_BLOCK = b"ENDB"
-_LONGEST_BLOCK_HEAD = 32  # bytes; the last block is nothing but its head
+_BLOCK_HEAD, _OLD_BLOCK_HEAD = 32, 24
+"""Bytes; the last block is nothing but its head."""
+
+_ZSTD_MAGIC = bytes.fromhex("28b52ffd")
+_ZSTD_SEEK_TABLE_MAGIC = 0x8F92EAB1
+_SEEK_TABLE_FOOT = struct.Struct("<IBI")
+"""Number of frames, flags, magic number: the "Zstandard Seekable Format" (contrib of zstd)."""
+_HAS_CHECKSUMS = 0x80
+_SKIPPED_HEAD = 8
+
+_BLENDER_SAYS = "Error: "
+_SYSTEM_SAYS = frozenset(map(os.strerror, (0, *errno.errorcode)))
 
 
 def destination(output: Path | None) -> Path:
@@ -70,7 +85,9 @@ def save(output: Path | None) -> Path:
         part = Path(name)
         part.unlink()  # Blender would keep the empty file as an older version
         with _private():
-            bpy.ops.wm.save_as_mainfile(filepath=name, copy=True, check_existing=False)
+            bpy.ops.wm.save_as_mainfile(
+                filepath=name, copy=True, check_existing=False, **_compression(path)
+            )
         if not is_whole(part):
             raise OSError("the disk is full")
         permissions.adopt(part, path)
@@ -85,15 +102,37 @@ def save(output: Path | None) -> Path:
 
 
 def is_whole(path: Path) -> bool:
-    """Whether a .blend, compressed or not, has its end."""
+    """Whether a .blend, compressed or not, has all that was written to it, to its end."""
     with path.open("rb") as file:
-        head = file.read(len(_ZSTD_MAGIC))
-        file.seek(max(0, path.stat().st_size - _LONGEST_BLOCK_HEAD))
-        tail = file.read()
         os.fsync(file.fileno())
-    if head == _ZSTD_MAGIC:
-        return tail.endswith(_ZSTD_SEEK_TABLE_MAGIC)
-    return _LAST_BLOCK in tail
+        size = file.seek(0, os.SEEK_END)
+        file.seek(0)
+        head = file.read(_HEAD)
+        if head.startswith(_ZSTD_MAGIC):
+            return _is_whole_zstd(file, size)
+        # Since 5.0 the length of the file's head follows its name, and blocks have longer ones.
+        last = _BLOCK_HEAD if head[len(_NAME) :].isdigit() else _OLD_BLOCK_HEAD
+        file.seek(max(0, size - last))
+        return file.read().startswith(_LAST_BLOCK)
+
+
+def _is_whole_zstd(file: BinaryIO, size: int) -> bool:
+    """Whether the frames that the table at the end lists make up the file.
+
+    Where only some of the writes failed, the table is there and a frame is not.
+    """
+    file.seek(max(0, size - _SEEK_TABLE_FOOT.size))
+    foot = file.read()
+    if len(foot) < _SEEK_TABLE_FOOT.size:
+        return False
+    count, flags, magic = _SEEK_TABLE_FOOT.unpack(foot)
+    entry = struct.Struct("<III" if flags & _HAS_CHECKSUMS else "<II")
+    length = _SKIPPED_HEAD + count * entry.size + _SEEK_TABLE_FOOT.size
+    if magic != _ZSTD_SEEK_TABLE_MAGIC or length > size:
+        return False
+    file.seek(size - length + _SKIPPED_HEAD)
+    frames = sum(fields[0] for fields in entry.iter_unpack(file.read(count * entry.size)))
+    return bool(frames + length == size)
 
 
 def _keep_older(path: Path) -> None:
@@ -114,6 +153,15 @@ def _keep_older(path: Path) -> None:
         shutil.copy2(path, backup)
 
 
+def _compression(path: Path) -> dict[str, bool]:
+    """Keep a file compressed or not, as Blender does; a new one is as the open one."""
+    for known in (path, Path(bpy.data.filepath)):
+        if known.is_file():
+            with known.open("rb") as file:
+                return {"compress": file.read(len(_ZSTD_MAGIC)) == _ZSTD_MAGIC}
+    return {}
+
+
 @contextmanager
 def _private() -> Iterator[None]:
     """Let nobody else read a file before it has the permissions of the one it replaces."""
@@ -126,6 +174,9 @@ def _private() -> Iterator[None]:
 
 def _cannot_save(path: Path, error: RuntimeError | OSError) -> OutputError:
     reason = " ".join((getattr(error, "strerror", None) or str(error)).split())
+    if isinstance(error, RuntimeError) and reason.removeprefix(_BLENDER_SAYS) in _SYSTEM_SAYS:
+        # Blender quotes what the system said last, which by then is of something else.
+        reason = "Blender could not write all of it; the disk may be full"
     return OutputError(
         f"{path} cannot be saved ({reason}); nothing was changed. Free the disk, or choose another "
         "place with --output."
