@@ -46,13 +46,23 @@ def locked(folder: Path, wait: float = _WAIT) -> Iterator[None]:
         msg = f"{folder} cannot be written ({error.strerror or error}); choose another folder."
         raise OutputError(msg) from error
     with handle:
-        end = time.monotonic() + wait
-        while not _try_to_lock(handle):
-            if time.monotonic() > end:
-                msg = f"{folder} is being changed by another program; try again when it is done."
-                raise OutputError(msg)
-            time.sleep(_PAUSE)
+        if not hold(handle, wait):
+            msg = f"{folder} is being changed by another program; try again when it is done."
+            raise OutputError(msg)
         yield  # closing the handle frees the lock
+
+
+def hold(handle: IO[bytes], wait: float) -> bool:
+    """Lock an open file until it is closed; False if another process keeps it for `wait` seconds.
+
+    The system frees it when the process dies.
+    """
+    end = time.monotonic() + wait
+    while not _try_to_lock(handle):
+        if time.monotonic() > end:
+            return False
+        time.sleep(_PAUSE)
+    return True
 
 
 def _try_to_lock(handle: IO[bytes]) -> bool:

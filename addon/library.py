@@ -19,8 +19,8 @@ import numpy.typing as npt
 
 from ..core import color_difference
 from ..core.arrays import Array
-from ..core.errors import InputError
-from . import judgement, library_files, presets, readers, swatches
+from ..core.errors import InputError, OutputError
+from . import journal, judgement, library_files, presets, readers, swatches
 from .library_files import Added, add, add_all, remove, rename
 from .readers import library as library_reader
 from .readers import open_document
@@ -115,7 +115,7 @@ class _File:
 
 
 _files: dict[Path, tuple[_Stamp, _File]] = {}
-_contents: dict[Path, tuple[object, Contents]] = {}
+_contents: dict[Path, tuple[object, str, Contents]] = {}
 _presets: list[_File] = []
 
 
@@ -127,17 +127,18 @@ def contents(folder: Path) -> Contents:
     folder
         Of the library; an absent one counts as empty.
     """
+    left = _finished(folder)
     stamps = tuple(_library_files(folder))
     known = _contents.get(folder)
-    if known is not None and known[0] == stamps:
-        return known[1]
+    if known is not None and known[:2] == (stamps, left):
+        return known[2]
     if not _presets:
         _presets.extend(
             _read(path, path.parent.name, is_preset=True)
             for path in (presets.folder() / f"{name}.json" for name in presets.names())
         )
     reserved = {entry.collection.casefold() for file in _presets for entry in file.entries}
-    found, taken = list(_presets), set[str]()
+    found, taken = [*_presets, _File(fault=left)], set[str]()
     for path, collection, stamp in stamps:
         if path not in _files or _files[path][0] != stamp:
             _files[path] = (stamp, _read(path, collection, is_preset=False))
@@ -149,7 +150,7 @@ def contents(folder: Path) -> Contents:
         taken |= here
         found.append(file)
     result = _joined(found)
-    _contents[folder] = (stamps, result)
+    _contents[folder] = (stamps, left, result)
     return result
 
 
@@ -158,7 +159,7 @@ def cached(folder: Path) -> Contents | None:
     known = _contents.get(folder)
     if known is None or known[0] != tuple(_library_files(folder)):
         return None
-    return known[1]
+    return known[2]
 
 
 def entries(folder: Path) -> tuple[Entry, ...]:
@@ -239,6 +240,15 @@ def load(name: str, folder: Path) -> Sample:
         faults = "".join(f" ({fault.rstrip('.')})" for fault in everything.faults[:1])
         msg = f"{str(error).rstrip('.')}; nor has the library {folder} a sample called so{faults}."
         raise InputError(msg) from None
+
+
+def _finished(folder: Path) -> str:
+    """Complete what a killed process left half written, or give the sentence why that fails."""
+    try:
+        journal.finish(folder)
+    except OutputError as error:
+        return str(error)
+    return ""
 
 
 def _library_files(folder: Path) -> Iterator[tuple[Path, str, _Stamp]]:

@@ -4,7 +4,7 @@
 
 A collection is one file ``<collection>.json``. Each change reads the file again while it holds the
 folder's lock, and writes it beside and renames it: two Blenders lose nothing to each other, and a
-killed one leaves the old file.
+killed one leaves all old files or, at the next look at the folder, all new ones.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
-from . import outputs
+from . import journal, outputs
 from .file_lock import locked
 from .readers import Document, library, open_document
 from .sample import Sample
@@ -79,8 +79,7 @@ def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[A
             fields = _opened(path) if path.is_file() else (_empty(), [])
             added = _merge(*fields, samples, path.stem)
             if added.names:
-                # A link to a file elsewhere stays one.
-                files.write(path.resolve(), _to_bytes(fields[0]))
+                files.write(path, _to_bytes(fields[0]))
             found.append(added)
     return found
 
@@ -95,22 +94,18 @@ def remove(entries: Iterable[str], folder: Path) -> None:
     OutputError
         A file cannot be written; nothing was changed.
     """
-    empty = []
-    with locked(folder):
+    with locked(folder), outputs.publication() as files:
         _sweep(folder)
-        with outputs.publication() as files:
-            for path, wanted in _by_file(entries, folder).items():
-                fields, samples = _opened(path)
-                known = _ids(fields["samples"], samples)
-                _check_known(wanted, known, path)
-                pairs = zip(fields["samples"], known, strict=True)
-                kept = [record for record, slug in pairs if slug not in wanted]
-                if kept:
-                    files.write(path.resolve(), _to_bytes(fields | {"samples": kept}))
-                else:
-                    empty.append(path)
-        for path in empty:
-            path.unlink()
+        for path, wanted in _by_file(entries, folder).items():
+            fields, samples = _opened(path)
+            known = _ids(fields["samples"], samples)
+            _check_known(wanted, known, path)
+            pairs = zip(fields["samples"], known, strict=True)
+            kept = [record for record, slug in pairs if slug not in wanted]
+            if kept:
+                files.write(path, _to_bytes(fields | {"samples": kept}))
+            else:
+                files.remove(path)
 
 
 def rename(entry: str, name: str, folder: Path) -> str:
@@ -140,7 +135,7 @@ def rename(entry: str, name: str, folder: Path) -> str:
             raise InputError(msg)
         new = _free(slug_of(name), set(known) - {slug}, "-", {})
         fields["samples"][at] |= {"name": name, "id": new}
-        files.write(path.resolve(), _to_bytes(fields))
+        files.write(path, _to_bytes(fields))
     return f"{path.stem}/{new}"
 
 
@@ -286,6 +281,7 @@ def _to_bytes(fields: dict[str, Any]) -> bytes:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove what a killed process left half written. Nobody else writes: the lock is held."""
+    """Mend what a killed process left half written. Nobody else writes: the lock is held."""
+    journal.finish(folder)
     for path in folder.glob(".*.part"):
         path.unlink(missing_ok=True)

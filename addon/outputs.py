@@ -3,7 +3,8 @@
 """Write result files whole or not at all.
 
 Every file is written beside its target and takes its name only when all of them are complete. A
-full disk, a kill or a crash leaves the old files as they were.
+full disk, a kill or a crash leaves the old files as they were; a kill while the files of a folder
+take their names leaves a journal, by which whoever writes there next gives the rest theirs.
 """
 
 from __future__ import annotations
@@ -11,11 +12,15 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..core.errors import OutputError
+from . import permissions
+from .journal import Journal, Step, finish, held, seen
+from .permissions import cannot_write
 
 _NAME_SHARE = 50
 """Characters of a target's name in its temporary one, which may not exceed 255 bytes."""
@@ -25,35 +30,42 @@ _PRIVATE = 0o600
 """Permissions of a file until it is whole."""
 
 
+@dataclass(frozen=True)
+class _Staged:
+    """A target as it was named, and the file that is to be there."""
+
+    target: Path
+    part: Path
+
+
 class Publication:
     """A set of files that appear together. Made by `publication`."""
 
     def __init__(self) -> None:
-        self._staged: dict[Path, Path] = {}
-        self._kept: list[Path] = []
-        self._parts: list[Path] = []
+        self._staged: dict[Path, _Staged] = {}
+        self._removed: list[Path] = []
+        self._cleared: list[tuple[Path, Callable[[Path], bool]]] = []
+        self._temporary: list[Path] = []
+        self._journals: list[Journal] = []
 
     def stage(self, target: Path) -> Path:
-        """Give the path to write to in place of `target`.
+        """Give the path to write to in place of `target`; a link is followed, and stays one.
 
         Raises
         ------
         OutputError
-            If the folder cannot be written.
+            If the folder cannot be written, or `target` may not be replaced.
         """
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            if target.is_dir():
-                msg = f"{target} is a folder; choose a file name."
-                raise OutputError(msg)
+            real = check_target(target)
             # Noted before it is there: an interrupt between the two would leave it behind.
-            name = f".{target.name[:_NAME_SHARE]}.{secrets.token_hex(_RANDOM_BYTES)}.part"
-            part = target.with_name(name)
-            self._parts.append(part)
+            part = real.with_name(_temporary_name(real, "part"))
+            self._temporary.append(part)
             os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, _PRIVATE))
         except OSError as error:
-            raise _cannot_write(target, error) from error
-        self._staged[target] = part
+            raise cannot_write(target, error) from error
+        self._staged[real] = _Staged(target, part)
         return part
 
     def write(self, target: Path, content: bytes) -> None:
@@ -68,41 +80,111 @@ class Publication:
         try:
             part.write_bytes(content)
         except OSError as error:
-            raise _cannot_write(target, error) from error
+            raise cannot_write(target, error) from error
+
+    def remove(self, target: Path) -> None:
+        """Let a file go when the others appear; of a link, the link alone."""
+        self._removed.append(target)
+
+    def clear(self, folder: Path, is_own: Callable[[Path], bool]) -> None:
+        """Let all files of a folder go, when the others appear, that `is_own` says to be ours.
+
+        Those that are written stay. It is asked when nobody else can publish there any more.
+        """
+        self._cleared.append((folder, is_own))
 
     def _finish(self) -> None:
-        for target, part in self._staged.items():
+        for real, staged in self._staged.items():
             try:
-                with part.open("rb") as written:
+                with staged.part.open("rb") as written:
                     os.fsync(written.fileno())
-                part.chmod(0o666 & ~_umask())
+                permissions.adopt(staged.part, real)
             except OSError as error:
-                raise _cannot_write(target, error) from error
-        done: list[tuple[Path, Path | None]] = []
-        for target, part in self._staged.items():
-            try:
-                done.append((target, self._keep_old(target)))
-                part.replace(target)
-            except OSError as error:
-                for earlier, old in done:
-                    _bring_back(earlier, old)
-                raise _cannot_write(target, error) from error
+                raise cannot_write(real, error) from error
+        if len(self._staged) == 1 and not self._removed and not self._cleared:
+            self._replace_one(*self._staged.items())
+        else:
+            self._replace_all()
 
-    def _keep_old(self, target: Path) -> Path | None:
-        """Give the file at `target` a second name, or None where there is none."""
-        if not target.is_file():
-            return None
-        old = self._staged[target].with_suffix(".old.part")
-        self._kept.append(old)
+    def _replace_one(self, only: tuple[Path, _Staged]) -> None:
+        """Replace a single file, which needs no journal: a rename is done or not."""
+        real, staged = only
+        finish(staged.target.parent)
+        check_target(staged.target)
         try:
-            os.link(target, old)
-        except OSError:  # a file system without hard links
-            shutil.copy2(target, old)
-        return old
+            staged.part.replace(real)
+        except OSError as error:
+            raise cannot_write(real, error) from error
+
+    def _replace_all(self) -> None:
+        targets = [staged.target for staged in self._staged.values()] + self._removed
+        folders = {target.parent.resolve() for target in targets}
+        folders |= {folder.resolve() for folder, _ in self._cleared}
+        with ExitStack() as stack:
+            for folder in sorted(folders):  # in one order, so that no two wait for each other
+                journal = stack.enter_context(held(folder))
+                stack.callback(journal.turn_back)
+                self._journals.append(journal)
+            for folder, journal in zip(sorted(folders), self._journals, strict=True):
+                steps = [*self._replacements(folder), *self._removals(folder)]
+                if steps:
+                    journal.begin(steps)
+            for journal in self._journals:
+                journal.carry_out()
+            for journal in self._journals:
+                journal.settle()
+
+    def _replacements(self, folder: Path) -> Iterator[Step]:
+        for real, staged in self._staged.items():
+            if staged.target.parent.resolve() == folder:
+                check_target(staged.target)
+                old = self._keep_old(real)
+                yield Step(staged.target.name, seen(real), staged.part.name, old)
+
+    def _removals(self, folder: Path) -> Iterator[Step]:
+        targets = [path for path in self._removed if path.parent.resolve() == folder]
+        for place, is_own in self._cleared:
+            if place.resolve() == folder:
+                targets += [path for path in listed(folder) if is_own(path)]
+        written = {staged.target.name for staged in self._staged.values()}
+        for target in dict.fromkeys(targets):
+            if target.name not in written and os.path.lexists(target):
+                check_target(target)
+                yield Step(target.name, seen(target), None, self._keep_old(target))
+
+    def _keep_old(self, target: Path) -> str | None:
+        """Give the file at `target` a second name, or None where there is none."""
+        if not os.path.lexists(target):
+            return None
+        old = target.with_name(_temporary_name(target, "old.part"))
+        self._temporary.append(old)
+        try:
+            os.link(target, old, follow_symlinks=not target.is_symlink())
+        except (OSError, NotImplementedError):  # a file system without hard links
+            try:
+                shutil.copy2(target, old, follow_symlinks=False)
+            except OSError as error:
+                raise cannot_write(target, error) from error
+        return old.name
 
     def _discard(self) -> None:
-        for part in (*self._parts, *self._kept):
-            part.unlink(missing_ok=True)
+        if all(journal.is_settled for journal in self._journals):
+            for path in self._temporary:
+                path.unlink(missing_ok=True)
+
+
+def check_target(target: Path) -> Path:
+    """Refuse a file that may not be replaced, and give the one that the name means.
+
+    Raises
+    ------
+    OutputError
+        As `permissions.check`, or if the system does not tell.
+    """
+    try:
+        return permissions.check(target)
+    except OSError as error:
+        raise cannot_write(target, error) from error
 
 
 def check_base(base: Path) -> None:
@@ -125,6 +207,20 @@ def check_base(base: Path) -> None:
         raise OutputError(msg)
 
 
+def listed(folder: Path) -> list[Path]:
+    """Give what lies in a folder that is to be written.
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be read: what is ours in it cannot be told.
+    """
+    try:
+        return sorted(folder.iterdir())
+    except OSError as error:
+        raise cannot_write(folder, error) from error
+
+
 @contextmanager
 def publication() -> Iterator[Publication]:
     """Collect files, and give them their names at the end of the block if nothing failed.
@@ -142,23 +238,5 @@ def publication() -> Iterator[Publication]:
         files._discard()
 
 
-def _bring_back(target: Path, old: Path | None) -> None:
-    """Undo a replacement, because a later one of the same set failed."""
-    if old is not None:
-        old.replace(target)
-    elif target.is_file():
-        target.unlink()
-
-
-def _cannot_write(target: Path, error: OSError) -> OutputError:
-    return OutputError(
-        f"{target} cannot be written ({error.strerror or error}); nothing was changed. Free the "
-        "disk or choose another place."
-    )
-
-
-def _umask() -> int:
-    """Temporary files are private; results get the permissions of any new file."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _temporary_name(target: Path, ending: str) -> str:
+    return f".{target.name[:_NAME_SHARE]}.{secrets.token_hex(_RANDOM_BYTES)}.{ending}"

@@ -18,7 +18,7 @@ import bpy
 import numpy as np
 
 from ...core.errors import OutputError
-from .. import blend_file, outputs
+from .. import blend_file, journal, outputs
 from ..second_blender import Job
 from . import catalogs
 from .plan import Asset
@@ -109,6 +109,9 @@ class Build(Job):
         self._titles = titles
         self._count = len(assets)
         outputs.check_base(self.blend)
+        for path in (self.blend, self._catalogs):
+            outputs.check_target(path)
+        journal.finish(self._catalogs.parent)
         ids = catalogs.merge(self._catalogs, titles).ids
 
         def prepare(_folder: Path) -> dict[str, Any]:
@@ -149,6 +152,7 @@ class Build(Job):
         if not blend_file.is_whole(made):
             msg = f"{made} is not whole; is the disk full? Nothing was written."
             raise OutputError(msg)
+        journal.finish(self._catalogs.parent)
         # Read again: somebody may have added a catalog meanwhile.
         merged = catalogs.merge(self._catalogs, self._titles)
         with outputs.publication() as files:

@@ -50,10 +50,10 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
 
     def to_measure(self, context: Any) -> list[Any]:
         """Check the target, and take down the predictions."""
-        from .. import outputs, readings
+        from .. import readings, writers
 
         self._base = Path(bpy.path.abspath(self.filepath))
-        outputs.check_base(self._base)
+        writers.check(self._base)
         materials = common.materials_in_scope(context, self.scope)
         surfaces = [("", material) for material in materials]
         self._prepared = readings.prepare(surfaces)

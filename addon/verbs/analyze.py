@@ -39,9 +39,10 @@ def run(options: argparse.Namespace) -> int:
 
     from ...core.errors import InputError
     from .. import scene_analysis, scene_report, selection
-    from ..blend_file import save
+    from ..blend_file import destination, save
     from ..progress import counted
 
+    destination(options.output)  # before the work that could not be saved
     scene = bpy.context.scene
     if options.scene is not None:
         scene = bpy.data.scenes.get(options.scene)

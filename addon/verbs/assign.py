@@ -70,9 +70,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
     from .. import assign, mapping
-    from ..blend_file import save
+    from ..blend_file import destination, save
     from ..progress import counted
 
+    destination(options.output)  # before the work that could not be saved
     rows = mapping.rows(options)
     pairs = mapping.pair(rows, options)
     solutions = assign.assign(pairs, options.shader.upper())

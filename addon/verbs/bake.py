@@ -75,14 +75,18 @@ def run(options: argparse.Namespace) -> int:
     from .. import outputs, readings, readings_document, selection, writers
     from ..progress import counted
 
-    outputs.check_base(options.output)
-    result = measure(options, not options.predicted_only)
     index, count = options.shard
+    if count > 1:
+        outputs.check_base(options.output)
+        target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
+        outputs.check_target(target)
+    else:
+        writers.check(options.output)
+    result = measure(options, not options.predicted_only)
     if count > 1:
         surfaces = selection.surfaces(options.material, options.object)
         whole = readings.digest(surfaces, not options.predicted_only)
         part = replace(result, shard=index, shards=count, whole=whole)
-        target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
         with outputs.publication() as files:
             files.write(target, readings_document.to_json(part))
         written = [target]

@@ -35,13 +35,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure and compare; exit status 0 or 1."""
     from ...core.errors import InputError
-    from .. import outputs, writers
+    from .. import writers
 
     if not options.max_delta_e >= 0:
         msg = f"--max-delta-e is {options.max_delta_e}; give 0 or more."
         raise InputError(msg)
     if options.output is not None:
-        outputs.check_base(options.output)
+        writers.check(options.output)
     result = measure(options)
     compared = [entry for entry in result.entries if entry.delta_e_00 is not None]
     if not compared:

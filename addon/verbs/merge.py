@@ -26,9 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Join and write; exit status 0."""
-    from .. import readings_document, writers
+    from .. import journal, readings_document, writers
     from ..progress import counted
 
+    writers.check(options.output)
+    for folder in sorted({path.parent for path in options.parts}):
+        journal.finish(folder)  # a document of a killed bake may wait for its name
     result = readings_document.merge(readings_document.from_json(path) for path in options.parts)
     written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
     names = ", ".join(path.name for path in written)

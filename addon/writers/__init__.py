@@ -9,6 +9,7 @@ CGATS file without a table is no CGATS file.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from .. import outputs
@@ -18,9 +19,36 @@ from . import cgats, images, tables
 FORMATS = ("csv", "cgats", "exr")
 """Written beside the JSON document, which is always written."""
 
+_ENDING = re.compile(
+    r"json|(?:predicted|measured)\.(?:csv|cgats\.txt)"
+    r"|predicted(?:-[1-9]\d*)?\.spectral\.exr|measured\.exr"
+)
+"""What may follow the base name."""
+_CREATOR = re.compile(
+    rb'# creator: Rough Spectra |ORIGINATOR\t"Rough Spectra |Software\0string\0.{4}Rough Spectra ',
+    re.DOTALL,
+)
+_HEAD = 1024
+"""Bytes within which every file says who made it."""
+
+
+def check(base: Path) -> None:
+    """Refuse a base name that `write` would, before an hour of measuring is spent on it.
+
+    Raises
+    ------
+    OutputError
+        If no file can come from the name, or one that is there may not be replaced.
+    """
+    outputs.check_base(base)
+    if base.parent.is_dir():
+        for path in outputs.listed(base.parent):
+            if _is_of(base, path):
+                outputs.check_target(path)
+
 
 def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) -> list[Path]:
-    """Write all files of a bake, or none.
+    """Write all files of a bake, or none; what an earlier bake wrote beside them goes.
 
     Parameters
     ----------
@@ -38,7 +66,7 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
     Raises
     ------
     OutputError
-        If one cannot be written; no file was touched then.
+        If one cannot be written or removed; no file was touched then.
     """
     outputs.check_base(base)
     written: list[Path] = []
@@ -64,4 +92,22 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
                 images.write(image, files.stage(target), target)
                 written.append(target)
         put("json", to_json(readings))
+        files.clear(base.parent, lambda path: _is_of(base, path) and _is_ours(path))
     return written
+
+
+def _is_of(base: Path, path: Path) -> bool:
+    """Whether a bake to this base may write a file of this name."""
+    start = f"{base.name}."
+    return path.name.startswith(start) and bool(_ENDING.fullmatch(path.name.removeprefix(start)))
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether we wrote a file: somebody's measurement may be called so too."""
+    try:
+        if not path.is_file():
+            return False
+        with path.open("rb") as file:
+            return bool(_CREATOR.search(file.read(_HEAD)))
+    except OSError:  # what cannot be read is not known to be ours
+        return False

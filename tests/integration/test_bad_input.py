@@ -282,7 +282,10 @@ def test_full_disk_leaves_the_old_outputs(ending, scene_file, run, main, tmp_pat
     assert contents(tmp_path) == before
 
 
-def test_full_disk_leaves_the_blend_as_it_was(blend, run, tmp_path):
+@pytest.mark.parametrize("compressed", [False, True])
+def test_full_disk_leaves_the_blend_as_it_was(compressed, blend, run, tmp_path):
+    """Of a compressed file Blender says that it is saved."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend), compress=compressed)
     before = contents(tmp_path)
     words = ("assign", "--blend", blend, "--preset", "14", "--material", "paper")
     result = run(*words, before=limit(4096))
@@ -290,7 +293,8 @@ def test_full_disk_leaves_the_blend_as_it_was(blend, run, tmp_path):
     assert "Traceback" not in result.err
     ours = [line for line in result.err.splitlines() if line.startswith("rough_spectra assign:")]
     assert len(ours) == 1
-    assert str(blend) in ours[0]
+    assert f"{blend} cannot be saved (" in ours[0]
+    assert "disk" in ours[0].partition(");")[0]
     assert contents(tmp_path) == before
 
 

@@ -387,6 +387,39 @@ def test_merged_parts_equal_the_whole_byte_for_byte(shards, scene_file, main, tm
     assert contents(tmp_path / "merged") == whole
 
 
+def test_a_second_bake_leaves_nothing_of_the_first_and_all_of_others(baked, main, tmp_path):
+    """A measurement may be called as our files are: what we did not write stays."""
+    source = baked.path("json")
+    assert main("merge", source, "--output", tmp_path / "x").status == 0
+    assert len(contents(tmp_path)) == len(ENDINGS)
+    others = {
+        "x.measured.cgats.txt": (tmp_path / "x.measured.cgats.txt")
+        .read_bytes()
+        .replace(b"Rough Spectra ", b"i1Profiler "),
+        "x.predicted-3.spectral.exr": b"no image",
+        "x.measured.csv.bak": b"# creator: Rough Spectra 0",
+        "x.part-1-of-2.json": source.read_bytes(),
+        "x2.measured.csv": b"# creator: Rough Spectra 0",
+    }
+    for name, content in others.items():
+        (tmp_path / name).write_bytes(content)
+    assert main("merge", source, "--output", tmp_path / "x", "--format", "csv").status == 0
+    left = contents(tmp_path)
+    assert {name: left.pop(name) for name in others} == others
+    assert set(left) == {"x.json", "x.predicted.csv", "x.measured.csv"}
+
+
+def test_a_file_of_the_first_bake_that_is_protected_stops_the_second(baked, main, tmp_path):
+    assert main("merge", baked.path("json"), "--output", tmp_path / "x").status == 0
+    (tmp_path / "x.measured.exr").chmod(0o444)
+    before = contents(tmp_path)
+    words = ("merge", baked.path("json"), "--output", tmp_path / "x", "--format", "csv")
+    result = main(*words)
+    assert result.status == 2
+    assert "x.measured.exr is write-protected" in result.sentence
+    assert contents(tmp_path) == before
+
+
 def test_images_name_who_is_where(baked):
     _, _, attributes = exr(baked.path("predicted-1.spectral.exr"))
     names = attributes["ImageDescription"].partition("left: ")[2].split("; ")
