@@ -20,10 +20,13 @@ from ..core.errors import InputError
 from . import outputs
 from .file_lock import locked
 from .readers import Document, library, open_document
+from .readers._document import LARGEST_FILE, quote
 from .sample import Sample
 
 _LONGEST = 80  # characters of a collection's name or an id: file names end at 255 bytes
 _NOT_IN_NAMES = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]+')
+_ESCAPED = re.compile("[\x7f-\x9f\u2028\u2029\ufeff]")
+"""Characters that JSON takes as they are, and other readers of text for something else."""
 _DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
 
 
@@ -80,7 +83,7 @@ def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[A
             added = _merge(*fields, samples, path.stem)
             if added.names:
                 # A link to a file elsewhere stays one.
-                files.write(path.resolve(), _to_bytes(fields[0]))
+                files.write(path.resolve(), _checked(path, fields[0]))
             found.append(added)
     return found
 
@@ -106,7 +109,7 @@ def remove(entries: Iterable[str], folder: Path) -> None:
                 pairs = zip(fields["samples"], known, strict=True)
                 kept = [record for record, slug in pairs if slug not in wanted]
                 if kept:
-                    files.write(path.resolve(), _to_bytes(fields | {"samples": kept}))
+                    files.write(path.resolve(), _checked(path, fields | {"samples": kept}))
                 else:
                     empty.append(path)
         for path in empty:
@@ -140,7 +143,7 @@ def rename(entry: str, name: str, folder: Path) -> str:
             raise InputError(msg)
         new = _free(slug_of(name), set(known) - {slug}, "-", {})
         fields["samples"][at] |= {"name": name, "id": new}
-        files.write(path.resolve(), _to_bytes(fields))
+        files.write(path.resolve(), _checked(path, fields))
     return f"{path.stem}/{new}"
 
 
@@ -272,15 +275,45 @@ def _free(name: str, taken: set[str], separator: str, counters: dict[str, int]) 
     return f"{name}{separator}{number}"
 
 
+def _checked(path: Path, fields: dict[str, Any]) -> bytes:
+    """Return the file, once it reads back as what it was written from.
+
+    One name that makes a file unreadable would take all the other samples of it along.
+
+    Raises
+    ------
+    InputError
+        A sample cannot be kept; nothing was written.
+    """
+    data = _to_bytes(fields)
+    if len(data) > LARGEST_FILE:
+        msg = (
+            f"{path}: with these samples it would have {len(data) / 2**20:.0f} MB, more than the "
+            f"{LARGEST_FILE // 2**20} MB that are read; add them to another collection."
+        )
+        raise InputError(msg)
+    document = Document(path, data)
+    read = library.parse(document)
+    library.samples(document, read)
+    for wanted, found in zip(fields["samples"], read["samples"], strict=True):
+        # Fields of others may hold NaN, which is not equal to itself.
+        if wanted != found and _dump(wanted) != _dump(found):
+            name = quote(str(wanted.get("name")))
+            msg = f"{path}: the sample {name} does not read back as it is; give it a plain name."
+            raise InputError(msg)
+    return data
+
+
+def _dump(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)  # floats by repr: to the last bit
+
+
 def _to_bytes(fields: dict[str, Any]) -> bytes:
     """Return the file: one sample a line, so that a change shows as the lines it is in."""
-
-    def dump(value: Any) -> str:
-        return json.dumps(value, ensure_ascii=False)  # floats by repr: to the last bit
-
-    head = [f"{dump(key)}: {dump(value)}" for key, value in fields.items() if key != "samples"]
-    lines = ",\n".join(map(dump, fields["samples"]))
+    head = [f"{_dump(key)}: {_dump(value)}" for key, value in fields.items() if key != "samples"]
+    lines = ",\n".join(map(_dump, fields["samples"]))
     text = "{\n" + ",\n".join([*head, f'"samples": [\n{lines}\n]']) + "\n}\n"
+    text = _ESCAPED.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
     # Half a surrogate pair has no UTF-8; its escape is what JSON writes for it.
     return text.encode("utf-8", errors="backslashreplace")
 

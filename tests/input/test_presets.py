@@ -163,6 +163,8 @@ ABSENT = object()
         ("values", [0.5], ["81 wavelengths", "1 values"]),
         ("values", [5.5] * 81, ["380 nm", "number 1", "times white"]),
         ("values", [float("nan")] * 81, ["380 nm", "NaN"]),
+        ("lab", [50, float("nan"), 0], ["number 2 is 'nan'"]),
+        ("xyz", [0.1, 0.2, float("inf")], ["number 3 is 'inf'"]),
         ("wavelengths", list(range(780, 375, -5)), ["775 nm", "number 2", "sort"]),
     ],
 )
