@@ -19,7 +19,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rough_spectra.addon import colorimetry, library, library_files, presets, readers, swatches
+from rough_spectra.addon import (
+    colorimetry,
+    importing,
+    library,
+    library_files,
+    presets,
+    readers,
+    swatches,
+)
 from rough_spectra.addon.sample import Sample
 from rough_spectra.core.errors import InputError, OutputError
 from rough_spectra.core.instruments import REGISTRY
@@ -325,6 +333,64 @@ def test_a_collection_that_no_file_can_be_called_is_refused(tmp_path, name):
     with pytest.raises(InputError, match="cannot be called"):
         library.add([sample("a")], name, tmp_path / "library")
     assert list(tmp_path.rglob("*.json")) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("con", "con-"),
+        ("CON .x", "CON- .x"),
+        ("com¹", "com¹-"),
+        ("comic", "comic"),
+        ("conout$.csv", "conout$-.csv"),
+        ("con" + " " * 77 + "abc", "con-"),
+        ("a\x85b\u202ec\ud800", "a-b-c"),
+        ("e\u0301", "é"),
+        (" .-a-. ", "a"),
+        ("a" * 79 + " b", "a" * 79),
+        ("\U0001f9f1" * 90, "\U0001f9f1" * 50),
+        ("..", "samples"),
+    ],
+)
+def test_names_of_collections_are_those_of_files_everywhere(tmp_path, text, name):
+    assert library_files.collection_name(text) == name
+    assert library_files.collection_name(name) == name
+    (entry,) = library.add([sample("a")], name, tmp_path).ids
+    assert same(library.load(entry, tmp_path), sample("a"))
+
+
+def test_collections_that_differ_in_capitals_lose_nothing_to_each_other(tmp_path):
+    many = {"Walls": [sample("a")], "walls": [sample("b", 0.5)], "WALLS": [sample("a")]}
+    added = library.add_all(many, tmp_path)
+    assert [each.ids for each in added] == [("Walls/a",), ("Walls/b",), ("Walls/a",)]
+    assert set(files(tmp_path)) == {"Walls.json"}
+    library.add_all({"walls": [sample("c", 0.6)], "Walls": [sample("d", 0.7)]}, tmp_path)
+    assert [entry.name for entry in own(tmp_path)] == ["a", "b", "c", "d"]
+
+
+@pytest.mark.parametrize("name", ["ColorChecker", "colorchecker", "EVERYDAY"])
+def test_a_collection_called_as_one_of_presets_gets_a_number_and_is_found(tmp_path, name):
+    for _ in range(2):  # the second time all of them are there
+        added = library.add([sample("a"), sample("b", 0.5)], name, tmp_path)
+        assert added.ids == (f"{name} 2/a", f"{name} 2/b")
+        assert (added.wanted, added.collection) == (name, f"{name} 2")
+        said = importing.summary([added])
+        assert f"collection {name!r} is called '{name} 2' there, as presets have its name" in said
+    assert added.present == ("a", "b")
+    assert [entry.name for entry in own(tmp_path)] == ["a", "b"]
+    assert [entry.id for entry in library.search(f"{name} 2/a", tmp_path)] == [f"{name} 2/a"]
+    assert same(library.load(f"{name} 2/b", tmp_path), sample("b", 0.5))
+    assert library.contents(tmp_path).faults == ()
+    library.remove([f"{name} 2/a"], tmp_path)
+    assert [entry.name for entry in own(tmp_path)] == ["b"]
+
+
+def test_a_collection_called_as_a_folder_of_presets_gets_a_number(tmp_path):
+    shutil.copytree(presets.folder() / "colorchecker", tmp_path / "mine")
+    added = library.add([sample("01 dark skin")], "Mine", tmp_path)
+    assert added.ids == ("Mine 2/01-dark-skin",)
+    assert same(library.load("Mine 2/01-dark-skin", tmp_path), sample("01 dark skin"))
+    assert library.contents(tmp_path).faults == ()
 
 
 def test_a_collection_is_the_same_in_capitals(tmp_path):
