@@ -131,11 +131,12 @@ def _stored(
 
 def _solve(work: Sequence[tuple[nodes.Place, Request]]) -> tuple[str, list[Solution]]:
     """Match every request; gives the name of the working space too."""
-    materials = [place.material for place, _ in work]
-    if len(set(materials)) < len(materials):
-        twice = next(m for m in materials if materials.count(m) > 1)
-        msg = f"Material {twice.name!r} is named twice; give it one spectrum."
-        raise MaterialError(msg)
+    seen = set()
+    for place, _ in work:
+        if place.material in seen:
+            msg = f"Material {place.material.name!r} is named twice; give it one spectrum."
+            raise MaterialError(msg)
+        seen.add(place.material)
     space = working_space.current()
     return space.name, target.solve([request for _, request in work], space)
 

@@ -93,6 +93,12 @@ def summary(added: Sequence[Added]) -> str:
     """Say in one line what became of the samples."""
     count = sum(len(each.names) for each in added)
     parts = [f"{count} {'sample' if count == 1 else 'samples'} added to the library"]
+    for each in added:
+        if each.wanted:
+            parts.append(
+                f"collection {each.wanted!r} is called {each.collection!r} there, as presets have "
+                "its name"
+            )
     present = sum(len(each.present) for each in added)
     if present:
         parts.append(f"{present} already there")

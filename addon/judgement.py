@@ -8,6 +8,7 @@ without a sentence is one to use without a second thought.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import combinations
@@ -44,6 +45,7 @@ _SHARP = 5  # units of the last digit; see `_saturation`
 _LEFT_OUT = 0.1  # share of the color from which `colorimetry` refuses
 _VALUES_AT_ONCE = 1_000_000  # 8 MB
 _ROUNDING = 1e-6
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 _Found = Iterator[tuple[int, str]]
 """Position of a sample among those judged, and the sentence."""
@@ -108,6 +110,8 @@ def _judge_grid(samples: Sequence[Sample]) -> _Found:
     for sentence in (*_steps(nm), *_range(nm)):
         yield from ((i, sentence) for i in range(len(samples)))
     for i, sample in enumerate(samples):
+        if _CONTROL.search(sample.name):
+            yield i, "has a control character in its name; give it another name in the library."
         if sample.specular.upper() == "SCI" and sample.kind == "reading":
             yield (
                 i,

@@ -104,6 +104,7 @@ class Contents:
     _haystacks: tuple[str, ...]
     _lab: Array
     _places: dict[str, int]
+    _named: dict[str, list[int]]
     _found: dict[str, tuple[Entry, ...]] = field(default_factory=dict)
 
 
@@ -217,18 +218,21 @@ def load(name: str, folder: Path) -> Sample:
         Nothing is called so, or several are, or its file has a fault.
     """
     if "/" in name and name not in presets.names():
-        place = contents(folder)._places.get(name)
+        everything = contents(folder)
+        place = everything._places.get(name)
         if place is not None:
-            return contents(folder)._samples[place]
+            return everything._samples[place]
+    if not name.lower().endswith(".json") and not presets.is_called(name):
+        # Without the presets' names that come closest: seeking them takes longer than all else.
+        everything = contents(folder)
+        named = everything._named.get(name, [])
+        if len(named) == 1:
+            return everything._samples[named[0]]
     try:
         return presets.load(name)
     except InputError as error:
         everything = contents(folder)
-        named = [
-            i
-            for i, entry in enumerate(everything.entries)
-            if not entry.is_preset and entry.name == name
-        ]
+        named = everything._named.get(name, [])
         if len(named) == 1:
             return everything._samples[named[0]]
         if named:
@@ -322,8 +326,11 @@ def _joined(files: list[_File]) -> Contents:
     found = tuple(entry for file in files for entry in file.entries)
     nothing = (np.nan, np.nan, np.nan)
     places: dict[str, int] = {}
+    named: dict[str, list[int]] = {}
     for i, entry in enumerate(found):
         places.setdefault(entry.id, i)
+        if not entry.is_preset:
+            named.setdefault(entry.name, []).append(i)
     return Contents(
         entries=found,
         faults=tuple(file.fault for file in files if file.fault),
@@ -331,4 +338,5 @@ def _joined(files: list[_File]) -> Contents:
         _haystacks=tuple(f"{e.name} {e.id} {e.source}".casefold() for e in found),
         _lab=np.array([entry.lab or nothing for entry in found]).reshape(-1, 3),
         _places=places,
+        _named=named,
     )

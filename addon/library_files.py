@@ -11,20 +11,29 @@ from __future__ import annotations
 
 import json
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
-from . import journal, outputs
+from . import journal, outputs, presets
 from .file_lock import locked
 from .readers import Document, library, open_document
+from .readers._document import LARGEST_FILE, quote
 from .sample import Sample
 
-_LONGEST = 80  # characters of a collection's name or an id: file names end at 255 bytes
-_NOT_IN_NAMES = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]+')
-_DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
+_LONGEST = 80  # characters of a collection's name or an id
+_MOST_BYTES = 200  # of a collection's name: file names end at 255
+_NOT_IN_NAMES = re.compile(
+    "[\x00-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff" r'<>:"/\\|?*]+'
+)
+_ESCAPED = re.compile("[\x7f-\x9f\u2028\u2029\ufeff]")
+"""Characters that JSON takes as they are, and other readers of text for something else."""
+_DEVICES = re.compile(
+    r"(con|prn|aux|nul|clock\$|conin\$|conout\$|com[\d¹²³]|lpt[\d¹²³])(?= *(?:\.|$))", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True)
@@ -41,12 +50,18 @@ class Added:
         Names of those that were there already, with the same spectrum, and were not added again.
     renamed
         Old and new name of those whose name another sample has.
+    collection
+        Where they are.
+    wanted
+        Where they were to be added, if presets have a collection of that name; else empty.
     """
 
     ids: tuple[str, ...]
     names: tuple[str, ...]
     present: tuple[str, ...]
     renamed: tuple[tuple[str, str], ...]
+    collection: str
+    wanted: str = ""
 
 
 def add(samples: Sequence[Sample], collection: str, folder: Path) -> Added:
@@ -56,6 +71,9 @@ def add(samples: Sequence[Sample], collection: str, folder: Path) -> Added:
 
 def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[Added]:
     """Add samples to several collections, all of them or none. Never overwrites a sample.
+
+    A collection that is called as one of presets gets a number: its samples could not be told from
+    theirs, and would not be listed.
 
     Parameters
     ----------
@@ -74,13 +92,24 @@ def add_all(collections: Mapping[str, Sequence[Sample]], folder: Path) -> list[A
     found = []
     with locked(folder), outputs.publication() as files:
         _sweep(folder)
+        taken = _taken(folder)
+        opened: dict[str, tuple[Path, dict[str, Any], list[Sample]]] = {}
+        changed: list[str] = []
         for name, samples in collections.items():
-            path = _path(folder, name)
-            fields = _opened(path) if path.is_file() else (_empty(), [])
-            added = _merge(*fields, samples, path.stem)
-            if added.names:
-                files.write(path, _to_bytes(fields[0]))
-            found.append(added)
+            _check_collection(name, folder)
+            free = _free_collection(name, taken)
+            key = _folded(free)
+            if key not in opened:
+                path = _path(folder, free)
+                opened[key] = (path, *(_opened(path) if path.is_file() else (_empty(), [])))
+            path, fields, known = opened[key]
+            added = _merge(fields, known, samples, path.stem)
+            if added.names and key not in changed:
+                changed.append(key)
+            found.append(added if free == name else replace(added, wanted=name))
+        for key in changed:
+            path, fields, _ = opened[key]
+            files.write(path, _checked(path, fields))
     return found
 
 
@@ -103,7 +132,7 @@ def remove(entries: Iterable[str], folder: Path) -> None:
             pairs = zip(fields["samples"], known, strict=True)
             kept = [record for record, slug in pairs if slug not in wanted]
             if kept:
-                files.write(path, _to_bytes(fields | {"samples": kept}))
+                files.write(path, _checked(path, fields | {"samples": kept}))
             else:
                 files.remove(path)
 
@@ -135,7 +164,7 @@ def rename(entry: str, name: str, folder: Path) -> str:
             raise InputError(msg)
         new = _free(slug_of(name), set(known) - {slug}, "-", {})
         fields["samples"][at] |= {"name": name, "id": new}
-        files.write(path, _to_bytes(fields))
+        files.write(path, _checked(path, fields))
     return f"{path.stem}/{new}"
 
 
@@ -151,20 +180,53 @@ def slug_of(name: str) -> str:
 
 def collection_name(text: str) -> str:
     """Return the text as it can be a collection's name, which is a file's on every system."""
-    name = _NOT_IN_NAMES.sub("-", text)[:_LONGEST].strip(" .-")
-    return f"{name}-" if _DEVICES.fullmatch(name) else name or "samples"
+    name = _NOT_IN_NAMES.sub("-", unicodedata.normalize("NFC", text)).strip(" .-")
+    name = _short(name).rstrip(" .-")
+    device = _DEVICES.match(name)
+    if device:  # Windows takes "con.x.json" for the console, too
+        name = _short(f"{device[1]}-{name[device.end(1) :]}").rstrip(" .")
+    return name or "samples"
+
+
+def _short(name: str) -> str:
+    return name.encode()[:_MOST_BYTES].decode(errors="ignore")[:_LONGEST]
+
+
+def _check_collection(name: str, folder: Path) -> None:
+    if name != collection_name(name):
+        msg = (
+            f"{folder}: a collection cannot be called {name!r}, because no file can; call it "
+            f"{collection_name(name)!r}."
+        )
+        raise InputError(msg)
+
+
+def _taken(folder: Path) -> set[str]:
+    """Return the names of presets' collections, bundled and in folders of the library."""
+    folders = (path.name for path in folder.iterdir() if path.is_dir())
+    return {_folded(name) for name in (*presets.collections(), *folders)}
+
+
+def _free_collection(name: str, taken: set[str]) -> str:
+    """Return the name, or with the first number that no collection of presets has.
+
+    There may be a library file of that name: it has been given the number before.
+    """
+    free, number = name, 2
+    while _folded(free) in taken:
+        free, number = f"{name} {number}", number + 1
+    return free
+
+
+def _folded(name: str) -> str:
+    """Return what is equal of names that some system takes for those of one file."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
 
 
 def _path(folder: Path, collection: str) -> Path:
-    if collection != collection_name(collection):
-        msg = (
-            f"{folder}: a collection cannot be called {collection!r}, because no file can; call "
-            f"it {collection_name(collection)!r}."
-        )
-        raise InputError(msg)
-    wanted = f"{collection}.json".casefold()
+    wanted = _folded(f"{collection}.json")
     # Some systems take "Walls.json" and "walls.json" for the same file, so the library does.
-    same = [path for path in sorted(folder.glob("*.json")) if path.name.casefold() == wanted]
+    same = [path for path in sorted(folder.glob("*.json")) if _folded(path.name) == wanted]
     return same[0] if same else folder / f"{collection}.json"
 
 
@@ -173,7 +235,7 @@ def _by_file(entries: Iterable[str], folder: Path) -> dict[Path, set[str]]:
     for entry in entries:
         collection, _, slug = entry.rpartition("/")
         path = folder / f"{collection}.json"
-        if not collection or collection != collection_name(collection) or not path.is_file():
+        if not collection or Path(collection).name != collection or not path.is_file():
             msg = f"{folder}: there is no sample {entry!r} in a library file here; check its id."
             raise InputError(msg)
         found.setdefault(path, set()).add(slug)
@@ -217,9 +279,9 @@ def _ids(records: list[dict[str, Any]], samples: Sequence[Sample]) -> list[str]:
 
 
 def _merge(
-    fields: dict[str, Any], old: Sequence[Sample], samples: Sequence[Sample], collection: str
+    fields: dict[str, Any], old: list[Sample], samples: Sequence[Sample], collection: str
 ) -> Added:
-    """Append to `fields` what is not in it yet."""
+    """Append to `fields`, and to its samples, what is not in it yet."""
     slugs = _ids(fields["samples"], old)
     taken_slugs, taken_names = set(slugs), {sample.name for sample in old}
     counters: tuple[dict[str, int], dict[str, int]] = ({}, {})
@@ -241,9 +303,10 @@ def _merge(
             taken_slugs.add(slug)
             same.append((name, slug))
             names.append(name)
+            old.append(sample if name == sample.name else replace(sample, name=name))
             fields["samples"].append({"id": slug} | library.record(sample) | {"name": name})
         found.append(f"{collection}/{slug}")
-    return Added(tuple(found), tuple(names), tuple(present), tuple(renamed))
+    return Added(tuple(found), tuple(names), tuple(present), tuple(renamed), collection)
 
 
 def _identity(sample: Sample) -> tuple[object, ...]:
@@ -267,15 +330,45 @@ def _free(name: str, taken: set[str], separator: str, counters: dict[str, int]) 
     return f"{name}{separator}{number}"
 
 
+def _checked(path: Path, fields: dict[str, Any]) -> bytes:
+    """Return the file, once it reads back as what it was written from.
+
+    One name that makes a file unreadable would take all the other samples of it along.
+
+    Raises
+    ------
+    InputError
+        A sample cannot be kept; nothing was written.
+    """
+    data = _to_bytes(fields)
+    if len(data) > LARGEST_FILE:
+        msg = (
+            f"{path}: with these samples it would have {len(data) / 2**20:.0f} MB, more than the "
+            f"{LARGEST_FILE // 2**20} MB that are read; add them to another collection."
+        )
+        raise InputError(msg)
+    document = Document(path, data)
+    read = library.parse(document)
+    library.samples(document, read)
+    for wanted, found in zip(fields["samples"], read["samples"], strict=True):
+        # Fields of others may hold NaN, which is not equal to itself.
+        if wanted != found and _dump(wanted) != _dump(found):
+            name = quote(str(wanted.get("name")))
+            msg = f"{path}: the sample {name} does not read back as it is; give it a plain name."
+            raise InputError(msg)
+    return data
+
+
+def _dump(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)  # floats by repr: to the last bit
+
+
 def _to_bytes(fields: dict[str, Any]) -> bytes:
     """Return the file: one sample a line, so that a change shows as the lines it is in."""
-
-    def dump(value: Any) -> str:
-        return json.dumps(value, ensure_ascii=False)  # floats by repr: to the last bit
-
-    head = [f"{dump(key)}: {dump(value)}" for key, value in fields.items() if key != "samples"]
-    lines = ",\n".join(map(dump, fields["samples"]))
+    head = [f"{_dump(key)}: {_dump(value)}" for key, value in fields.items() if key != "samples"]
+    lines = ",\n".join(map(_dump, fields["samples"]))
     text = "{\n" + ",\n".join([*head, f'"samples": [\n{lines}\n]']) + "\n}\n"
+    text = _ESCAPED.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
     # Half a surrogate pair has no UTF-8; its escape is what JSON writes for it.
     return text.encode("utf-8", errors="backslashreplace")
 

@@ -60,8 +60,8 @@ def rows(options: argparse.Namespace) -> list[Row]:
 
 def _by_name(options: argparse.Namespace) -> list[Row]:
     samples = [sample for path in options.by_name for sample in readers.read(path)]
-    names = [sample.name for sample in samples]
-    shown = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")
+    names = dict.fromkeys(sample.name for sample in samples)
+    shown = ", ".join(list(names)[:5]) + (", …" if len(names) > 5 else "")
     absent = [name for name in options.material if name not in names]
     if absent:
         msg = f"No sample is named {absent[0]!r}; the files have {shown}."
@@ -87,7 +87,8 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, Requ
     for row in chosen:
         degrees = row.sigma_degrees if options.sigma is None else options.sigma
         requests.append(_request(row, 0.0 if degrees is None else degrees, options))
-    missing = [row.material for row in chosen if row.material not in bpy.data.materials]
+    known = selection.every()
+    missing = [row.material for row in chosen if row.material not in known]
     if missing and not options.create:
         msg = (
             f"There is no material {missing[0]!r}"
@@ -96,11 +97,9 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, Requ
         )
         raise MaterialError(msg)
     for name in dict.fromkeys(missing):
-        bpy.data.materials.new(name).use_fake_user = True
-    return [
-        (selection.by_name(row.material), request)
-        for row, request in zip(chosen, requests, strict=True)
-    ]
+        known[name] = bpy.data.materials.new(name)
+        known[name].use_fake_user = True
+    return [(known[row.material], request) for row, request in zip(chosen, requests, strict=True)]
 
 
 def read_mapping(path: Path) -> list[Row]:
@@ -121,8 +120,41 @@ def read_mapping(path: Path) -> list[Row]:
     if not records:
         msg = f"{path} has no rows; give one a material."
         raise InputError(msg)
-    cache: dict[Path, list[Sample]] = {}
-    return [_row(path, place, record, cache) for place, record in records]
+    samples = _Samples(path)
+    return [_row(path, place, record, samples) for place, record in records]
+
+
+class _Samples:
+    """The samples that a mapping file names, each looked up once."""
+
+    def __init__(self, mapping: Path) -> None:
+        self._folder = mapping.parent
+        self._library = preferences.user_folder()
+        self._files: dict[Path, dict[str, Sample]] = {}
+        self._named: dict[str, Sample] = {}
+
+    def find(self, where: str, name: str, file: str) -> Sample:
+        if not file:
+            return self._of_library(where, name)
+        source = self._folder / file
+        if source not in self._files:
+            samples = reversed(readers.read(source))  # the first of a name counts
+            self._files[source] = {sample.name: sample for sample in samples}
+        found = self._files[source]
+        if name not in found:
+            names = ", ".join(list(reversed(found))[:5])
+            msg = f"{where}: {source} has no sample {name!r}; it has {names}."
+            raise InputError(msg)
+        return found[name]
+
+    def _of_library(self, where: str, name: str) -> Sample:
+        if name not in self._named:
+            try:
+                self._named[name] = library.load(name, self._library)
+            except InputError as error:
+                msg = f"{where}: {error}"
+                raise InputError(msg) from error
+        return self._named[name]
 
 
 def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
@@ -165,7 +197,7 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     return records
 
 
-def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[Sample]]) -> Row:
+def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> Row:
     where = f"{path}, {place}"
     unknown = [key for key in record if key not in _FIELDS]
     if unknown:
@@ -176,7 +208,7 @@ def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[
     if not cells["material"] or not cells["sample"]:
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
-    sample = _sample(path, where, cells, cache)
+    sample = samples.find(where, cells["sample"], cells["file"])
     if cells["kind"] and cells["kind"] not in KINDS:
         msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
         raise InputError(msg)
@@ -190,26 +222,6 @@ def _row(path: Path, place: str, record: dict[str, Any], cache: dict[Path, list[
             msg = f"{where}: sigma_deg is {cells['sigma_deg']!r}; give degrees as a number."
             raise InputError(msg) from error
     return Row(cells["material"], sample, sigma)
-
-
-def _sample(
-    path: Path, where: str, cells: dict[str, str], cache: dict[Path, list[Sample]]
-) -> Sample:
-    if not cells["file"]:
-        try:
-            return library.load(cells["sample"], preferences.user_folder())
-        except InputError as error:
-            msg = f"{where}: {error}"
-            raise InputError(msg) from error
-    source = path.parent / cells["file"]
-    if source not in cache:
-        cache[source] = readers.read(source)
-    for sample in cache[source]:
-        if sample.name == cells["sample"]:
-            return sample
-    names = ", ".join(sample.name for sample in cache[source][:5])
-    msg = f"{where}: {source} has no sample {cells['sample']!r}; it has {names}."
-    raise InputError(msg)
 
 
 def _request(row: Row, degrees: float, options: argparse.Namespace) -> Request:

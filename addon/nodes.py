@@ -8,7 +8,8 @@ Finding never changes anything, so a whole selection is checked before the first
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from array import array
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -208,12 +209,41 @@ def comparable(value: float) -> float:
 def write(place: Place, color: tuple[float, float, float], roughness: float) -> str:
     """Set color and roughness at a place that `find` gave; returns the node's name."""
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
-    alpha = color_socket(node).default_value[3]
-    color_socket(node).default_value = (*color, alpha)
-    roughness_socket(node).default_value = roughness
-    if _SPECULAR_SOCKET in node.inputs:
-        node.inputs[_SPECULAR_SOCKET].default_value = 0.0
+    sockets = _SOCKETS[node.bl_idname]
+    zeros = dict.fromkeys(sockets.zeroed, (0.0,))
+    _set_sockets(node, {sockets.color: color, sockets.roughness: (roughness,), **zeros})
+    # What setting a socket would have done, but for looking through all trees of the file.
+    place.material.node_tree.update_tag()
+    place.material.update_tag()
     return str(node.name)
+
+
+def _set_sockets(node: Any, values: dict[str, Sequence[float]]) -> None:
+    """Set the first numbers of sockets; all others of the node stay as they are, to the bit.
+
+    To each `default_value` that is set Blender looks through all node trees of the file: 0.1 ms
+    among 1,000 materials, 4 ms among 10,000. All sockets of a node at once it just writes.
+    """
+    starts, size = _layout(node)
+    numbers = array("f", bytes(4 * size))
+    node.inputs.foreach_get("default_value", numbers)
+    for name, given in values.items():
+        numbers[starts[name] : starts[name] + len(given)] = array("f", given)
+    node.inputs.foreach_set("default_value", numbers)
+
+
+def _layout(node: Any) -> tuple[dict[str, int], int]:
+    """Give where each socket's numbers begin among those of all, and how many these are."""
+    if node.bl_idname not in _layouts:
+        starts, size = {}, 0
+        for socket in node.inputs:
+            starts.setdefault(socket.name, size)
+            size += len(socket.default_value) if hasattr(socket.default_value, "__len__") else 1
+        _layouts[node.bl_idname] = (starts, size)
+    return _layouts[node.bl_idname]
+
+
+_layouts: dict[str, tuple[dict[str, int], int]] = {}
 
 
 def color_socket(node: Any) -> Any:
@@ -419,6 +449,13 @@ def _make(place: Place) -> Any:
         node = tree.nodes.new(place.make)
         x, y = output.location
         node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
+    node = tree.nodes.new(place.make)
+    x, y = output.location
+    at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
+    locations = array("f", bytes(8 * len(tree.nodes)))
+    tree.nodes.foreach_get("location", locations)
+    locations[-2:] = array("f", at)  # the newest comes last
+    tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
     if before is not None:
         before[_SET_ASIDE] = before.name

@@ -13,7 +13,9 @@ from __future__ import annotations
 import difflib
 import os
 import re
+from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 from ..core.errors import InputError
 from . import readers
@@ -31,8 +33,12 @@ def names() -> list[str]:
 
     Lists folders and reads no file.
     """
-    root = folder()
-    return sorted(path.relative_to(root).with_suffix("").as_posix() for path in _files(root))
+    return list(_listed().names)
+
+
+def is_called(preset: str) -> bool:
+    """Return whether one preset or several are called so; see `path_of`."""
+    return _slug(preset) in _listed().by_slug
 
 
 def path_of(preset: str) -> Path:
@@ -50,8 +56,8 @@ def path_of(preset: str) -> Path:
         No preset is called so, or several are.
     """
     wanted = _slug(preset)
-    known = names()
-    found = [name for name in known if wanted in _slugs(name)]
+    listed = _listed()
+    known, found = listed.names, listed.by_slug.get(wanted, ())
     if len(found) == 1:
         return folder() / f"{found[0]}.json"
     if found:
@@ -60,9 +66,8 @@ def path_of(preset: str) -> Path:
         )
     if not known:
         raise InputError(f"{folder()}: no presets are there; install the extension again.")
-    by_slug = {slug: name for name in reversed(known) for slug in _slugs(name)}
-    close = difflib.get_close_matches(wanted, by_slug, n=3, cutoff=0.5)
-    near = list(dict.fromkeys(by_slug[slug] for slug in close))
+    close = difflib.get_close_matches(wanted, reversed(listed.by_slug), n=3, cutoff=0.5)
+    near = list(dict.fromkeys(listed.by_slug[slug][0] for slug in close))
     hint = f"the closest are {', '.join(near)}" if near else f"the first is {known[0]}"
     raise InputError(f"{folder()}: there is no preset {preset!r}; {hint}.")
 
@@ -123,8 +128,33 @@ def names_of(collection: str) -> list[str]:
     return found
 
 
-def _files(root: Path) -> list[Path]:
-    return list(root.glob("*/*.json"))
+class _Listed(NamedTuple):
+    """The ids of all presets, sorted, and those of all that a person may call them."""
+
+    names: tuple[str, ...]
+    by_slug: dict[str, tuple[str, ...]]
+
+
+def _listed() -> _Listed:
+    """List the presets; from memory while no folder of them has changed."""
+    root = folder()
+    try:
+        with os.scandir(root) as found:
+            inner = sorted((entry.name, entry.stat().st_mtime_ns) for entry in found)
+    except OSError:
+        inner = []
+    return _list(root, tuple(inner))
+
+
+@lru_cache(maxsize=8)
+def _list(root: Path, _changed: tuple[tuple[str, int], ...]) -> _Listed:
+    files = root.glob("*/*.json")
+    names = sorted(path.relative_to(root).with_suffix("").as_posix() for path in files)
+    by_slug: dict[str, tuple[str, ...]] = {}
+    for name in names:
+        for slug in _slugs(name):
+            by_slug[slug] = (*by_slug.get(slug, ()), name)
+    return _Listed(tuple(names), by_slug)
 
 
 def _slug(name: str) -> str:

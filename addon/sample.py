@@ -10,8 +10,10 @@ print, such as a little noise below 0, is kept as measured; `judgement` names it
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Literal, get_args
 
 import numpy as np
@@ -93,7 +95,8 @@ class Sample:
     Raises
     ------
     InputError
-        The spectrum cannot be used; see `check_spectrum`.
+        The spectrum cannot be used (see `check_spectrum`), or a field holds what no file of ours
+        could keep.
     """
 
     name: str
@@ -139,6 +142,36 @@ class Sample:
         wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
         object.__setattr__(self, "wavelengths", wavelengths)
         object.__setattr__(self, "values", values)
+        self._check_statements(where)
+
+    def _check_statements(self, where: str) -> None:
+        """Turn numbers into Python's own and sequences into tuples, as they are read back."""
+        if not set(map(type, _texts_of(self))) <= {str}:
+            for name in _TEXTS:
+                if not isinstance(getattr(self, name), str):
+                    raise InputError(f"{where}: the field {name!r} is no text; make it one.")
+        for name in ("notes", "altered"):
+            if getattr(self, name) != ():
+                object.__setattr__(self, name, _sentences(where, name, getattr(self, name)))
+        for name in ("lab", "xyz"):
+            given = getattr(self, name)
+            if given is not None:
+                object.__setattr__(self, name, _finite(where, name, given, 3))
+        if self.sigma_degrees is not None:
+            [sigma] = _finite(where, "sigma_degrees", (self.sigma_degrees,), 1)
+            object.__setattr__(self, "sigma_degrees", sigma)
+        if self.observer is not None:
+            [observer] = _finite(where, "observer", (self.observer,), 1)
+            if not observer.is_integer():
+                raise InputError(f"{where}: the observer is {observer:g}; make it 2 or 10.")
+            object.__setattr__(self, "observer", int(observer))
+
+
+_TEXTS = (
+    *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
+    *("license", "position", "device", "condition", "illuminant"),
+)
+_texts_of = attrgetter(*_TEXTS)
 
 
 def check_spectrum(
@@ -186,6 +219,23 @@ def check_spectrum(
         if fault:
             raise InputError(f"{where}: {fault}.")
     return nm, fractions
+
+
+def _finite(where: str, name: str, given: Sequence[float], count: int) -> tuple[float, ...]:
+    try:
+        numbers = tuple(map(float, given))
+    except (TypeError, ValueError, OverflowError):
+        numbers = ()
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        what = "a number" if count == 1 else f"{count} numbers"
+        raise InputError(f"{where}: the field {name!r} must be {what}; correct it or leave it out.")
+    return numbers
+
+
+def _sentences(where: str, name: str, given: Sequence[str]) -> tuple[str, ...]:
+    if isinstance(given, str) or not all(isinstance(sentence, str) for sentence in given):
+        raise InputError(f"{where}: the field {name!r} must be a sequence of texts; make it one.")
+    return tuple(given)
 
 
 def _read_only(numbers: ArrayLike) -> NDArray[np.float64]:

@@ -28,6 +28,20 @@ def by_name(name: str) -> Any:
     return material
 
 
+def every() -> dict[str, Any]:
+    """Give all materials of the file by their names, a local one before linked ones.
+
+    Blender looks through all of them for each name it is asked for.
+    """
+    found: dict[str, Any] = {}
+    for material in bpy.data.materials:
+        if material.library is None:
+            found[material.name] = material
+        else:
+            found.setdefault(material.name, material)
+    return found
+
+
 def of_objects(objects: Iterable[Any]) -> list[Any]:
     """Materials in the objects' slots, each once, sorted by name."""
     found = {slot.material for thing in objects for slot in thing.material_slots}

@@ -74,6 +74,27 @@ class Document:
         return text
 
     @property
+    def json_head(self) -> str:
+        """As `head_text`, for sniffers of JSON; see `json_text`."""
+        return self._plain[0][:HEAD]
+
+    @property
+    def json_text(self) -> str:
+        r"""The whole text with ``\n`` between lines, and with the control characters of names.
+
+        JSON allows U+007F to U+009F as they are, and its parser refuses the others.
+
+        Raises
+        ------
+        InputError
+            The file is not text.
+        """
+        text, fault = self._plain
+        if fault:
+            raise self.error("", f"this is not text: {fault}; save it as UTF-8")
+        return text
+
+    @property
     def fault(self) -> str:
         """Why this is not text, or an empty string."""
         return self._decoded[1]
@@ -128,6 +149,16 @@ class Document:
 
     @cached_property
     def _decoded(self) -> tuple[str, str]:
+        """The text or why it is none: of a table, control characters make it none."""
+        text, fault = self._plain
+        control = _CONTROL.search(text)
+        if control:
+            line = text.count("\n", 0, control.start()) + 1
+            return "", f"line {line} holds the control character 0x{ord(control[0]):02x}"
+        return text, fault
+
+    @cached_property
+    def _plain(self) -> tuple[str, str]:
         wide = _utf_16(self.data)
         if wide:
             try:
@@ -144,10 +175,6 @@ class Document:
                 # Older instruments' software writes µ, ° and umlauts in Latin-1, and on Windows
                 # dashes and quotation marks where Latin-1 has controls. Five bytes are neither.
                 text = self.data.decode("cp1252", errors="replace")
-        control = _CONTROL.search(text)
-        if control:
-            line = text.count("\n", 0, control.start()) + 1
-            return "", f"line {line} holds the control character 0x{ord(control[0]):02x}"
         return text.replace("\r\n", "\n").replace("\r", "\n"), ""
 
 

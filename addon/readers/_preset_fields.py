@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -91,7 +92,8 @@ def _numbers(count: int | None = None, required: bool = False) -> Rule:
         if not isinstance(value, list) or (count is not None and len(value) != count):
             return f"it is {quote(str(value))} and {demand}"
         for i, number in enumerate(value, start=1):
-            if not is_number(number):
+            # Python reads NaN, which JSON has not. A spectrum's is named by its wavelength later.
+            if not is_number(number) or (count is not None and not math.isfinite(number)):
                 return f"number {i} is {quote(str(number))}; make it a number"
         return ""
 

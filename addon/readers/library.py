@@ -13,6 +13,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import json
+import math
+import re
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -33,10 +36,13 @@ _CHARACTERS_A_BRACKET = 12
 """A file with more brackets than one in so many characters is no library: a sample has three in a
 hundred. Small objects take up to 25 times their text in memory."""
 
+_STRING = re.compile(r'"[^"\\]*+(?:\\.[^"\\]*+)*+\\?(?:"|\Z)', re.DOTALL)
+"""A string of JSON, or one that is not closed; never looks at a character twice."""
+
 
 def sniff(document: Document) -> bool:
     """Return whether the head is of a JSON object that names this format."""
-    head = document.head_text
+    head = document.json_head
     return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
 
 
@@ -59,8 +65,10 @@ def parse(document: Document) -> dict[str, Any]:
     InputError
         The file is no JSON, no library, or of a newer schema.
     """
-    text = document.text
-    if text.count("{") + text.count("[") > 8 + len(text) // _CHARACTERS_A_BRACKET:
+    text = document.json_text
+    if _brackets(text) > (most := 8 + len(text) // _CHARACTERS_A_BRACKET) and (
+        _brackets(_STRING.sub("", text)) > most  # names may have as many as they like
+    ):
         raise document.error("", f"it is no {NAME}: it has more brackets than samples have")
     try:
         fields = json.loads(text)
@@ -163,8 +171,14 @@ def _sample(
         raise
 
 
+def _brackets(text: str) -> int:
+    return text.count("{") + text.count("[")
+
+
 def _is_number(value: Any) -> bool:
-    return type(value) in (int, float) and abs(value) < 1e300
+    if type(value) is int:
+        return abs(value) <= sys.float_info.max
+    return type(value) is float and math.isfinite(value)
 
 
 def _is_triple(value: Any) -> bool:

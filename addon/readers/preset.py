@@ -22,7 +22,7 @@ _OPTIONAL = (
 
 def sniff(document: Document) -> bool:
     """Return whether the head is of a JSON object that names this format."""
-    head = document.head_text
+    head = document.json_head
     return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
 
 
@@ -84,7 +84,7 @@ def fields_of(document: Document) -> dict[str, Any]:
         The file is not JSON, or no object.
     """
     try:
-        fields = json.loads(document.text)
+        fields = json.loads(document.json_text)
     except json.JSONDecodeError as error:
         raise document.error(
             f"line {error.lineno}", f"the JSON is broken ({error.msg}); correct it"

@@ -268,7 +268,8 @@ def wheels_of_extensions(found):
     with over(area("TEXT_EDITOR")):
         OPS.import_samples("EXEC_DEFAULT", filepath=str(folder / "seven.csv"), collection="seven")
     library = ours("addon.library")
-    library.contents(library.user_folder())  # as the panel does: the drop list shows what is known
+    # As the panel does: the drop list shows what is known.
+    library.contents(ours("addon.preferences").user_folder())
     for collection in ("everyday", "seven"):
         with over(area("TEXT_EDITOR")):
             OPS.build_assets(

@@ -131,6 +131,23 @@ def test_a_name_of_two_is_refused_with_both(tmp_path, monkeypatch):
     assert presets.load("field/01-chalk").name == GREEN["name"]
 
 
+def test_presets_are_listed_once_until_one_comes_or_goes(tmp_path, monkeypatch):
+    monkeypatch.setattr(presets, "folder", lambda: tmp_path)
+    (tmp_path / "school").mkdir()
+    (tmp_path / "school" / "01-chalk.json").write_text(json.dumps(GREEN))
+    assert presets.path_of("chalk").name == "01-chalk.json"
+    listed = presets._list.cache_info().misses
+    for _ in range(50):
+        assert presets.path_of("1") == presets.path_of("school/01-chalk")
+        assert presets.names() == ["school/01-chalk"]
+    assert presets._list.cache_info().misses == listed
+    (tmp_path / "school" / "02-board.json").write_text(json.dumps(GREEN))
+    assert presets.names() == ["school/01-chalk", "school/02-board"]
+    assert presets.path_of("board").name == "02-board.json"
+    (tmp_path / "school" / "01-chalk.json").unlink()
+    assert presets.names() == ["school/02-board"]
+
+
 ABSENT = object()
 
 
@@ -163,6 +180,8 @@ ABSENT = object()
         ("values", [0.5], ["81 wavelengths", "1 values"]),
         ("values", [5.5] * 81, ["380 nm", "number 1", "times white"]),
         ("values", [float("nan")] * 81, ["380 nm", "NaN"]),
+        ("lab", [50, float("nan"), 0], ["number 2 is 'nan'"]),
+        ("xyz", [0.1, 0.2, float("inf")], ["number 3 is 'inf'"]),
         ("wavelengths", list(range(780, 375, -5)), ["775 nm", "number 2", "sort"]),
     ],
 )
