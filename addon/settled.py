@@ -78,7 +78,8 @@ def obstacle(surface: nodes.Surface | None) -> Obstacle | None:
     """Say why there is no number for what a surface shows; None where there is one.
 
     A bump or normal map is none: it turns each point, which shows as it was predicted in the
-    directions seen from there. Of the mean reading it changes little.
+    directions seen from there. The numbers are then said to be of the surface without it, whose
+    color is what was measured; a strong one makes a whole sample read otherwise.
     """
     if surface is None:
         return _NO_NODE

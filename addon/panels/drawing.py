@@ -107,7 +107,7 @@ def draw_difference(layout: Any, context: Any) -> None:
     if shown.state.kind == "fresh":
         text.draw(layout, sentences.difference(shown.facts, apart, here.style))
     if shown.is_bumped:
-        told = "Bump is not counted: numbers are of the surface without it"
+        told = "Bump is not counted: numbers are of the surface without it. Measure it to know"
         text.draw(layout, sentences.of(told, "INFO", here.style))
 
 
