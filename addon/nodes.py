@@ -235,7 +235,8 @@ def _set_sockets(node: Any, values: dict[str, Sequence[float]]) -> None:
 def _layout(node: Any) -> tuple[dict[str, int], int]:
     """Give where each socket's numbers begin among those of all, and how many these are."""
     if node.bl_idname not in _layouts:
-        starts, size = {}, 0
+        starts: dict[str, int] = {}
+        size = 0
         for socket in node.inputs:
             starts.setdefault(socket.name, size)
             size += len(socket.default_value) if hasattr(socket.default_value, "__len__") else 1

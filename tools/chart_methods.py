@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from core import ladder, oren_nayar, reading, yardstick
+from core import ladder, models, oren_nayar, reading, yardstick
 
 from .chart_work import Array
 
@@ -284,7 +284,7 @@ def _ladder() -> dict[str, Method]:
         timed = 64 if model == "reference" else None
         return Method(label, RUNG, angles, ring, about[model], timed=timed)
 
-    return {model: rung(model) for model in ladder.RUNGS}
+    return {model: rung(model) for model in models.NAMES}
 
 
 def _three(angles: Array) -> tuple[Array, Array, Array]:
