@@ -22,7 +22,7 @@ from ..core.errors import OutputError
 from . import colorimetry, facts, scene_match, stamp, storage, target, working_space
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
-from .spectrophotometer import measure
+from .spectrophotometer import measure, rendered
 
 _IN_SCENE = (
     "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
@@ -156,9 +156,10 @@ def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], 
 
 
 def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
-    """Tell bakes apart: by what is read, and by the spectra and settings stored in it."""
+    """Tell bakes apart: by what is read, the spectra and settings stored in it, and its nodes."""
     told = [
         (surface, material.name, stamp.inputs_digest(material.rough_spectra))
+        + (material.rough_spectra.stamp, rendered.digest(material))
         for surface, material in surfaces
     ]
     return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]

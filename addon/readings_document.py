@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -81,6 +81,7 @@ class Readings:
     """A whole bake, or the part of one that a shard made.
 
     `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
+    `version` is that of the extension that baked it.
     """
 
     working_space: str
@@ -89,6 +90,7 @@ class Readings:
     shard: int = 1
     shards: int = 1
     whole: str = ""
+    version: str = field(default_factory=version)
 
     @property
     def largest_delta_e(self) -> float | None:
@@ -109,13 +111,20 @@ def merge(parts: Iterable[Readings]) -> Readings:
     if not found:
         msg = "There is no part to merge; name the JSON files that bake --shard wrote."
         raise InputError(msg)
+    for part in found:
+        if part.version != version():
+            msg = (
+                f"Part {part.shard} was baked by Rough Spectra {part.version}, and this is "
+                f"{version()}; merge with the version that baked, or bake again."
+            )
+            raise InputError(msg)
     count = found[0].shards
     numbers = [part.shard for part in found]
     settings = {(part.working_space, part.blender, part.shards, part.whole) for part in found}
     if len(settings) > 1:
         msg = (
             "The parts come from different bakes; merge parts that one version of Blender baked "
-            "with the same options from the same .blend."
+            "with the same options from the same .blend, with the same nodes and spectra."
         )
         raise InputError(msg)
     if numbers != list(range(1, count + 1)):
@@ -137,7 +146,7 @@ def to_json(readings: Readings) -> bytes:
     head = {
         "format": FORMAT,
         "schema": SCHEMA,
-        "version": version(),
+        "version": readings.version,
         "blender": readings.blender,
         "working_space": readings.working_space,
         "instrument": INSTRUMENT,
@@ -188,6 +197,7 @@ def from_json(path: Path) -> Readings:
             int(document["shard"]),
             int(document["shards"]),
             str(document["whole"]),
+            str(document["version"]),
         )
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         msg = f"{path} is damaged ({error!r}); bake it again."
