@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -85,7 +86,9 @@ def _parsed(text: str) -> tuple[str, tuple[float, float, float], float | None] |
     try:
         data = json.loads(text)
         red, green, blue = map(float, data["rgb"])
-        delta_e = data["delta_e_00"]
-        return str(data["of"]), (red, green, blue), None if delta_e is None else float(delta_e)
-    except (ValueError, KeyError, TypeError):
+        delta_e = None if data["delta_e_00"] is None else float(data["delta_e_00"])
+        if not all(map(math.isfinite, (red, green, blue, delta_e or 0.0))):
+            return None
+        return str(data["of"]), (red, green, blue), delta_e
+    except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         return None

@@ -62,7 +62,8 @@ class Reading:
 
     `surface` is the object it was asked for by, if any. `delta_e_00` is None unless there are
     both a prediction and a measurement. `shader_reason` says whether the
-    material is Lambertian or rough, and why; empty where that was not derived here.
+    material is Lambertian or rough, and why; empty where that was not derived here. `fault` says
+    why a prediction or a measurement that was asked for is missing; else it is empty.
     """
 
     material: str
@@ -74,6 +75,7 @@ class Reading:
     delta_e_00: float | None
     shader_reason: str
     warnings: tuple[str, ...]
+    fault: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,11 @@ class Readings:
         """Largest ΔE00, or None where nothing was both predicted and measured."""
         known = [entry.delta_e_00 for entry in self.entries if entry.delta_e_00 is not None]
         return max(known) if known else None
+
+    @property
+    def faults(self) -> list[str]:
+        """Why readings that were asked for are missing, a sentence or two for each material."""
+        return list(dict.fromkeys(entry.fault for entry in self.entries if entry.fault))
 
 
 def merge(parts: Iterable[Readings]) -> Readings:

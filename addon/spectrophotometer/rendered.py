@@ -31,8 +31,10 @@ def _tree(tree: Any, around: tuple[Any, ...]) -> Any:
     number = {node: i for i, node in enumerate(tree.nodes)}
     nodes = [_node(node, (*around, tree)) for node in tree.nodes]
     links = [
-        (number[link.from_node], link.from_socket.identifier)
-        + (number[link.to_node], link.to_socket.identifier, link.is_muted)
+        (
+            *(number[link.from_node], link.from_socket.identifier),
+            *(number[link.to_node], link.to_socket.identifier, link.is_muted),
+        )
         for link in tree.links
     ]
     return nodes, links
