@@ -126,7 +126,8 @@ def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
 def _stored(
     material: Any, source: Any, view: SceneView | None = None
 ) -> tuple[nodes.Place, Request]:
-    return nodes.find(material, source.rough_spectra.shader), storage.load(source, view)
+    request = storage.load(source, view)  # first: it refuses a shader that is none
+    return nodes.find(material, source.rough_spectra.shader), request
 
 
 def _solve(work: Sequence[tuple[nodes.Place, Request]]) -> tuple[str, list[Solution]]:

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line: `blender -b scene.blend --command rough_spectra VERB …`.
 
-Exit status: 0 done, 1 a check failed, 2 the input is unusable, 130 interrupted. A failure is one
-line on standard error; results go to files, since Blender itself prints on standard output.
+Exit status: 0 done, 1 a check failed, 2 the input is unusable, 3 Rough Spectra itself failed, 130
+interrupted, 141 nobody reads what is printed. A failure is one line on standard error; results go
+to files, since Blender itself prints on standard output.
 """
 
 from __future__ import annotations
 
 import contextlib
 import importlib
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,7 +26,10 @@ _MODULES = {"import": "import_files"}
 """Of verbs that are words of Python's own."""
 
 _UNUSABLE = 2
+_FAILED_ITSELF = 3
 _INTERRUPTED = 130
+_UNREAD = 141
+"""What a shell says of a program that a closed pipe ended."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -39,16 +44,59 @@ def main(arguments: Sequence[str]) -> int:
     -------
     The exit status.
     """
+    told = _Told()
+    try:
+        status = _run(arguments, told)
+        sys.stdout.flush()
+    except SystemExit as stop:  # argparse printed help or the fault
+        status = stop.code if isinstance(stop.code, int) else _UNUSABLE if stop.code else 0
+        with contextlib.suppress(BrokenPipeError):
+            sys.stdout.flush()
+    except KeyboardInterrupt:
+        status = told.failed(_INTERRUPTED, "Interrupted; nothing was written.")
+    except BrokenPipeError:
+        status = _UNREAD
+    except Exception as error:  # whatever nobody expected: Blender would end with 1, a failed check
+        status = told.unexpected(error)
+    _let_go()
+    return status
+
+
+class _Told:
+    """What goes to standard error, with the verb as soon as it is known."""
+
+    def __init__(self) -> None:
+        self.verb = ""
+        self.debug = False
+
+    def failed(self, status: int, sentence: str) -> int:
+        """Print one line, and give the status back."""
+        name = f"{NAME} {self.verb}".rstrip()
+        with contextlib.suppress(OSError, ValueError):  # closed: there is nobody to tell
+            print(f"{name}: {sentence}", file=sys.stderr, flush=True)
+        return status
+
+    def unexpected(self, error: Exception) -> int:
+        """Say that Rough Spectra failed, and where to report it."""
+        from . import unexpected
+
+        if self.debug:
+            import traceback
+
+            traceback.print_exception(error, file=sys.stderr)
+        sentence = unexpected.sentence(error, self.verb or NAME, with_file=not self.debug)
+        return self.failed(_FAILED_ITSELF, sentence)
+
+
+def _run(arguments: Sequence[str], told: _Told) -> int:
+    """Run one verb and give its status; what it expects to go wrong is told here."""
     from ..core.errors import CancelledError, RoughSpectraError
 
-    parser = _parser()
     # Help texts hold letters such as Δ and σ, which not every terminal or pipe can take.
     with contextlib.suppress(AttributeError):
         sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
-    try:
-        options = parser.parse_args(list(arguments))
-    except SystemExit as stop:  # argparse printed help or the fault
-        return stop.code if isinstance(stop.code, int) else _UNUSABLE
+    options = _parser().parse_args(list(arguments))
+    told.verb, told.debug = options.verb, options.debug
     try:
         if options.blend is not None:
             _open(options.blend)
@@ -56,18 +104,26 @@ def main(arguments: Sequence[str]) -> int:
             _check_opened()
         return int(options.run(options))
     except CancelledError as error:
-        status, sentence = _INTERRUPTED, str(error)
-    except KeyboardInterrupt:
-        status, sentence = _INTERRUPTED, "Interrupted; nothing was written."
+        return told.failed(_INTERRUPTED, str(error))
     except RoughSpectraError as error:
-        status, sentence = _UNUSABLE, str(error)
+        return told.failed(_UNUSABLE, str(error))
+    except BrokenPipeError:
+        raise
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         reason = error.strerror or _one_line(error)
         sentence = f"{place}{reason}; free the disk or choose another place."
-        status = _UNUSABLE
-    print(f"{NAME} {options.verb}: {sentence}", file=sys.stderr)
-    return status
+        return told.failed(_UNUSABLE, sentence)
+
+
+def _let_go() -> None:
+    """Leave nothing that Python would print, in vain, to a closed pipe at its end."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (OSError, ValueError):
+            with contextlib.suppress(OSError, ValueError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -86,6 +142,11 @@ def _parser() -> argparse.ArgumentParser:
             type=Path,
             metavar="FILE",
             help="open this file first; the same as naming it before --command",
+        )
+        sub.add_argument(
+            "--debug",
+            action="store_true",
+            help="when Rough Spectra itself fails, print where, instead of writing it to a file",
         )
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
@@ -117,7 +178,8 @@ def _check_opened() -> None:
 
     from ..core.errors import InputError
 
-    words = sys.argv[: sys.argv.index("--command")] if "--command" in sys.argv else []
+    ends = [i for i, word in enumerate(sys.argv) if word in ("-c", "--command")]
+    words = sys.argv[: ends[0]] if ends else []
     named = [word for word in words[1:] if word.endswith(".blend")]
     if named and not bpy.data.filepath:
         msg = f"{named[-1]} could not be opened by Blender; check the path before --command."

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -97,7 +98,7 @@ def analyzed_scene(scene_view: str) -> str:
     """Name of the scene that an analysis is of, from its text; empty if it cannot be read."""
     try:
         return str(json.loads(scene_view)["scene"])
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         return ""
 
 
@@ -117,6 +118,12 @@ def _scene_settings(found: Inputs) -> dict[str, str]:
     return {"light": f"the scene's (analysis {analysis})", "render engine": engine}
 
 
+_TEXTS = (
+    *("inputs", "working_space", "node", "model", "model_reason", "shader_reason"),
+    *("scene_reason", "version", "kept"),
+)
+
+
 @lru_cache(maxsize=2048)
 def parse(text: str) -> Stamp | None:
     """Read a stored stamp; None where it cannot be read."""
@@ -124,12 +131,29 @@ def parse(text: str) -> Stamp | None:
         data = json.loads(text)
         # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.
         data = {key: data[key] for key in Stamp._fields if key in data}
-        red, green, blue = map(float, data["color"])
-        data |= {"color": (red, green, blue), "warnings": tuple(map(str, data["warnings"]))}
-        data |= {key: float(data[key]) for key in _NUMBERS}
+        red, green, blue = map(_number, data["color"])
+        data |= {"color": (red, green, blue), "warnings": tuple(map(_text, data["warnings"]))}
+        data |= {key: _number(data[key]) for key in _NUMBERS}
+        data |= {key: _text(data.get(key, "")) for key in _TEXTS}
+        if data.get("sigma_max") is not None:
+            data["sigma_max"] = _number(data["sigma_max"])
+        data["derivation"] = int(_number(data.get("derivation", 1)))
         lights = data.get("delta_e_lights", ())
-        data["delta_e_lights"] = tuple((str(name), float(apart)) for name, apart in lights)
-        data["settings"] = tuple((str(k), str(v)) for k, v in data.get("settings", {}).items())
+        data["delta_e_lights"] = tuple((_text(name), _number(apart)) for name, apart in lights)
+        data["settings"] = tuple((k, _text(v)) for k, v in data.get("settings", {}).items())
         return Stamp(**data)
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError):
         return None
+
+
+def _number(value: Any) -> float:
+    number = float(value)
+    if isinstance(value, (str, bool)) or not math.isfinite(number):
+        raise ValueError("no number")
+    return number
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError("no text")
+    return value

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -112,6 +113,8 @@ def _parsed(
             None if value is None else float(value)
             for value in (data["delta_e_00"], data.get("predicted_delta_e_00"))
         )
+        if not all(map(math.isfinite, (red, green, blue, delta_e or 0.0, predicted or 0.0))):
+            return None
         return str(data["of"]), (red, green, blue), delta_e, predicted
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         return None

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..core import color_difference
 from ..core.arrays import Array
-from ..core.errors import OutputError
+from ..core.errors import RoughSpectraError
 from . import (
     colorimetry,
     derivation,
@@ -36,7 +36,7 @@ from . import (
 )
 from .readings_document import Measured, Predicted, Reading, Readings, Triple
 from .scene_view import SceneView
-from .spectrophotometer import measure
+from .spectrophotometer import measure, rendered
 
 _IN_SCENE = (
     "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
@@ -45,6 +45,7 @@ _IN_SCENE = (
 
 _ALONE = "{}; the predicted reading is the spectrum's alone"
 _BUMPED = "bump is not counted: the predicted reading is of the surface without it"
+_NO_NUMBER = "Cycles rendered a value that is not a number; check the material's nodes."
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,8 @@ class Prepared:
 
     Holds nothing of Blender's, so the user may go on editing while the measurement runs.
     `promised` is what a material that follows its scene is to show: a compromise over the scene's
-    lights and directions, which at 45°/0° is not the spectrum's own reading.
+    lights and directions, which at 45°/0° is not the spectrum's own reading. `fault` says why there
+    is nothing to compare with although a spectrum is stored, else it is empty.
     """
 
     surface: str
@@ -63,6 +65,7 @@ class Prepared:
     shader_reason: str
     warnings: tuple[str, ...]
     promised: solution.Solution | None = None
+    fault: str = ""
 
 
 def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
@@ -73,38 +76,46 @@ def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
     surfaces
         Name of the object it was asked for by, or an empty string, and the material.
 
-    Raises
-    ------
-    MaterialError
-        If what a material stores cannot be read.
+    Returns
+    -------
+    One for each surface. A material whose stored data cannot be used says so as its `fault`, and
+    does not hold up the others.
     """
     space = working_space.current().name
     prepared = []
     for surface, material in surfaces:
-        request, warnings, model_reason, shader_reason = None, [], "", ""
-        if facts.has_spectrum(material):
-            request, model_reason = settled.of(material)
-            reasons = stamp.stale_reasons(material, space)
-            found = derivation.get_stamp(material)
-            warnings = [f"stale: {reason}" for reason in reasons]
-            if found is not None and not reasons and not found.kept:
-                warnings += found.warnings
-                shader_reason = found.shader_reason
-            else:
-                # What was derived is not what is shown: only what is said of the target holds.
-                warnings += target.remarks(request)
-            surface_now = nodes.surface(material)
-            reason = settled.obstacle(surface_now)
-            if reason is not None:
-                warnings.append(_ALONE.format(reason))
-            elif surface_now is not None and surface_now.bumped:
-                warnings.append(_BUMPED)
-        promised = _promised(material, request)
-        if promised is not None:
-            warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
-        reasons_why = (model_reason, shader_reason, tuple(warnings))
-        prepared.append(Prepared(surface, material.name, request, *reasons_why, promised))
+        try:
+            prepared.append(_prepared(surface, material, space))
+        except RoughSpectraError as error:
+            reasons = ("", "", (str(error),))
+            prepared.append(Prepared(surface, material.name, None, *reasons, fault=str(error)))
     return prepared
+
+
+def _prepared(surface: str, material: Any, space: str) -> Prepared:
+    request, warnings, model_reason, shader_reason = None, [], "", ""
+    if facts.has_spectrum(material):
+        request, model_reason = settled.of(material)
+        reasons = stamp.stale_reasons(material, space)
+        found = derivation.get_stamp(material)
+        warnings = [f"stale: {reason}" for reason in reasons]
+        if found is not None and not reasons and not found.kept:
+            warnings += found.warnings
+            shader_reason = found.shader_reason
+        else:
+            # What was derived is not what is shown: only what is said of the target holds.
+            warnings += target.remarks(request)
+        surface_now = nodes.surface(material)
+        reason = settled.obstacle(surface_now)
+        if reason is not None:
+            warnings.append(_ALONE.format(reason))
+        elif surface_now is not None and surface_now.bumped:
+            warnings.append(_BUMPED)
+    promised = _promised(material, request)
+    if promised is not None:
+        warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
+    reasons_why = (model_reason, shader_reason, tuple(warnings))
+    return Prepared(surface, material.name, request, *reasons_why, promised)
 
 
 def _promised(material: Any, request: target.Request | None) -> solution.Solution | None:
@@ -125,10 +136,9 @@ def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
         What `measure.measure` gave for these materials at one geometry, shape (n, 2, 3), or None
         for predictions alone.
 
-    Raises
-    ------
-    OutputError
-        If Cycles rendered values that are not numbers.
+    Returns
+    -------
+    A reading for each; what could not be predicted or measured says why as its `fault`.
     """
     space = working_space.current()
     entries = [
@@ -156,8 +166,8 @@ def bake(
 
     Raises
     ------
-    MaterialError, OutputError, CancelledError
-        As in `prepare`, `compare` and `measure.measure`.
+    OutputError, CancelledError
+        As in `measure.measure`.
     """
     prepared = prepare(surfaces)
     if not with_measurement:
@@ -174,9 +184,12 @@ def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], 
 
 
 def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
-    """Tell bakes apart: by what is read, and by the spectra and settings stored in it."""
+    """Tell bakes apart: by what is read, the spectra and settings stored in it, and its nodes."""
     told = [
-        (surface, material.name, derivation.inputs_digest(material.rough_spectra))
+        (
+            *(surface, material.name, derivation.inputs_digest(material.rough_spectra)),
+            *(material.rough_spectra.stamp, rendered.digest(material)),
+        )
         for surface, material in surfaces
     ]
     return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]
@@ -186,7 +199,12 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
     request = item.request
     illuminant = "D65" if request is None else request.illuminant
     scene = None if request is None else request.scene
-    seen = None if measured is None else _measured(measured, space, illuminant, scene)
+    seen, fault, warnings = None, item.fault, item.warnings
+    if measured is not None and np.isfinite(measured).all():
+        seen = _measured(measured, space, illuminant, scene)
+    elif measured is not None:
+        no_number = f"Material {item.material!r}: {_NO_NUMBER}"
+        fault, warnings = " ".join(filter(None, (fault, no_number))), (*warnings, no_number)
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
         lab = scene_match.promised(promised.color, promised.roughness, scene, space)
@@ -204,7 +222,8 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         measured=seen,
         delta_e_00=difference,
         shader_reason=item.shader_reason,
-        warnings=item.warnings,
+        warnings=warnings,
+        fault=fault,
     )
 
 
@@ -251,9 +270,6 @@ def _measured(
     scene: SceneView | None = None,
 ) -> Measured:
     mean, spread = values
-    if not np.isfinite(values).all():
-        msg = "Cycles rendered a value that is not a number; check the material's nodes."
-        raise OutputError(msg)
     if scene is not None:
         light = scene.lights[0]
         return Measured(

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +62,8 @@ class Reading:
 
     `surface` is the object it was asked for by, if any. `delta_e_00` is None unless there are
     both a prediction and a measurement. `shader_reason` says whether the
-    material is Lambertian or rough, and why; empty where that was not derived here.
+    material is Lambertian or rough, and why; empty where that was not derived here. `fault` says
+    why a prediction or a measurement that was asked for is missing; else it is empty.
     """
 
     material: str
@@ -74,6 +75,7 @@ class Reading:
     delta_e_00: float | None
     shader_reason: str
     warnings: tuple[str, ...]
+    fault: str = ""
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,7 @@ class Readings:
     """A whole bake, or the part of one that a shard made.
 
     `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
+    `version` is that of the extension that baked it.
     """
 
     working_space: str
@@ -89,12 +92,18 @@ class Readings:
     shard: int = 1
     shards: int = 1
     whole: str = ""
+    version: str = field(default_factory=version)
 
     @property
     def largest_delta_e(self) -> float | None:
         """Largest ΔE00, or None where nothing was both predicted and measured."""
         known = [entry.delta_e_00 for entry in self.entries if entry.delta_e_00 is not None]
         return max(known) if known else None
+
+    @property
+    def faults(self) -> list[str]:
+        """Why readings that were asked for are missing, a sentence or two for each material."""
+        return list(dict.fromkeys(entry.fault for entry in self.entries if entry.fault))
 
 
 def merge(parts: Iterable[Readings]) -> Readings:
@@ -109,13 +118,20 @@ def merge(parts: Iterable[Readings]) -> Readings:
     if not found:
         msg = "There is no part to merge; name the JSON files that bake --shard wrote."
         raise InputError(msg)
+    for part in found:
+        if part.version != version():
+            msg = (
+                f"Part {part.shard} was baked by Rough Spectra {part.version}, and this is "
+                f"{version()}; merge with the version that baked, or bake again."
+            )
+            raise InputError(msg)
     count = found[0].shards
     numbers = [part.shard for part in found]
     settings = {(part.working_space, part.blender, part.shards, part.whole) for part in found}
     if len(settings) > 1:
         msg = (
             "The parts come from different bakes; merge parts that one version of Blender baked "
-            "with the same options from the same .blend."
+            "with the same options from the same .blend, with the same nodes and spectra."
         )
         raise InputError(msg)
     if numbers != list(range(1, count + 1)):
@@ -137,7 +153,7 @@ def to_json(readings: Readings) -> bytes:
     head = {
         "format": FORMAT,
         "schema": SCHEMA,
-        "version": version(),
+        "version": readings.version,
         "blender": readings.blender,
         "working_space": readings.working_space,
         "instrument": INSTRUMENT,
@@ -188,6 +204,7 @@ def from_json(path: Path) -> Readings:
             int(document["shard"]),
             int(document["shards"]),
             str(document["whole"]),
+            str(document["version"]),
         )
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         msg = f"{path} is damaged ({error!r}); bake it again."

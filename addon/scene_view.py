@@ -8,6 +8,7 @@ Holds nothing of Blender's. Stored with the material as JSON text.
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import asdict, dataclass
 from functools import cached_property, lru_cache
 
@@ -20,6 +21,9 @@ from . import light_spectrum
 SCHEMA = 1
 _DIGITS = 5
 """Significant digits of a stored spectrum: a hundredth of what shows in ΔE00."""
+
+_BELOW = 1e-3
+"""Radians that a direction may lie below the surface by rounding."""
 
 
 @dataclass(frozen=True)
@@ -155,10 +159,23 @@ def from_json(text: str) -> SceneView:
         lengths = {len(light.spd) for light in lights}
         if not geometries or not known or lengths != {light_spectrum.GRID.size}:
             raise ValueError("lights and directions do not belong together")
+        numbers = [x for row in geometries for x in row] + [x for one in lights for x in one.spd]
+        if not all(map(math.isfinite, (*numbers, *(float(light.share) for light in lights)))):
+            raise ValueError("what should be a number is none")
+        if not all(isinstance(text, str) for one in lights for text in (one.name, one.words)):
+            raise TypeError("a light's name is no text")
+        thetas = [theta for row in geometries for theta in row[:2]]
+        if min(thetas) < -_BELOW or max(thetas) > math.pi / 2 + _BELOW:
+            raise ValueError("a direction lies below the surface")
+        if min(row[4] for row in geometries) < 0 or not sum(row[4] for row in geometries) > 0:
+            raise ValueError("directions have no weight")
         places = {row[5] if len(row) > 5 else i for i, row in enumerate(geometries)}
         if places != set(range(len(places))):
             raise ValueError("a place has no light")
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+    except (
+        *(ValueError, KeyError, TypeError, AttributeError, IndexError),
+        *(RecursionError, OverflowError),
+    ) as error:
         msg = f"The stored analysis of the scene cannot be read ({error}); analyze it again."
         raise InputError(msg) from error
     return SceneView(str(data["scene"]), lights, geometries)

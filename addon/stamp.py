@@ -8,6 +8,7 @@ What takes a material reads its `facts` and asks what takes those.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal
@@ -150,6 +151,8 @@ def _told(label: str, *values: str) -> list[str]:
     """Write two values of a setting as the panel does, with no more digits than tell them apart."""
     if label != "σ":
         return [title(label, value) for value in values]
+    if not all(re.fullmatch(r"-?\d+(\.\d+)?°", value) for value in values):
+        return list(values)  # no number of degrees, in a damaged stamp
     rounded = [f"{float(value.rstrip('°')):.2f}".rstrip("0").rstrip(".") + "°" for value in values]
     return rounded if len(set(rounded)) == len(values) else list(values)
 

@@ -9,13 +9,15 @@ says from what; `stamp` tells whether that still holds.
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
-from ..core.errors import InputError, MaterialError
+from ..core.errors import InputError, MaterialError, RoughSpectraError
 from . import (
     changes,
+    colorimetry,
     facts,
     nodes,
     scene_view,
@@ -36,6 +38,15 @@ _DETAILS = (
     *("quantity", "geometry", "aperture", "specular"),
 )
 _SENTENCES = ("notes", "altered")
+_COLORS = {"lab", "xyz"}
+_TEXTS = set(_DETAILS) - _COLORS - {"observer"}
+_MENUS = ("kind", "instrument", "illuminant", "observer", "model", "shader")
+
+_UNREADABLE = (
+    *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
+    *(RecursionError, OverflowError),  # of text nested too deep, and of numbers too large
+)
+"""What reading damaged text ends in."""
 
 
 def store(material: Any, request: Request, shader: str) -> None:
@@ -79,13 +90,15 @@ def load(material: Any, view: SceneView | None = None) -> Request:
     Raises
     ------
     MaterialError
-        If the material has no spectrum, or one stored by a newer version.
+        If the material has no spectrum, one stored by a newer version, or anything stored that
+        cannot be used: what is given can be solved.
     """
     group = material.rough_spectra
     if not group.spectrum:
         msg = f"Material {material.name!r} has no measured spectrum; assign one first."
         raise MaterialError(msg)
     _refuse_newer(material)
+    _refuse_damaged(material)
     try:
         sample = _sample(
             group.sample_name,
@@ -96,9 +109,10 @@ def load(material: Any, view: SceneView | None = None) -> Request:
             group.sigma_source,
             group.source,
         )
-    except (InputError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except _UNREADABLE as error:
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
         msg = (
-            f"Material {material.name!r}: its stored spectrum cannot be read ({error}); assign "
+            f"Material {material.name!r}: its stored spectrum cannot be read ({reason}); assign "
             "the sample again."
         )
         raise MaterialError(msg) from error
@@ -115,6 +129,17 @@ def load(material: Any, view: SceneView | None = None) -> Request:
     return in_scene(material, request)
 
 
+def fault(material: Any, view: SceneView | None = None) -> str:
+    """Say why what a material stores cannot be used; empty where it can, or stores nothing."""
+    if not material.rough_spectra.spectrum:
+        return ""
+    try:
+        load(material, view)
+    except MaterialError as error:
+        return str(error)
+    return ""
+
+
 @lru_cache(maxsize=256)
 def _sample(
     name: str, spectrum: str, details: str, kind: Any, instrument: str, about_sigma: str, cited: str
@@ -124,7 +149,14 @@ def _sample(
     lists = ("lab", "xyz", *_SENTENCES)
     pairs = {key: tuple(more[key]) for key in lists if more.get(key)}
     plain = {key: more[key] for key in _DETAILS if key in more and key not in pairs}
-    return Sample(
+    for key in _TEXTS & plain.keys():
+        if not isinstance(plain[key], str):
+            raise TypeError(f"{key} is no text")
+    if not all(isinstance(text, str) for key in _SENTENCES for text in pairs.get(key, ())):
+        raise TypeError("a note is no text")
+    for key in _COLORS & pairs.keys():
+        pairs[key] = _color(pairs[key])
+    sample = Sample(
         name=name,
         wavelengths=bands["wavelengths"],
         values=bands["values"],
@@ -134,6 +166,15 @@ def _sample(
         source=cited,
         **(plain | pairs),
     )
+    colorimetry.weights(sample.wavelengths)  # refuses what holds too little of a color
+    return sample
+
+
+def _color(numbers: tuple[Any, ...]) -> tuple[float, float, float]:
+    first, second, third = map(float, numbers)
+    if not all(map(math.isfinite, (first, second, third))):
+        raise ValueError("a color holds what is no number")
+    return first, second, third
 
 
 def in_scene(material: Any, request: Request) -> Request:
@@ -163,6 +204,32 @@ def _refuse_newer(material: Any) -> None:
             "update the extension to work with it."
         )
         raise MaterialError(msg)
+
+
+def _refuse_damaged(material: Any) -> None:
+    """Refuse settings that Blender's own properties would not take, as a damaged file holds them.
+
+    Blender gives an empty text for a stored number that no item of a menu has.
+    """
+    group = material.rough_spectra
+    for name in _MENUS:
+        if not getattr(group, name):
+            msg = (
+                f"Material {material.name!r}: its stored {name} is none that this version knows; "
+                "choose one again."
+            )
+            raise MaterialError(msg)
+    for label, value, lowest, highest in (
+        ("σ", facts.sigma_degrees(group), 0.0, 90.0),
+        ("The tolerance", tolerance(group), 0.0, math.inf),
+    ):
+        if not math.isfinite(value):
+            msg = f"{label} is not a number; set it again, or mend its driver."
+        elif not lowest <= value <= highest:
+            msg = f"{label} is {value:g}, outside {lowest:g} to {highest:g}; set it again."
+        else:
+            continue
+        raise MaterialError(f"Material {material.name!r}: {msg}")
 
 
 def set_stamp(

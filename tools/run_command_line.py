@@ -9,11 +9,14 @@ loaded as the package `rough_spectra`, because a clone's folder may have any nam
 import importlib
 import importlib.util
 import sys
+import traceback
 from pathlib import Path
 from types import ModuleType
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "rough_spectra"
+FAILED_ITSELF, INTERRUPTED = 3, 130
+"""Exit statuses, as `addon/command_line.py` has them."""
 
 
 def load_extension() -> ModuleType:
@@ -41,5 +44,16 @@ def main() -> int:
         extension.unregister()  # the bpy module of 4.5 crashes at exit over what is left registered
 
 
+def status() -> int:
+    """Give the exit status; what fails around the command line is no failed check, so not 1."""
+    try:
+        return main()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except Exception:
+        traceback.print_exc()
+        return FAILED_ITSELF
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status())

@@ -66,6 +66,8 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
 
         result = readings.compare(self._prepared, values[self._places])
         written = writers.write(result, self._base)
+        for sentence in result.faults:
+            self.report({"WARNING"}, sentence)
         largest = result.largest_delta_e
         count = len(result.entries)
         if largest is None:

@@ -78,6 +78,9 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
             material = present.get(uid)
             if material is not None and material.is_editable and entry.measured is not None:
                 measured.note(material, state, entry.measured.rgb, entry.delta_e_00, predicted)
+        for entry in entries:
+            if entry.fault:
+                self.report({"WARNING"}, entry.fault)
         return _sentence(entries)
 
 
@@ -99,6 +102,10 @@ def _sentence(entries: Any) -> str:
         if entry.delta_e_00 is not None:
             sentence = rpt_("{material}: measured ΔE00 {difference:.2f} from its spectrum")
             return sentence.format(material=entry.material, difference=entry.delta_e_00)
+        if entry.measured is None:
+            return rpt_("{material}: not measured").format(material=entry.material)
+        if entry.fault:
+            return rpt_("{material}: measured, but not compared").format(material=entry.material)
         rgb = ", ".join(f"{value:.3f}" for value in entry.measured.rgb)
         sentence = rpt_("{material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with")
         return sentence.format(material=entry.material, rgb=rgb)

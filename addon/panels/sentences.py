@@ -204,5 +204,5 @@ def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:
         data: dict[str, Any] = json.loads(text or "{}")
         shown = [(label, str(data[key])) for key, label in _SHOWN if data.get(key)]
         return shown, [*map(str, data.get("altered", ())), *map(str, data.get("notes", ()))]
-    except (ValueError, TypeError, AttributeError):
+    except (ValueError, TypeError, AttributeError, RecursionError):
         return [], []

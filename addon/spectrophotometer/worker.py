@@ -8,6 +8,18 @@ argument and leaves an array beside it.
 
 Light comes from suns without width and goes to a camera without perspective, so every pixel of a
 flat sample sees one exact geometry, and Cycles has nothing to estimate.
+
+A reading is the same to the last bit wherever its sample lies and whatever lies beside it, so that
+a bake in parts gives what a bake in one go gives. Three things see to that:
+
+- Every number that a place goes through is exact in single precision. Pixels and samples have
+  binary fractions for widths, and the samples lie in the quarter of a larger picture where all
+  pixels' coordinates are rounded alike (`FIRST_PIXEL`); see `round_alike` too.
+- Every pixel gets the same random numbers.
+- No sample lights another, or is a light that Cycles might pick in place of a sun.
+
+What asks for its place in the world is alone in its picture; see `asks_place`. A view from aside
+keeps fewer digits.
 """
 
 import json
@@ -15,6 +27,7 @@ import math
 import os
 import shutil
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +36,25 @@ import numpy as np
 
 PIXELS = 6
 """Width of a sample in the picture; its outer ring is left out, where neighbors may show."""
-SAMPLES_PER_RENDER = 1024
+PIXELS_PER_UNIT = 4
+"""The ring lies around the sample's square of one unit; a pixel has to be a binary fraction."""
+COLUMNS = 32
+SAMPLES_PER_RENDER = COLUMNS**2
+FIRST_PIXEL = 256
+"""Where the samples begin in the picture. They end before twice that: single precision then keeps
+as many digits of each pixel's coordinates, and rounds the same ray in all samples alike."""
+PLACED: dict[str, tuple[str, ...] | None] = {
+    "ShaderNodeCameraData": None,
+    "ShaderNodeNewGeometry": ("Position",),
+    "ShaderNodeObjectInfo": ("Location",),
+    "ShaderNodeRaycast": None,
+    "ShaderNodeScript": None,
+    "ShaderNodeTexCoord": ("Camera", "Window"),
+    "ShaderNodeTexEnvironment": None,
+    "ShaderNodeTexPointDensity": None,
+    "ShaderNodeVectorTransform": None,
+}
+"""Nodes that know of a place outside the sample, and by which outputs; None stands for any."""
 
 
 class LibraryError(Exception):
@@ -37,23 +68,54 @@ def main(job_path: Path) -> None:
     end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     materials = [find(*key) for key in job["materials"]]
-    batches = [
-        materials[start : start + SAMPLES_PER_RENDER]
-        for start in range(0, len(materials), SAMPLES_PER_RENDER)
-    ]
-    total, done = len(batches) * len(job["geometries"]), 0
-    results = []
-    for batch in batches:
-        scene, camera, stretch = build(batch, job["samples"])
-        of_batch = []
-        for geometry in job["geometries"]:
-            aim(scene, camera, stretch, geometry)
-            of_batch.append(render(scene, folder / "render.exr", len(batch)))
+    parts = batches(materials)
+    total, done = len(parts) * len(job["geometries"]), 0
+    result = np.empty((len(job["geometries"]), len(materials), 2, 3))
+    for part in parts:
+        scene, stretch = build([materials[i] for i in part])
+        for number, geometry in enumerate(job["geometries"]):
+            aim(scene, stretch, geometry["view"])
+            how = (geometry, job["samples"], len(part))
+            result[number, part] = measure(scene, folder / "render.exr", *how)
             done += 1
             report(folder, done, total)
             end_if_orphaned(job["asked_by"], folder)
-        results.append(np.stack(of_batch))
-    np.save(folder / "result.npy", np.concatenate(results, axis=1))
+    np.save(folder / "result.npy", result)
+
+
+def batches(materials: list[Any]) -> list[list[int]]:
+    """Divide materials, by their numbers, among pictures.
+
+    What asks for its place gets a picture of its own, and so does a second material of one name,
+    as linked ones can be: no two samples in a picture can be named alike.
+    """
+    together: list[int] = []
+    alone: list[list[int]] = []
+    names: set[str] = set()
+    for number, material in enumerate(materials):
+        if material.name in names or asks_place(material.node_tree, set()):
+            alone.append([number])
+        else:
+            together.append(number)
+            names.add(material.name)
+    starts = range(0, len(together), SAMPLES_PER_RENDER)
+    return [*(together[start : start + SAMPLES_PER_RENDER] for start in starts), *alone]
+
+
+def asks_place(tree: Any, seen: set[Any]) -> bool:
+    """Whether a node, in a group too, follows where in the world or picture the surface is."""
+    if tree is None or tree in seen:
+        return False
+    seen.add(tree)
+    for node in tree.nodes:
+        outputs = PLACED.get(node.bl_idname, ())
+        if outputs is None or any(node.outputs[name].is_linked for name in outputs):
+            return True
+        if node.bl_idname == "ShaderNodeTexCoord" and node.object is not None:
+            return True
+        if node.type == "GROUP" and asks_place(node.node_tree, seen):
+            return True
+    return False
 
 
 def end_if_orphaned(asked_by: int, folder: Path) -> None:
@@ -81,87 +143,167 @@ def find(name: str, library: str | None) -> Any:
     return wanted.materials[0]
 
 
-def build(materials: list[Any], samples: int) -> tuple[Any, Any, Any]:
+def round_alike(tree: Any, seen: set[Any]) -> None:
+    """Let Object coordinates come from Generated ones, whose digits do not depend on the place.
+
+    Cycles takes Object coordinates back from the place in the world, where the last ones are lost.
+    """
+    if tree is None or tree in seen:
+        return
+    seen.add(tree)
+    for node in list(tree.nodes):
+        if node.type == "GROUP":
+            round_alike(node.node_tree, seen)
+        elif node.type == "TEX_COORD" and node.object is None and node.outputs["Object"].is_linked:
+            from_middle = tree.nodes.new("ShaderNodeVectorMath")
+            from_middle.operation = "SUBTRACT"
+            from_middle.inputs[1].default_value = (0.5, 0.5, 0.5)
+            for link in list(node.outputs["Object"].links):
+                tree.links.new(from_middle.outputs["Vector"], link.to_socket)
+            tree.links.new(node.outputs["Generated"], from_middle.inputs[0])
+
+
+def build(materials: list[Any]) -> tuple[Any, Any]:
     """Lay the samples side by side, each a square object of its own.
 
     Were they one mesh, a material with Generated or Object coordinates would read differently
     beside other neighbors.
     """
     scene = bpy.data.scenes.new("Spectrophotometer")
-    columns = math.ceil(math.sqrt(len(materials)))
-    rows = math.ceil(len(materials) / columns)
-    mesh = bpy.data.meshes.new("Sample")
-    square = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
-    mesh.from_pydata([(x, y, 0) for x, y in square], [], [range(4)])
-    layer = mesh.uv_layers.new(name="UVMap")
-    layer.data.foreach_set("uv", np.array(square, np.float32).ravel() + np.float32(0.5))
-    mesh.materials.append(None)
+    mesh = square()
+    changed: set[Any] = set()
     stretch = bpy.data.objects.new("Samples", None)
     scene.collection.objects.link(stretch)
     for index, material in enumerate(materials):
+        sample = bpy.data.objects.new("Sample", mesh)
         # Named like the material: Object Info's Random follows the name.
-        sample = bpy.data.objects.new(material.name, mesh)
+        take_name(sample, material.name)
         sample.material_slots[0].link = "OBJECT"
         sample.material_slots[0].material = material
-        x, y = index % columns - columns / 2, index // columns - rows / 2
-        sample.location = (x + 0.5, y + 0.5, 0)
+        pitch = PIXELS / PIXELS_PER_UNIT
+        sample.location = (index % COLUMNS * pitch, index // COLUMNS * pitch, 0)
         sample.parent = stretch
         # Nothing here casts a shadow, but where a ray meets the seam of two triangles, the one
         # shades the other: one sample in 256 came out black.
         sample.visible_shadow = False
         scene.collection.objects.link(sample)
+        # What glows is seen to, but is no light for its neighbors.
+        material.cycles.emission_sampling = "NONE"
+        round_alike(material.node_tree, changed)
     lens = bpy.data.cameras.new("View")
-    lens.type, lens.sensor_fit, lens.ortho_scale = "ORTHO", "HORIZONTAL", columns
-    lens.clip_end = 1000 * columns
+    lens.type, lens.sensor_fit = "ORTHO", "HORIZONTAL"
+    lens.ortho_scale = 2 * FIRST_PIXEL / PIXELS_PER_UNIT
     camera = bpy.data.objects.new("View", lens)
     scene.collection.objects.link(camera)
     scene.camera = camera
+    sun = bpy.data.lights.new("Light", "SUN")
+    sun.angle = 0.0
+    scene.collection.objects.link(bpy.data.objects.new("Light", sun))
     settings = scene.render
     settings.engine = "CYCLES"
-    settings.resolution_x, settings.resolution_y = columns * PIXELS, rows * PIXELS
+    settings.resolution_x = settings.resolution_y = 2 * FIRST_PIXEL
     settings.resolution_percentage = 100
+    settings.use_border = settings.use_crop_to_border = True
+    settings.border_min_x = settings.border_min_y = 0.5
+    columns, rows = min(len(materials), COLUMNS), math.ceil(len(materials) / COLUMNS)
+    settings.border_max_x = 0.5 + columns * PIXELS / (2 * FIRST_PIXEL)
+    settings.border_max_y = 0.5 + rows * PIXELS / (2 * FIRST_PIXEL)
+    settings.use_persistent_data = True  # only sun and camera move
     settings.use_compositing = settings.use_sequencer = False
     settings.film_transparent = False
     settings.image_settings.file_format = "OPEN_EXR"
     settings.image_settings.color_mode = "RGBA"
     settings.image_settings.color_depth = "32"
     cycles = scene.cycles
-    cycles.device, cycles.seed, cycles.samples = "CPU", 0, samples
+    cycles.device, cycles.samples = "CPU", 1  # the first ray goes through a pixel's middle
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+    # Pixels usually get random numbers of their own; at a distance of 0 all get the same ones.
+    cycles.sampling_pattern = "TABULATED_SOBOL"
+    cycles.auto_scrambling_distance, cycles.scrambling_distance = False, 0.0
     cycles.max_bounces = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    return scene, camera, stretch
+    return scene, stretch
 
 
-def aim(scene: Any, camera: Any, stretch: Any, geometry: dict[str, Any]) -> None:
-    """Set lights and view; samples are stretched by as much as the view foreshortens them."""
-    view = geometry["view"]
-    distance = 100.0 * camera.data.ortho_scale
-    camera.location = (distance * math.sin(view), 0, distance * math.cos(view))
-    camera.rotation_euler = (0, view, 0)
+def square() -> Any:
+    """Make the mesh of all samples: the square from -0.5 to 0.5, and a margin for the ring.
+
+    UV and Generated coordinates run from 0 to 1 over the square without the margin.
+    """
+    mesh = bpy.data.meshes.new("Sample")
+    edge = PIXELS / PIXELS_PER_UNIT / 2
+    corners = [(-edge, -edge), (edge, -edge), (edge, edge), (-edge, edge)]
+    mesh.from_pydata([(x, y, 0) for x, y in corners], [], [range(4)])
+    layer = mesh.uv_layers.new(name="UVMap")
+    layer.data.foreach_set("uv", np.array(corners, np.float32).ravel() + np.float32(0.5))
+    mesh.use_auto_texspace = False
+    mesh.texspace_location, mesh.texspace_size = (0, 0, 0), (0.5, 0.5, 1)
+    mesh.materials.append(None)
+    return mesh
+
+
+def aim(scene: Any, stretch: Any, view: float) -> None:
+    """Set the view; samples are stretched by as much as it foreshortens them."""
+    # Far enough for the far end of the stretched samples; a power of two for a view from above.
+    scene.camera.data.clip_end = 8 * COLUMNS * (1 + math.tan(view))
+    scene.camera.rotation_euler = (0, view, 0)
     stretch.scale = (1 / math.cos(view), 1, 1)
-    for old in [thing for thing in scene.objects if thing.type == "LIGHT"]:
-        bpy.data.objects.remove(old)
-    for theta, phi in geometry["lights"]:
-        sun = bpy.data.lights.new("Light", "SUN")
-        sun.angle = 0.0
-        # The irradiances add up to π, so the radiance is the reflectance factor.
-        sun.energy = math.pi / math.cos(theta) / len(geometry["lights"])
-        lamp = bpy.data.objects.new("Light", sun)
-        lamp.rotation_euler = (0, theta, phi)
-        scene.collection.objects.link(lamp)
 
 
-def render(scene: Any, path: Path, count: int) -> Any:
-    """Render and give each sample's mean and standard deviation, shape (samples, 2, 3)."""
-    render_into(scene, path)
-    pixels = read_exr(path)[::-1, :, :3].astype(np.float64)
+def passes(lights: list[list[float]], samples: int) -> Iterator[tuple[list[float], float, float]]:
+    """Give a light and a place within all pixels, from 0 to 1, for each ray that a pixel gets.
+
+    Every light has as many rays as the others. Cycles would pick one by chance for each ray, and
+    the chance would have to be another in each pixel, or all would miss the same lights. Places
+    are Hammersley's: their mean is the middle.
+    """
+    count = len(lights) * max(1, round(samples / len(lights)))
+    digits = max(1, (count - 1).bit_length())
+    for number in range(count):
+        mirrored = int(f"{number:0{digits}b}"[::-1], 2)
+        yield lights[number % len(lights)], (number + 0.5) / count, (mirrored + 0.5) / 2**digits
+
+
+def expose(scene: Any, sun: Any, light: list[float], x: float, y: float) -> None:
+    """Turn the sun to a light's direction, and move the camera to a place within pixels."""
+    theta, phi = light
+    # The irradiance is π, so the radiance is the reflectance factor.
+    sun.data.energy = math.pi / math.cos(theta)
+    sun.rotation_euler = (0, theta, phi)
+    # The middle of the whole picture lies half a sample below the middle of the first one.
+    aside, up = (place - 0.5 - PIXELS / 2 for place in (x, y))
+    aside, up = aside / PIXELS_PER_UNIT, up / PIXELS_PER_UNIT
+    view = scene.camera.rotation_euler[1]
+    distance = scene.camera.data.clip_end / 4
+    scene.camera.location = (
+        distance * math.sin(view) + aside * math.cos(view),
+        up,
+        distance * math.cos(view) - aside * math.sin(view),
+    )
+
+
+def measure(scene: Any, path: Path, geometry: dict[str, Any], samples: int, count: int) -> Any:
+    """Measure all samples in one geometry, shape (samples, 2, 3): mean and standard deviation."""
+    (sun,) = (thing for thing in scene.objects if thing.type == "LIGHT")
+    pictures = []
+    for number, (light, x, y) in enumerate(passes(geometry["lights"], samples)):
+        scene.cycles.seed = number
+        expose(scene, sun, light, x, y)
+        pictures.append(render(scene, path))
+    pixels = np.mean(pictures, axis=0)
     rows, columns = pixels.shape[0] // PIXELS, pixels.shape[1] // PIXELS
     tiles = pixels.reshape(rows, PIXELS, columns, PIXELS, 3)[:, 1:-1, :, 1:-1]
-    return np.stack((tiles.mean(axis=(1, 3)), tiles.std(axis=(1, 3))), axis=2).reshape(-1, 2, 3)[
-        :count
-    ]
+    # Each sample's pixels in a row of their own: numpy then adds them up in one order, whatever
+    # the shape of the picture.
+    tiles = np.ascontiguousarray(tiles.transpose(0, 2, 4, 1, 3)).reshape(rows * columns, 3, -1)
+    return np.stack((tiles.mean(axis=-1), tiles.std(axis=-1)), axis=1)[:count]
+
+
+def render(scene: Any, path: Path) -> Any:
+    """Render and give the pixels, from the bottom up."""
+    render_into(scene, path)
+    return read_exr(path)[::-1, :, :3].astype(np.float64)
 
 
 def render_into(scene: Any, path: Path) -> None:
@@ -185,6 +327,14 @@ def read_exr(path: Path) -> Any:
         return image.read_image(OpenImageIO.FLOAT)
     finally:
         image.close()
+
+
+def take_name(thing: Any, name: str) -> None:
+    """Give an object this very name; one that has it already gets another."""
+    other = bpy.data.objects.get((name, None))
+    if other is not None:
+        other.name = f"{name[:40]} aside"
+    thing.name = name
 
 
 def report(folder: Path, done: int, total: int) -> None:

@@ -14,6 +14,8 @@ DESCRIPTION = (
     "a measured spectrum, match it to them, print each light's share and ΔE00, and save the file."
 )
 
+_UNUSABLE = 2
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `analyze`."""
@@ -34,11 +36,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Analyze, match and save; exit status 0."""
+    """Analyze, match and save; exit status 0, or 2 where a damaged material was left out."""
     import bpy
 
     from ...core.errors import InputError
-    from .. import scene_analysis, scene_report, selection
+    from .. import scene_analysis, scene_report, selection, storage
     from ..blend_file import destination, save
     from ..progress import counted
 
@@ -54,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
         depsgraph = bpy.context.evaluated_depsgraph_get()
         report = scene_analysis.analyze(depsgraph, scene)
         chosen, left = scene_report.choose(report, named, options.overwrite_edits)
+        damaged = any(storage.fault(m, report.views[m]) for m in scene_report.candidates(report))
         changes = scene_report.follow(report, chosen)
     for sentence in (*report.warnings, scene_report.unlit_sentence(report), *left):
         if sentence:
@@ -68,4 +71,4 @@ def run(options: argparse.Namespace) -> int:
         f"{report.seconds:.2f} s; saved {path}",
         file=sys.stderr,
     )
-    return 0
+    return _UNUSABLE if damaged and named is None else 0

@@ -19,6 +19,8 @@ DESCRIPTION = (
     "samples at 45°a:0°, and write both. The .blend itself is not changed."
 )
 
+_UNUSABLE = 2
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `bake`."""
@@ -71,7 +73,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Bake and write; exit status 0."""
+    """Bake and write; exit status 0, or 2 where a material could not be predicted or measured."""
     from .. import outputs, readings, readings_document, selection, writers
     from ..progress import counted
 
@@ -95,15 +97,26 @@ def run(options: argparse.Namespace) -> int:
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
     print(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}", file=sys.stderr)
-    return 0
+    return tell_faults(result)
+
+
+def tell_faults(result: Readings) -> int:
+    """Name what could not be predicted or measured; gives the exit status, 0 or 2."""
+    for sentence in result.faults:
+        print(f"rough_spectra: {sentence}", file=sys.stderr)
+    return _UNUSABLE if result.faults else 0
 
 
 def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readings:
     """Take the readings that the options ask for, with a progress line."""
-    from .. import readings, selection
+    from ...core.errors import MaterialError
+    from .. import readings, selection, storage
     from ..progress import ProgressLine
 
     surfaces = selection.surfaces(options.material, options.object)
+    faults = [storage.fault(material) for _, material in surfaces]
+    if all(faults):
+        raise MaterialError(faults[0])  # nothing is left to do for any of them
     index, count = getattr(options, "shard", (1, 1))
     progress = ProgressLine("measuring")
     try:

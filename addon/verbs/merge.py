@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from .bake import add_format_argument
+from .bake import add_format_argument, tell_faults
 
 SUMMARY = "join the parts that bake --shard wrote"
 DESCRIPTION = (
@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Join and write; exit status 0."""
+    """Join and write; exit status as that of one bake."""
     from .. import journal, readings_document, writers
     from ..progress import counted
 
@@ -36,4 +36,4 @@ def run(options: argparse.Namespace) -> int:
     written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
     names = ", ".join(path.name for path in written)
     print(f"{counted(len(result.entries), 'reading')}; wrote {names}", file=sys.stderr)
-    return 0
+    return tell_faults(result)

@@ -7,7 +7,9 @@ import resource
 import signal
 
 import bpy
+import numpy as np
 import pytest
+from rough_spectra.addon.version import version
 
 from tests.integration.support import contents, rgb_material, spectrum_csv
 
@@ -329,6 +331,95 @@ def test_merge_refuses_parts_that_do_not_fit(parts, main, scene_file, tmp_path):
     (stranger,) = foreign.parent.iterdir()
     refused(main("merge", *parts[:2], stranger, *out), "different bakes")
     assert not (tmp_path / "merged").exists()
+
+
+def test_merge_refuses_parts_of_another_version(parts, main, tmp_path):
+    out = ("--output", tmp_path / "merged" / "x")
+    document = json.loads(parts[1].read_text(encoding="utf-8"))
+    assert document["version"] == version()
+    document["version"] = "0.0.9"
+    parts[1].write_text(json.dumps(document), encoding="utf-8")
+    refused(main("merge", *parts, *out), "Part 2", "0.0.9", version())
+    assert not (tmp_path / "merged").exists()
+
+
+def other_spectrum(material):
+    """Change one value of the stored spectrum by as little as the text can say."""
+    group = material.rough_spectra
+    bands = json.loads(group.spectrum)
+    bands["values"][7] = float(np.nextafter(bands["values"][7], 1))
+    group.spectrum = json.dumps(bands)
+
+
+def shader_of(material):
+    return next(node for node in material.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+
+
+def other_color(material):
+    shader_of(material).inputs["Color"].default_value[1] += 1e-6
+
+
+def other_ramp(material):
+    """A stop of a color ramp, a number that no socket holds."""
+    material.node_tree.nodes["Ramp"].color_ramp.elements[0].color[0] = 0.25
+
+
+def other_curve(material):
+    curve = material.node_tree.nodes["Curve"].mapping.curves[3]
+    curve.points[0].location[1] = 0.1
+
+
+def other_group(material):
+    material.node_tree.nodes["Group"].node_tree.nodes["Inside"].inputs[0].default_value = 0.75
+
+
+def other_link(material):
+    tree = material.node_tree
+    tree.links.new(tree.nodes["Ramp"].outputs["Color"], shader_of(material).inputs["Color"])
+
+
+def mute(material):
+    material.node_tree.nodes["Curve"].mute = True
+
+
+def with_many_nodes(path):
+    """Give Delta a ramp, a curve and a group, as a material made by hand may have."""
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    tree = bpy.data.materials["Delta"].node_tree
+    tree.nodes.new("ShaderNodeValToRGB").name = "Ramp"
+    tree.nodes.new("ShaderNodeRGBCurve").name = "Curve"
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.name, group.node_tree = "Group", bpy.data.node_groups.new("Shared", "ShaderNodeTree")
+    group.node_tree.nodes.new("ShaderNodeMath").name = "Inside"
+    bpy.ops.wm.save_mainfile()
+
+
+CHANGES = (other_spectrum, other_color, other_ramp, other_curve, other_group, other_link, mute)
+
+
+@pytest.mark.parametrize("change", [None, *CHANGES])
+def test_merge_refuses_parts_of_a_file_that_changed_in_between(change, scene, main, tmp_path):
+    """What changes is in the second part; the first one knows of it by its digest alone."""
+    with_many_nodes(scene)
+    words = ("--predicted-only", "--material", "Alpha", "--material", "Delta")
+    words += ("--output", tmp_path / "parts" / "x")
+    assert main("bake", "--blend", scene, *words, "--shard", "1/2").status == 0
+    bpy.ops.wm.open_mainfile(filepath=str(scene))
+    material = bpy.data.materials["Delta"]
+    if change is None:  # what no render shows may change
+        shader_of(material).location = (7, 7)
+        material.node_tree.nodes["Ramp"].label = "A label"
+    else:
+        change(material)
+    bpy.ops.wm.save_mainfile()
+    assert main("bake", "--blend", scene, *words, "--shard", "2/2").status == 0
+    parts = sorted((tmp_path / "parts").iterdir())
+    result = main("merge", *parts, "--output", tmp_path / "merged" / "x")
+    if change is None:
+        assert result.status == 0
+    else:
+        refused(result, "different bakes")
+        assert not (tmp_path / "merged").exists()
 
 
 def test_merge_refuses_what_bake_did_not_write(parts, main, tmp_path):
