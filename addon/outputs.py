@@ -146,7 +146,8 @@ class Publication:
         for place, is_own in self._cleared:
             if place.resolve() == folder:
                 targets += [path for path in listed(folder) if is_own(path)]
-        written = {staged.target.name for staged in self._staged.values()}
+        staged = [item.target for item in self._staged.values()]
+        written = {path.name for path in staged if path.parent.resolve() == folder}
         for target in dict.fromkeys(targets):
             if target.name not in written and os.path.lexists(target):
                 check_target(target)

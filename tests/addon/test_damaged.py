@@ -11,8 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rough_spectra.addon import (
     assign,
+    changes,
+    derivation,
     facts,
-    live,
     measured,
     presets,
     scene_view,
@@ -50,7 +51,7 @@ def stored(material):
 
 
 def damage(material, name, value):
-    with live.paused():
+    with changes.paused():
         stored(material)[name] = value
 
 
@@ -69,7 +70,7 @@ def test_what_is_damaged_is_named_and_the_others_are_renewed(name, value, materi
         storage.load(second)
     assert storage.fault(second).startswith("Material 'M1': ")
     for material in (first, third):
-        with live.paused():
+        with changes.paused():
             material.rough_spectra.sigma = 0.5
     assert bpy.ops.rough_spectra.renew("EXEC_DEFAULT", scope="ALL_STALE") == {"FINISHED"}
     assert [stamp.state(m).kind for m in (first, third)] == ["fresh", "fresh"]
@@ -82,7 +83,7 @@ def test_in_an_animation_the_others_follow(name, value, materials):
     bpy.context.collection.objects.link(bpy.data.objects.new("Wall", mesh))
     for material in materials:
         mesh.materials.append(material)
-        with live.paused():
+        with changes.paused():
             for frame, sigma in ((1, 0.1), (10, 0.6)):
                 material.rough_spectra.sigma = sigma
                 material.rough_spectra.keyframe_insert("sigma", frame=frame)
@@ -91,9 +92,9 @@ def test_in_an_animation_the_others_follow(name, value, materials):
     damage(materials[1], name, value)
     scene = bpy.context.scene
     scene.frame_set(1)
-    before = [stamp.get_stamp(m).roughness for m in materials]
+    before = [derivation.get_stamp(m).roughness for m in materials]
     scene.frame_set(10)
-    after = [stamp.get_stamp(m).roughness for m in materials]
+    after = [derivation.get_stamp(m).roughness for m in materials]
     assert (after[0], after[2]) != (before[0], before[2])
     assert after[0] == after[2]
     assert "Material 'M1'" in materials[1].rough_spectra.error
@@ -182,7 +183,7 @@ def test_no_stored_text_raises_but_what_names_the_material(data, extension):
     whole = json.loads(material["whole"])
     name = data.draw(st.sampled_from(sorted(whole)))
     group = material.rough_spectra
-    with live.paused():
+    with changes.paused():
         for other, text in whole.items():
             setattr(group, other, text)
         group.use_scene = name == "scene_view"

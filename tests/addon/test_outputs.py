@@ -53,6 +53,18 @@ def test_files_take_their_names_at_the_end_and_all_together(folder):
     assert contents(folder) == {"a.csv": b"new a", "b.csv": b"old b", "c.csv": b"new c"}
 
 
+def test_files_go_when_the_others_appear_unless_they_are_written(folder):
+    with publication() as files:
+        files.write(folder / "deeper" / "a.csv", b"new a")
+        files.write(folder / "b.csv", b"new b")
+        files.remove(folder / "a.csv")
+        files.clear(folder, lambda path: path.name == "b.csv")
+        assert (folder / "a.csv").read_bytes() == b"old a"
+    assert (folder / "deeper" / "a.csv").read_bytes() == b"new a"
+    assert {path.name for path in folder.iterdir()} == {"deeper", "b.csv"}
+    assert (folder / "b.csv").read_bytes() == b"new b"
+
+
 def test_results_get_the_permissions_of_any_new_file(folder):
     with publication() as files:
         files.write(folder / "c.csv", b"c")
