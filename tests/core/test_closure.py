@@ -105,8 +105,9 @@ def test_reciprocity():
 
 def test_azimuth_has_no_meaning_along_the_normal():
     azimuth = np.linspace(0, np.pi, 7)
-    single, walk, ratio = closure.factors(0.9, 0.0, azimuth, 0.6)
-    assert np.ptp(single) == np.ptp(walk) == np.ptp(ratio) == 0
+    for factor in closure.factors(0.9, 0.0, azimuth, 0.6):
+        # Numpy's vectors and the few values left over may round differently, as 1.26 does.
+        assert np.ptp(factor) <= 4 * np.spacing(factor.max())
 
 
 def test_one_roughness_and_many_agree():
