@@ -5,13 +5,13 @@
 
 def register() -> None:
     """Add the extension's classes to Blender."""
-    from .addon import registration
+    from .addon.interface import registration
 
     registration.register()
 
 
 def unregister() -> None:
     """Take the extension's classes out of Blender."""
-    from .addon import registration
+    from .addon.interface import registration
 
     registration.unregister()

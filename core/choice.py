@@ -3,7 +3,7 @@
 """The cheapest that is good enough, with the reason in words.
 
 Takes color differences that are known already, ΔE00: `core.ladder.choose_model` predicts those of
-the models, `addon.target` those of Blender's materials.
+the models, `addon.matching.solve` those of Blender's materials.
 """
 
 from __future__ import annotations

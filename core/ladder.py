@@ -14,12 +14,13 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from . import models, yardstick
-from .arrays import Array, spectrum
+from . import models
 from .choice import SHADERS, Choice, cheapest, choose_shader
-from .color_difference import delta_e, xyz_to_lab
+from .color.color_difference import delta_e, xyz_to_lab
 from .errors import DomainError
-from .model_surface import Surface
+from .models.surface_colors import Surface
+from .numerics.arrays import Array, spectrum
+from .vcavity import tabulated
 
 __all__ = [
     "SHADERS",
@@ -86,8 +87,8 @@ def choose_model(
 ) -> list[Choice]:
     """Choose for each material the cheapest rung that is good enough in its scene.
 
-    The yardstick is `core.yardstick`, the tabulated reference. A rung's predicted error is its
-    color difference from it, plus the one that the error of the table itself may amount to, in
+    The yardstick is `core.vcavity.tabulated`, the tabulated reference. A rung's predicted error is
+    its color difference from it, plus the one that the error of the table itself may amount to, in
     the worst of all directions and lights.
 
     Parameters
@@ -167,10 +168,10 @@ def _predict(
     """Largest error over the lights, shape (rungs, materials, geometries), NaN where unknown."""
     light, view, azimuth = geometries
     spread = sigma[:, np.newaxis]
-    missed = yardstick.bound(light, view, azimuth, spread)
+    missed = tabulated.bound(light, view, azimuth, spread)
     # Beyond its last node nothing is known and the bound is infinite; F1 there may be, too.
-    light, view = (np.minimum(angle, yardstick.LARGEST_ANGLE) for angle in (light, view))
-    truth = yardstick.reflectance(rho, light, view, azimuth, sigma)
+    light, view = (np.minimum(angle, tabulated.LARGEST_ANGLE) for angle in (light, view))
+    truth = tabulated.reflectance(rho, light, view, azimuth, sigma)
     weights = np.concatenate(lights, axis=1)
     surface = Surface(rho, light, view, azimuth, spread, weights)
     wanted = truth @ weights

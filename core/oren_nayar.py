@@ -16,9 +16,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Array, polar_angle, precision, slope_deviation, spectrum
-from .blocks import apply_in_blocks, blocks, part
-from .remembered import remembered
+from .numerics.arrays import (
+    Array,
+    polar_angle,
+    precision,
+    slope_deviation,
+    spectrum,
+)
+from .numerics.blocks import apply_in_blocks, blocks, part
+from .numerics.memoized import remembered
 
 _BEYOND = {4: -4.371139000186241e-08, 8: 6.123233995736766e-17}
 """π/2 minus its nearest float32 and float64, by size in bytes: the rest of π/2 - β."""

@@ -4,7 +4,7 @@
 
 Whatever an instrument averages (see `core.instruments`), the Oren-Nayar model shrinks to
 r = f1 ρ + f2 ρ², with f1 and f2 functions of σ alone, and the other models to as little (see
-`core.instrument_curves`). The models are those of `core.models`.
+`core.instruments.curves`). The models are those of `core.models`.
 
 `geometric_closure` is none of them. It sums the later bounces of the published model as a
 geometric series, which conserves energy but misses the reference by up to 4.7 % at σ ≤ 50°.
@@ -15,8 +15,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from . import instrument_curves, instrument_directions, instruments, models
-from .arrays import Array, precision, slope_deviation, spectrum
+from . import instruments, models
+from .instruments import curves, quadrature
+from .numerics.arrays import (
+    Array,
+    precision,
+    slope_deviation,
+    spectrum,
+)
 
 INSTRUMENTS = tuple(instruments.REGISTRY)
 """Names of all instruments; the first, 45a:0, is meant wherever none is named."""
@@ -24,7 +30,7 @@ INSTRUMENTS = tuple(instruments.REGISTRY)
 INSTRUMENT_ANGLES = {
     name: angles
     for name in instruments.REGISTRY
-    if (angles := instrument_directions.of(name).angles) is not None
+    if (angles := quadrature.of(name).angles) is not None
 }
 """θi, θr and Δφ, radians, of the instruments that light from one direction and look from one."""
 
@@ -54,7 +60,7 @@ def coefficients(sigma: npt.ArrayLike, instrument: str = "45a:0") -> tuple[Array
     >>> [round(float(weight), 4) for weight in coefficients(np.pi / 2)]
     [0.559, 0.1615]
     """
-    return instrument_curves.first_and_second(sigma, instrument)
+    return curves.first_and_second(sigma, instrument)
 
 
 def bounce_ratio(sigma: npt.ArrayLike) -> Array:

@@ -44,13 +44,15 @@ def main():
 def numbers(name, degrees, model, green=None):
     """What the figures of a preset show; with `green` the node's second channel set by hand."""
     import numpy as np
-    from rough_spectra.addon import readers, target, working_space
+    from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.matching import solve
     from rough_spectra.addon.preview import data
+    from rough_spectra.addon.samples import readers
 
     [sample] = readers.read(PRESETS / f"{name}.json")
-    request = target.Request(replace(sample, kind="reading"), float(np.radians(degrees)), model)
+    request = solve.Request(replace(sample, kind="reading"), float(np.radians(degrees)), model)
     space = working_space.current()
-    [solution] = target.solve([request], space)
+    [solution] = solve.solve([request], space)
     color = solution.color.copy()
     if green is not None:
         color[1] = color[1] * 0.8 + green
@@ -58,7 +60,8 @@ def numbers(name, degrees, model, green=None):
 
 
 def sheet(name, degrees, background, ink):
-    from rough_spectra.addon.preview import compose, looks
+    from rough_spectra.addon.preview.drawing import looks
+    from rough_spectra.addon.preview.figures import compose
 
     look = looks.look(background, ink, float(SCALE))
     found = numbers(name, degrees, "closure")
@@ -66,7 +69,8 @@ def sheet(name, degrees, background, ink):
 
 
 def pair(name, degrees, model, green):
-    from rough_spectra.addon.preview import compose, looks
+    from rough_spectra.addon.preview.drawing import looks
+    from rough_spectra.addon.preview.figures import compose
 
     background, ink = THEMES["dark"]
     look = looks.look(background, ink, float(SCALE))
@@ -85,7 +89,7 @@ def on(background, canvas):
 
 def save(name, picture):
     import numpy as np
-    from rough_spectra.addon.openimageio import openimageio
+    from rough_spectra.addon.support.openimageio import openimageio
 
     oiio = openimageio()
     pixels = np.ascontiguousarray(np.rint(np.clip(picture, 0, 1) * 255).astype(np.uint8))

@@ -19,7 +19,13 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from core import cycles, grid, oren_nayar, reading, vcavity  # noqa: E402
+from core import (  # noqa: E402
+    cycles,
+    oren_nayar,
+    reading,
+    vcavity,
+)
+from core.numerics import wavelength_grid  # noqa: E402
 from tests.stability import exact, textbook  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
@@ -428,7 +434,7 @@ def not_a_number():
     values[12] = np.nan
     target = np.arange(400.0, 701, 5)
     book = textbook.resample(values, source, target)
-    ours = grid.resample(values, source, target)
+    ours = wavelength_grid.resample(values, source, target)
     axes.plot(source, values, "o", color=GRAY, ms=7, mfc="none", label="measured, one band missing")
     axes.plot(target, ours, "-", color=OURS, label="ours, to 5 nm")
     lost = np.isnan(book)

@@ -29,9 +29,15 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import assign, colorimetry, outputs, presets, target
-from rough_spectra.addon.science import colour
-from rough_spectra.core import color_difference, geometry, oren_nayar, reading
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.support import atomic_files
+from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.core import oren_nayar, reading
+from rough_spectra.core.color import color_difference
+from rough_spectra.core.numerics import direction_grid
 
 MATERIALS = 1000
 ROWS = 100_000
@@ -95,7 +101,7 @@ def largest_relative_error(found: Any, exact: Any) -> float:
 
 def reflectance_row() -> Row:
     """One spectrum in many geometries, beside the bare product that is left of it."""
-    light, view, azimuth = (angle.astype(np.float32) for angle in geometry.hemisphere(ROWS))
+    light, view, azimuth = (angle.astype(np.float32) for angle in direction_grid.hemisphere(ROWS))
     albedo = np.linspace(0.05, 0.95, BANDS, dtype=np.float32)
     pairs = np.stack(oren_nayar.factors(light, view, azimuth, SIGMA), axis=-1)
     rows = np.stack((albedo, albedo * albedo))
@@ -147,7 +153,7 @@ def xyz_row() -> Row:
     values = np.stack([sample.values for sample in samples])
     wavelengths = samples[0].wavelengths
     many = np.tile(values, (ROWS // len(values), 1))
-    matrix = colorimetry.weights(wavelengths)
+    matrix = tristimulus.weights(wavelengths)
     chosen = many[:PEER_SPECTRA]
 
     def peer() -> Any:
@@ -184,15 +190,15 @@ def assign_row() -> Row:
     """Assign presets to many materials of one file."""
     samples = presets.load_all("colorchecker")
     requests = [
-        target.Request(samples[i % len(samples)], float(np.radians(45 * i / MATERIALS)))
+        solve.Request(samples[i % len(samples)], float(np.radians(45 * i / MATERIALS)))
         for i in range(MATERIALS)
     ]
     materials = [bpy.data.materials.new(f"Bench {i}") for i in range(MATERIALS)]
     pairs = list(zip(materials, requests, strict=True))
-    solutions = assign.assign(pairs)
+    solutions = derive.assign(pairs)
 
     def task() -> None:
-        assign.assign(pairs)
+        derive.assign(pairs)
 
     (took,) = best_milliseconds(task, repetitions=4)
     met = [s.delta_e_instrument for s in solutions if not any("gamut" in w for w in s.warnings)]
@@ -270,7 +276,7 @@ def main(arguments: list[str]) -> int:
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         extension.unregister()
     if options.write:
-        with outputs.publication() as files:
+        with atomic_files.publication() as files:
             files.write(DATA, csv_text(rows).encode())
             files.write(TABLE, markdown(rows).encode())
     print(markdown(rows), end="")

@@ -30,7 +30,10 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import assign, blend_file, command_line, mapping, presets
+from rough_spectra.addon.blender import blend_file
+from rough_spectra.addon.commands import command_line, mapping
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.samples import presets
 
 FEW = 2000
 TIMES = 10
@@ -77,7 +80,7 @@ def run(words: list[str], output: Path, profiled: str = "") -> Steps:
 
     rows = step("read", lambda: mapping.rows(options))
     pairs = step("pair", lambda: mapping.pair(rows, options))
-    step("assign", lambda: assign.assign(pairs, options.shader.upper()))
+    step("assign", lambda: derive.assign(pairs, options.shader.upper()))
     step("save", lambda: blend_file.save(options.output))
     took["all"] = sum(took.values())
     return took

@@ -28,7 +28,7 @@ def main() -> None:
     """Print a line for each step."""
     sys.path.insert(0, str(Path(__file__).resolve().parent))
     importlib.import_module("run_command_line").load_extension()
-    from rough_spectra.addon import importing
+    from rough_spectra.addon.samples import importing
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "chart.txt"

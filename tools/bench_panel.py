@@ -112,8 +112,9 @@ def lit_plane() -> Any:
 def drawing(thing: Any) -> None:
     """Draw all panels of the Material tab, of one material after the other."""
     import bpy
-    from rough_spectra.addon import assign as assigning
-    from rough_spectra.addon import panels, storage
+    from rough_spectra.addon.interface.panels import panels
+    from rough_spectra.addon.material import derive as assigning
+    from rough_spectra.addon.material import storage
 
     request = storage.load(thing.active_material)
     others = [bpy.data.materials.new(f"{number}") for number in range(MATERIALS - 1)]
@@ -149,10 +150,10 @@ def drawn(tab: list[Any], page: Any, context: Any) -> None:
 def pictures(material: Any, scale: int) -> None:
     """Ask for the panel's pictures, as drawing does, and make them."""
     import bpy
-    from rough_spectra.addon import facts
+    from rough_spectra.addon.material import snapshot
     from rough_spectra.addon.preview import icons, theme
 
-    state = (facts.of(material), theme.current(bpy.context.preferences))
+    state = (snapshot.of(material), theme.current(bpy.context.preferences))
     for figure, side in FIGURES:
         icons._pending[icons._Wish(material.session_uid, figure, side * scale)] = state
     icons._work()
@@ -160,10 +161,10 @@ def pictures(material: Any, scale: int) -> None:
 
 def others(material: Any) -> None:
     """Drag σ of samples that cost more than the preset: many bands, instruments, next to white."""
-    from rough_spectra.addon import assign as assigning
-    from rough_spectra.addon import storage
-    from rough_spectra.addon.request import VIRTUAL, Request
-    from rough_spectra.addon.sample import Kind, Sample
+    from rough_spectra.addon.matching.request import VIRTUAL, Request
+    from rough_spectra.addon.material import derive as assigning
+    from rough_spectra.addon.material import storage
+    from rough_spectra.addon.samples.sample import Kind, Sample
 
     before = storage.load(material)
     fine = np.arange(380, 781, dtype=np.float64)

@@ -35,18 +35,17 @@ def main() -> None:
     extension.register()
     import bpy
     import numpy as np
-    from rough_spectra.addon import assign, changes, facts, nodes, readers, target, working_space
-    from rough_spectra.addon.preview import (
-        compose,
-        data,
-        icons,
-        looks,
-        theme,
-    )
+    from rough_spectra.addon.blender import shader_nodes, working_space
+    from rough_spectra.addon.matching import solve
+    from rough_spectra.addon.material import changes, derive, snapshot
+    from rough_spectra.addon.preview import data, icons, theme
+    from rough_spectra.addon.preview.drawing import looks
+    from rough_spectra.addon.preview.figures import compose
+    from rough_spectra.addon.samples import readers
 
     material = bpy.data.materials.new("Bench")
     [sample] = readers.read(PATCH)
-    assign.assign([(material, target.Request(sample, float(np.radians(28))))])
+    derive.assign([(material, solve.Request(sample, float(np.radians(28))))])
     space = working_space.current()
     degrees = itertools.cycle(np.linspace(15, 60, 91).tolist())
 
@@ -55,7 +54,7 @@ def main() -> None:
         sigma = float(np.radians(next(degrees)))
         with changes.paused():
             material.rough_spectra.sigma = sigma
-        nodes.roughness_socket(nodes.shader_node(material)).default_value = sigma / 2
+        shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = sigma / 2
         return data.collect(material, space)
 
     preview = icons._previews().new("bench")
@@ -65,12 +64,12 @@ def main() -> None:
     )
     row("numbers of all figures", lambda: data.collect(material, space))
     for model in ("two-bounce", "reference"):
-        request = target.Request(sample, 0.5, model=model)
+        request = solve.Request(sample, 0.5, model=model)
         color = np.array((0.1, 0.3, 0.1))
         row(f"… {model}", partial(data.of_request, request, color, 0.4, space))
     row(
         "asking for an icon",
-        lambda: icons.icon_id(material.session_uid, "sheet", SHEET, (facts.of(material), seen)),
+        lambda: icons.icon_id(material.session_uid, "sheet", SHEET, (snapshot.of(material), seen)),
     )
     for scale in (1, 2):
         look = looks.look((0.239,) * 3, (0.902,) * 3, float(scale))

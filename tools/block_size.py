@@ -14,7 +14,8 @@ from unittest import mock
 
 import numpy as np
 
-from core import blocks, oren_nayar, reading
+from core import oren_nayar, reading
+from core.numerics import blocks
 
 _GEOMETRIES = 10**6
 _BANDS = 31

@@ -18,15 +18,17 @@ from typing import Any
 
 import bpy
 import numpy as np
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive
 
 from .chart_judge import Judge
 from .chart_timing import best_of_turns
 from .chart_work import BANDS, SIGMAS, Array, Work, summary, write_json
 
-from rough_spectra.addon import assign, target, working_space  # isort: skip
-from rough_spectra.addon.sample import Sample  # isort: skip
-from rough_spectra.addon.spectrophotometer.measure import Geometry, measure  # isort: skip
-from rough_spectra.core import color_difference  # isort: skip
+from rough_spectra.addon.blender import working_space  # isort: skip
+from rough_spectra.addon.samples.sample import Sample  # isort: skip
+from rough_spectra.addon.instrument.measure import Geometry, measure  # isort: skip
+from rough_spectra.core.color import color_difference  # isort: skip
 
 EVERY = 2
 """Of the work's geometries every second one is rendered."""
@@ -39,14 +41,14 @@ COLUMNS = 6
 def assigned(work: Work) -> tuple[list[Any], list[Any], list[bool]]:
     """Make matched and Lambertian materials, σ by σ, and tell which fit the gamut."""
     requests = [
-        target.Request(
+        solve.Request(
             Sample(f"{np.degrees(sigma):.0f}/{patch}", BANDS, values, "reading"), float(sigma)
         )
         for sigma, readings in zip(SIGMAS, work.reading, strict=True)
         for patch, values in enumerate(readings)
     ]
     rough = [bpy.data.materials.new(request.sample.name) for request in requests]
-    solutions = assign.assign(list(zip(rough, requests, strict=True)))
+    solutions = derive.assign(list(zip(rough, requests, strict=True)))
     flat = [lambertian(solution.target) for solution in solutions]
     return rough, flat, [bool(np.all(solution.target >= 0)) for solution in solutions]
 

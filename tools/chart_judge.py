@@ -21,9 +21,9 @@ from .chart_work import BANDS, Array, relative_error, summary
 if "rough_spectra" not in sys.modules:
     run_command_line.load_extension()
 
-from rough_spectra.addon import colorimetry
-from rough_spectra.addon.science import colour
-from rough_spectra.core import color_difference
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.core.color import color_difference
 
 
 def _without_warnings(convert: Callable[[Array], Array]) -> Callable[[Array], Array]:
@@ -48,7 +48,7 @@ class Judge:
     """
 
     def __init__(self) -> None:
-        weights = colorimetry.weights(BANDS)
+        weights = tristimulus.weights(BANDS)
         self._white = weights.sum(axis=0)
         xyz_to_rgb = np.asarray(colour().RGB_COLOURSPACES["sRGB"].matrix_XYZ_to_RGB).T
         self.to_xyz = weights

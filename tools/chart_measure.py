@@ -19,7 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from core import geometry, vcavity, vcavity_series
+from core import vcavity
+from core.numerics import direction_grid
+from core.vcavity import bounce_series
 
 from .chart_judge import Judge, all_at_once, one_by_one
 from .chart_methods import Method, methods
@@ -64,12 +66,12 @@ def solve(albedo: Array, angles: Array, nodes: vcavity.Resolution = vcavity.STAN
     """Solve the reference at every roughness, shape (sigmas, geometries, patches, bands)."""
     light, view, azimuth = angles
     rows = vcavity.series(light, view, azimuth, SIGMAS[:, np.newaxis], resolution=nodes)
-    return np.stack([vcavity_series.evaluate(rows, rho) for rho in albedo], axis=2)
+    return np.stack([bounce_series.evaluate(rows, rho) for rho in albedo], axis=2)
 
 
 def make_work(folder: Path) -> None:
     """Solve the reference for every patch, roughness and geometry."""
-    albedo, angles = colorchecker(), np.stack(geometry.hemisphere(GEOMETRIES))
+    albedo, angles = colorchecker(), np.stack(direction_grid.hemisphere(GEOMETRIES))
     Work(albedo, angles, solve(albedo, angles), solve(albedo, ring())[:, 0]).save(
         folder / "work.npz"
     )

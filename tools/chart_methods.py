@@ -15,7 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from core import ladder, models, oren_nayar, reading, yardstick
+from core import (
+    ladder,
+    models,
+    oren_nayar,
+    reading,
+)
+from core.vcavity import tabulated as yardstick
 
 from .chart_work import Array
 

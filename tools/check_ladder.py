@@ -28,9 +28,10 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import colorimetry
-from rough_spectra.core import color_difference, ladder, models
-from rough_spectra.core.arrays import Array
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.core import ladder, models
+from rough_spectra.core.color import color_difference
+from rough_spectra.core.numerics.arrays import Array
 
 WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
 ILLUMINANTS = ("D65", "A", "F11", "D50", "LED-B3")
@@ -176,7 +177,7 @@ def choose(scenes: Sequence[Scene]) -> list[ladder.Choice]:
 
 @lru_cache(maxsize=len(ILLUMINANTS))
 def _weights(illuminant: str) -> Array:
-    return colorimetry.weights(WAVELENGTHS, illuminant)
+    return tristimulus.weights(WAVELENGTHS, illuminant)
 
 
 def difference(xyz: Array, other: Array, white: Array) -> Array:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rough_spectra.addon.readings_document import Readings
+    from rough_spectra.addon.readings.document import Readings
 
 SIGMAS = (0, 15, 30, 45)
 """Degrees."""
@@ -49,8 +49,10 @@ def main(folder: Path) -> int:
 def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
     """Assign every preset at every roughness, build the scene and save it."""
     import bpy
-    from rough_spectra.addon import assign, blend_file, presets
-    from rough_spectra.addon.target import Request
+    from rough_spectra.addon.blender import blend_file
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.samples import presets
 
     start = time.monotonic()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -62,7 +64,7 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
         requests = [Request(sample, math.radians(degrees)) for degrees in SIGMAS]
         pairs += zip(row, requests, strict=True)
         strips.append((label, row))
-    solutions = assign.assign(pairs)
+    solutions = derive.assign(pairs)
     say(f"1/4  assigned {len(solutions)} materials in {time.monotonic() - start:.1f} s")
     scene = importlib.import_module("demo_scene")
     scene.build(
@@ -77,8 +79,9 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
 
 def bake(folder: Path, chosen: list[Any]) -> Readings:
     """Predict and measure all readings and write them."""
-    from rough_spectra.addon import readings, writers
-    from rough_spectra.addon.progress import ProgressLine
+    from rough_spectra.addon.commands.progress import ProgressLine
+    from rough_spectra.addon.instrument import bake as readings
+    from rough_spectra.addon.readings import writers
 
     start = time.monotonic()
     progress = ProgressLine("     measuring")
@@ -96,7 +99,7 @@ def bake(folder: Path, chosen: list[Any]) -> Readings:
 
 def check(blend: Path, result: Readings) -> int:
     """Measure the saved file again with the verb `check`; returns its exit status."""
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     start = time.monotonic()
     warned = [entry for entry in result.entries if entry.warnings]
@@ -119,12 +122,12 @@ def check(blend: Path, result: Readings) -> int:
 def picture(folder: Path) -> None:
     """Render the scene of the open file."""
     import bpy
-    from rough_spectra.addon import outputs
+    from rough_spectra.addon.support import atomic_files
 
     start = time.monotonic()
     scene = importlib.import_module("demo_scene")
     say(f"4/4  rendering {scene.WIDTH} x {scene.HEIGHT} in Cycles on the CPU")
-    with outputs.publication() as files:
+    with atomic_files.publication() as files:
         scene.render(bpy.context.scene, files.stage(folder / PICTURE))
     say(f"     rendered in {time.monotonic() - start:.1f} s")
 

@@ -87,7 +87,7 @@ def build(strips: Sequence[tuple[str, Sequence[Any]]], heads: Sequence[str], tit
 
 def render(scene: Any, target: Path) -> None:
     """Render the scene in Cycles on the CPU into a PNG."""
-    from rough_spectra.addon.spectrophotometer.worker import render_into
+    from rough_spectra.addon.instrument.worker import render_into
 
     settings = scene.render
     settings.engine = "CYCLES"

@@ -3,7 +3,7 @@
 """Fit the closure of `core.closure` to the V-cavity reference; needs numpy alone.
 
     PYTHONPATH=. python tools/fit_closure.py            print the errors of the constants in use
-    PYTHONPATH=. python tools/fit_closure.py --write    write core/closure_coefficients.py first
+    PYTHONPATH=. python tools/fit_closure.py --write    write core/closure/fitted.py first
 
 The 45a:0 reading: r(1) over σ by least squares; then a and g so that the largest relative error
 over σ and ρ is smallest (Gauss-Newton steps on ever higher powers of the error).
@@ -21,16 +21,15 @@ from pathlib import Path
 
 import numpy as np
 
-from core import (
-    closure,
-    closure_coefficients,
-    oren_nayar,
-    vcavity_series,
-    vcavity_slopes,
-    vcavity_surface,
-    vcavity_tables,
+from core import closure, oren_nayar
+from core.closure import fitted as closure_coefficients
+from core.numerics.arrays import Array
+from core.vcavity import (
+    bounce_series,
+    sigma_tables,
+    slope_law,
+    surface,
 )
-from core.arrays import Array
 
 ROUGHNESS_SCALE = 0.2
 """c of t = σ²/(σ² + c): of 0.1 to 0.6 the one with the smallest error at 45a:0."""
@@ -62,7 +61,7 @@ LATER_FLOOR = 0.003
 def main() -> int:
     """Run the fit."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--write", action="store_true", help="write core/closure_coefficients.py")
+    parser.add_argument("--write", action="store_true", help="write core/closure/fitted.py")
     write = parser.parse_args().write
     text = render(*fit_ring(), fit_geometry())
     target = Path(closure_coefficients.__file__)
@@ -80,7 +79,7 @@ def main() -> int:
 def fit_ring() -> tuple[Array, Array, Array]:
     """Polynomials in t of r(1), a and the logarithm of g / ((1 - g) t)."""
     t = RING_SIGMAS**2 / (RING_SIGMAS**2 + ROUGHNESS_SCALE)
-    readings = vcavity_series.evaluate(vcavity_tables.ring().rows(RING_SIGMAS), RING_ALBEDOS)
+    readings = bounce_series.evaluate(sigma_tables.ring().rows(RING_SIGMAS), RING_ALBEDOS)
     powers = t[:, np.newaxis] ** np.arange(1, WHITE_DEGREE + 1)
     white = np.concatenate(([1.0], np.linalg.lstsq(powers, readings[:, -1] - 1, rcond=None)[0]))
     white_values = np.polynomial.polynomial.polyval(t, white)
@@ -157,12 +156,9 @@ def solve_grid() -> tuple[Array, Array]:
             for azimuth in (AZIMUTHS if view > 0 else AZIMUTHS[:1])
         ]
     )
-    weights = vcavity_slopes.weights(SIGMAS, vcavity_surface.STANDARD.slopes)
+    weights = slope_law.weights(SIGMAS, surface.STANDARD.slopes)
     rows = [
-        weights
-        @ vcavity_surface.response(
-            part[:, 0], part[:, 1], part[:, 2], vcavity_tables.SERIES_BOUNCES
-        )
+        weights @ surface.response(part[:, 0], part[:, 1], part[:, 2], sigma_tables.SERIES_BOUNCES)
         for part in np.array_split(geometry, geometry.shape[0] // 2)
     ]
     return geometry, np.concatenate(rows)
@@ -170,7 +166,7 @@ def solve_grid() -> tuple[Array, Array]:
 
 def evaluate_rows(rows: Array, albedos: Array) -> Array:
     """Evaluate r of rows (..., K + J) at albedos (bands,): shape (..., bands)."""
-    return vcavity_series.evaluate(rows, albedos)
+    return bounce_series.evaluate(rows, albedos)
 
 
 def form(single: Array, walk: Array, ratio: Array, albedos: Array) -> Array:
@@ -205,7 +201,7 @@ def best_of_form(rows: Array, readings: Array) -> tuple[Array, Array, Array]:
 
 
 def render(white: Array, walk: Array, ratio: Array, geometry: Array) -> str:
-    """Source of core/closure_coefficients.py."""
+    """Source of core/closure/fitted.py."""
 
     def numbers(values: Array, indent: str = "    ") -> str:
         return "".join(f"{indent}{value:.9g},\n" for value in values)
@@ -250,9 +246,9 @@ the logarithm of r'(0) over t, of what white facets add over t, and of the odds 
 
 
 def report() -> None:
-    """Print the worst errors of what core/closure_coefficients.py holds."""
+    """Print the worst errors of what core/closure/fitted.py holds."""
     sigma = np.radians(np.concatenate((np.arange(0.5, 50.1, 0.5), np.arange(51.0, 91))))
-    readings = evaluate_rows(vcavity_tables.ring().rows(sigma), RING_ALBEDOS)
+    readings = evaluate_rows(sigma_tables.ring().rows(sigma), RING_ALBEDOS)
     fitted = form(*closure.coefficients(sigma), RING_ALBEDOS)
     error = np.abs(fitted / readings - 1)
     inner = sigma < np.radians(50.1)

@@ -133,7 +133,7 @@ def render(scene: Any) -> np.ndarray:
     """Render, and give the pixels from the zenith down."""
     bpy.utils.expose_bundled_modules()
     import OpenImageIO
-    from rough_spectra.addon.spectrophotometer.worker import render_into
+    from rough_spectra.addon.instrument.worker import render_into
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "sky.exr"

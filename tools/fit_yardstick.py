@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tabulate the V-cavity reference for `core.yardstick`; needs numpy alone.
+"""Tabulate the V-cavity reference for `core.vcavity.tabulated`; needs numpy alone.
 
     PYTHONPATH=. python tools/fit_yardstick.py            print the errors of the table in use
-    PYTHONPATH=. python tools/fit_yardstick.py --write    write core/yardstick_table.py first
+    PYTHONPATH=. python tools/fit_yardstick.py --write    write core/vcavity/tabulated_data.py first
 
 The solver is asked at 1,387 geometries for all σ, and again at 9,600 geometries between them: the
 largest differences there, by polar angle, azimuth and σ, are the bounds of the table. Takes one
@@ -21,17 +21,17 @@ from pathlib import Path
 
 import numpy as np
 
-from core import (
-    vcavity_series,
-    vcavity_slopes,
-    vcavity_surface,
-    vcavity_tables,
-    yardstick,
-    yardstick_table,
+from core.numerics.arrays import Array
+from core.vcavity import (
+    bounce_series,
+    sigma_tables,
+    slope_law,
+    surface,
+    tabulated,
+    tabulated_data,
 )
-from core.arrays import Array
 
-TARGET = Path(yardstick.__file__).with_name("yardstick_table.py")
+TARGET = Path(tabulated.__file__).with_name("yardstick_table.py")
 
 POLAR = (0, 3, 8, 16, 24, 32, 40, 48, 55, 62, 68, 73, 77, 81, 85)
 RATIO = (0, 0.25, 0.5, 0.7, 0.83, 0.92, 0.97, 1)
@@ -60,7 +60,7 @@ SEED = 20260
 def main() -> int:
     """Tabulate and measure."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--write", action="store_true", help="write core/yardstick_table.py")
+    parser.add_argument("--write", action="store_true", help="write core/vcavity/tabulated_data.py")
     write = parser.parse_args().write
     if write:
         tables = fit()
@@ -91,15 +91,15 @@ def fit() -> tuple[Array, Array]:
 
 def log_ratio(geometry: Array, sigma: Array, albedo: Array) -> Array:
     """Logarithm of r / ρ by the solver: shape (geometries, σ, ρ)."""
-    weights = vcavity_slopes.weights(sigma, vcavity_surface.STANDARD.slopes)
+    weights = slope_law.weights(sigma, surface.STANDARD.slopes)
     parts = np.array_split(geometry, (len(geometry) + 1) // 2)
-    bounces = vcavity_tables.SERIES_BOUNCES
+    bounces = sigma_tables.SERIES_BOUNCES
     rows = np.concatenate(
-        [weights @ vcavity_surface.response(p[:, 0], p[:, 1], p[:, 2], bounces) for p in parts]
+        [weights @ surface.response(p[:, 0], p[:, 1], p[:, 2], bounces) for p in parts]
     )
     out = np.empty((*rows.shape[:2], albedo.size))
     lit = albedo > 0
-    out[..., lit] = vcavity_series.evaluate(rows, albedo[lit]) / albedo[lit]
+    out[..., lit] = bounce_series.evaluate(rows, albedo[lit]) / albedo[lit]
     out[..., ~lit] = rows[..., :1]
     return np.asarray(np.log(out))
 
@@ -121,7 +121,7 @@ def probe() -> tuple[Array, Array]:
     expected = np.exp(log_ratio(geometry, PROBE_SIGMAS, PROBE_ALBEDOS)) * PROBE_ALBEDOS
     everywhere = np.broadcast_to(PROBE_ALBEDOS, (PROBE_SIGMAS.size, PROBE_ALBEDOS.size))
     light, view, azimuth = geometry.T
-    found = yardstick.reflectance(everywhere, light, view, azimuth, PROBE_SIGMAS).swapaxes(0, 1)
+    found = tabulated.reflectance(everywhere, light, view, azimuth, PROBE_SIGMAS).swapaxes(0, 1)
     return geometry, np.asarray(found / expected - 1)
 
 
@@ -142,11 +142,11 @@ def bounds(geometry: Array, error: Array) -> Array:
 
 
 def render(geometries: Array, basis: Array, bound: Array) -> str:
-    """Source of core/yardstick_table.py."""
+    """Source of core/vcavity/tabulated_data.py."""
     listed = repr(bound.tolist()).replace("], ", "],\n    ")
     return f'''# SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Table of `core.yardstick`, written by tools/fit_yardstick.py; do not edit by hand."""
+"""Table of `core.vcavity.tabulated`, written by tools/fit_yardstick.py; do not edit by hand."""
 
 # Nodes: larger polar angle in degrees, smaller over larger, azimuth in degrees.
 POLAR = (0, 3, 8, 16, 24, 32, 40, 48, 55, 62, 68, 73, 77, 81, 85)
@@ -165,7 +165,7 @@ BOUND_SIGMA = {BOUND_SIGMA}
 # fmt: off
 BOUND = {listed}
 
-# Columns of integers and what one unit of each is worth; see `core.yardstick.unpack`.
+# Columns of integers and what one unit of each is worth; see `core.vcavity.tabulated.unpack`.
 {_columns("GEOMETRY_STEPS", "GEOMETRIES", geometries)}
 {_columns("BASIS_STEPS", "BASIS", basis)}'''
 
@@ -173,7 +173,7 @@ BOUND = {listed}
 def _columns(steps_name: str, name: str, values: Array) -> str:
     finest = FINEST_STEP if name == "GEOMETRIES" else 0.0
     steps = [f"{x:.6g}" for x in np.maximum(np.abs(values).max(axis=0) / 32000, finest)]
-    text = yardstick.pack(values, np.array(steps, np.float64))
+    text = tabulated.pack(values, np.array(steps, np.float64))
     lines = "".join(f'    "{text[start : start + 92]}"\n' for start in range(0, len(text), 92))
     listed = textwrap.fill(", ".join(steps), 94, initial_indent="    ", subsequent_indent="    ")
     return f"{steps_name} = (\n{listed},\n)\n{name} = (\n{lines})\n"
@@ -184,9 +184,9 @@ def _bound_edges() -> tuple[tuple[float, ...], ...]:
 
 
 def _reload() -> None:
-    importlib.reload(yardstick_table)
-    yardstick._geometries.cache_clear()
-    yardstick._basis.cache_clear()
+    importlib.reload(tabulated_data)
+    tabulated._geometries.cache_clear()
+    tabulated._basis.cache_clear()
 
 
 def report(geometry: Array, error: Array) -> None:
@@ -200,7 +200,7 @@ def report(geometry: Array, error: Array) -> None:
             f"polar angles to {limit}°, σ ≤ {steepest}°, worst over ρ: median / 95 % / 99 % / "
             f"worst {quantiles}\n"
         )
-    exceeded = worst > yardstick.bound(
+    exceeded = worst > tabulated.bound(
         geometry[:, :1], geometry[:, 1:2], geometry[:, 2:], PROBE_SIGMAS
     )
     sys.stdout.write(f"beyond the bound: {exceeded.mean():.3%}\n")

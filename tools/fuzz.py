@@ -68,7 +68,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _load() -> Any:
     load_extension()
-    from rough_spectra.addon import readers
+    from rough_spectra.addon.samples import readers
 
     readers.readers()  # lists their folder, which no reader may do
     return readers

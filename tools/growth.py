@@ -144,7 +144,7 @@ def main(arguments: list[str]) -> int:
     from run_command_line import load_extension
 
     load_extension()
-    from rough_spectra.addon import readers
+    from rough_spectra.addon.samples import readers
 
     broken = False
     for name, paths in by_reader(readers).items():

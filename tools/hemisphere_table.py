@@ -27,23 +27,22 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import (
-    assign,
-    colorimetry,
-    nodes,
-    outputs,
-    presets,
-    target,
-    working_space,
-)
-from rough_spectra.addon.spectrophotometer.measure import Geometry, measure
-from rough_spectra.core import color_difference, cycles, geometry, ladder, reading
-from rough_spectra.core.arrays import Array
+from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.instrument.measure import Geometry, measure
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.support import atomic_files
+from rough_spectra.core import cycles, ladder, reading
+from rough_spectra.core.color import color_difference
+from rough_spectra.core.numerics import direction_grid
+from rough_spectra.core.numerics.arrays import Array
 
 SIGMAS = (15, 30, 45)
 """Degrees. At 0° both materials are Lambertian and exact."""
 GEOMETRIES = 500
-TARGETS = {"two-bounce": "two-bounce", target.AUTO: "reference"}
+TARGETS = {"two-bounce": "two-bounce", solve.AUTO: "reference"}
 """What a material was assigned with, and the model of `core.ladder` it is compared with."""
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -98,7 +97,7 @@ class Assigned:
     """
 
     materials: list[Any]
-    requests: list[target.Request]
+    requests: list[solve.Request]
     within_gamut: list[bool]
     patches: int
 
@@ -107,13 +106,13 @@ def prepare() -> Assigned:
     """Assign every preset at every roughness; the extension has to be registered."""
     samples = presets.load_all("colorchecker")
     requests = [
-        target.Request(sample, float(np.radians(degrees)), model)
+        solve.Request(sample, float(np.radians(degrees)), model)
         for model in TARGETS
         for degrees in SIGMAS
         for sample in samples
     ]
     materials = [bpy.data.materials.new(request.sample.name) for request in requests]
-    solutions = assign.assign(list(zip(materials, requests, strict=True)))
+    solutions = derive.assign(list(zip(materials, requests, strict=True)))
     within = [not any("gamut" in warning for warning in s.warnings) for s in solutions]
     return Assigned(materials, requests, within, len(samples))
 
@@ -125,7 +124,7 @@ def rendered(materials: list[Any], directions: Directions) -> Array:
 
 def computed(materials: list[Any], directions: Directions) -> Array:
     """RGB of the same by the core's formula of Cycles, from what the nodes hold."""
-    found = [nodes.surface(material) for material in materials]
+    found = [shader_nodes.surface(material) for material in materials]
     colors = np.array([surface.color for surface in found if surface is not None], np.float64)
     roughness = np.array([surface.roughness for surface in found if surface is not None])
     return cycles.reflectance(colors, roughness, *(angle[:, np.newaxis] for angle in directions))
@@ -179,7 +178,7 @@ def compare(assigned: Assigned, directions: Directions, rgb: Array) -> list[Row]
     return rows
 
 
-def model_lab(requests: list[target.Request], directions: Directions) -> Array:
+def model_lab(requests: list[solve.Request], directions: Directions) -> Array:
     """L*a*b* of the spectral model of requests for one model, on one wavelength grid.
 
     Returns
@@ -190,14 +189,14 @@ def model_lab(requests: list[target.Request], directions: Directions) -> Array:
     albedos = np.stack([request.sample.values for request in requests])[:, np.newaxis]
     sigmas = np.array([[request.sigma] for request in requests])
     spectra = ladder.reflectance(TARGETS[requests[0].model], albedos, *directions, sigmas)
-    return colorimetry.spectrum_to_lab(np.maximum(spectra, 0), requests[0].sample.wavelengths)
+    return tristimulus.spectrum_to_lab(np.maximum(spectra, 0), requests[0].sample.wavelengths)
 
 
-def lambert_lab(request: target.Request) -> Array:
+def lambert_lab(request: solve.Request) -> Array:
     """L*a*b* of a material that shows its 45°/0° reading in every geometry, shape (3,)."""
     sample = request.sample
     flat = reading.from_albedo(sample.values, request.sigma, TARGETS[request.model])
-    return colorimetry.spectrum_to_lab(flat, sample.wavelengths)
+    return tristimulus.spectrum_to_lab(flat, sample.wavelengths)
 
 
 def to_measure(theta_i: Array, theta_r: Array, delta_phi: Array) -> list[Geometry]:
@@ -256,13 +255,13 @@ def main() -> int:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     extension.register()
     try:
-        assigned, directions = prepare(), geometry.hemisphere(GEOMETRIES)
+        assigned, directions = prepare(), direction_grid.hemisphere(GEOMETRIES)
         rows = compare(assigned, directions, rendered(assigned.materials, directions))
     finally:
         # Blender trips over classes that are still registered when it ends.
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         extension.unregister()
-    with outputs.publication() as files:
+    with atomic_files.publication() as files:
         files.write(DATA, csv_text(rows).encode())
         files.write(TABLE, markdown(rows).encode())
     print(markdown(rows), end="")

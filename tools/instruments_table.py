@@ -40,15 +40,17 @@ def rows() -> list[dict[str, Any]]:
         # A script finds its neighbors by their bare names.
         importlib.import_module("run_command_line").load_extension()
     import numpy as np
-    from rough_spectra.addon import colorimetry, presets
-    from rough_spectra.core import color_difference, instruments, reading
+    from rough_spectra.addon.colorimetry import tristimulus
+    from rough_spectra.addon.samples import presets
+    from rough_spectra.core import instruments, reading
+    from rough_spectra.core.color import color_difference
 
     samples = [sample for sample in presets.load_all("colorchecker") if sample.kind == "albedo"]
     albedos = np.stack([sample.values for sample in samples])
 
     def lab(name: str, degrees: float) -> Any:
         read = reading.from_albedo(albedos, np.radians(degrees), "reference", name)
-        return colorimetry.spectrum_to_lab(read, samples[0].wavelengths)
+        return tristimulus.spectrum_to_lab(read, samples[0].wavelengths)
 
     found = []
     for degrees in SIGMAS:

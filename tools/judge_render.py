@@ -59,7 +59,7 @@ def prepare(scene: Any, materials: list[Any]) -> None:
 
 def rendered(scene: Any) -> dict[str, np.ndarray]:
     """Render; gives every channel of every pass by its name."""
-    from rough_spectra.addon.spectrophotometer.worker import render_into
+    from rough_spectra.addon.instrument.worker import render_into
 
     with tempfile.TemporaryDirectory() as folder:
         render_into(scene, Path(folder) / "picture")
@@ -128,8 +128,10 @@ def angles(ways: np.ndarray, normals: np.ndarray, eyes: np.ndarray) -> tuple[np.
 
 def errors(scene: Any, materials: list[Any], passes: dict[str, np.ndarray]) -> dict[Any, float]:
     """Mean ΔE00 of the rendered pixels of each material."""
-    from rough_spectra.addon import light_spectrum, nodes, storage, working_space
-    from rough_spectra.addon.scene_analysis import sources, surfaces
+    from rough_spectra.addon.blender import shader_nodes, working_space
+    from rough_spectra.addon.colorimetry import illuminant_spectra
+    from rough_spectra.addon.material import storage
+    from rough_spectra.addon.scene import sources, surfaces
     from rough_spectra.core import cycles, ladder
 
     space = working_space.current()
@@ -149,9 +151,9 @@ def errors(scene: Any, materials: list[Any], passes: dict[str, np.ndarray]) -> d
         normals = channels(passes, "Normal", "XYZ")[rows, columns]
         eyes = eye - places
         eyes /= np.linalg.norm(eyes, axis=-1, keepdims=True)
-        request, node = storage.load(material), nodes.shader_node(material)
-        color = np.array(nodes.color_socket(node).default_value[:3])
-        roughness = nodes.roughness_socket(node).default_value
+        request, node = storage.load(material), shader_nodes.shader_node(material)
+        color = np.array(shader_nodes.color_socket(node).default_value[:3])
+        roughness = shader_nodes.roughness_socket(node).default_value
         bands = request.sample.wavelengths
         truth, shown, white = np.zeros((3, len(rows), 3))
         for lamp in lamps:
@@ -166,9 +168,9 @@ def errors(scene: Any, materials: list[Any], passes: dict[str, np.ndarray]) -> d
             weight /= np.where(there, weight.sum(axis=-1), 1)[:, np.newaxis]
             theta_i, theta_r, phi = angles(ways, normals, eyes)
             xyz = np.linalg.solve(space.from_xyz, lamp.rgb)
-            spd, _ = light_spectrum.like(xyz, lamp.temperature)
-            own_white = light_spectrum.to_xyz(spd)
-            matrix = light_spectrum.weights(tuple(bands.tolist()), tuple(spd.tolist()))
+            spd, _ = illuminant_spectra.like(xyz, lamp.temperature)
+            own_white = illuminant_spectra.to_xyz(spd)
+            matrix = illuminant_spectra.weights(tuple(bands.tolist()), tuple(spd.tolist()))
             model = ladder.reflectance(
                 request.model, request.sample.reflectance, theta_i, theta_r, phi, request.sigma
             )
@@ -190,7 +192,7 @@ def errors(scene: Any, materials: list[Any], passes: dict[str, np.ndarray]) -> d
 
 def difference(shown: np.ndarray, truth: np.ndarray, white: np.ndarray) -> float:
     """Mean ΔE00 of colors (pixels, 3), each seen under the light of its place."""
-    from rough_spectra.core import color_difference
+    from rough_spectra.core.color import color_difference
 
     level = white[:, 1:2]
     labs = [color_difference.xyz_to_lab(xyz / level, white / level) for xyz in (shown, truth)]
@@ -204,7 +206,8 @@ def main() -> None:
     )
     extension = command_line.load_extension()
     extension.register()
-    from rough_spectra.addon import assign, scene_analysis, scene_report
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.scene import analysis, follow_scene
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     materials = make_room.furnish()
@@ -212,11 +215,11 @@ def main() -> None:
     prepare(scene, materials)
     judge_scene.dress(materials)
     tables = {"made for D65": errors(scene, materials, rendered(scene))}
-    report = scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), scene)
+    report = analysis.analyze(bpy.context.evaluated_depsgraph_get(), scene)
     around = {material: judge_scene.everywhere(view) for material, view in report.views.items()}
-    assign.follow_scene(around)
+    derive.follow_scene(around)
     tables["made for the lights, from all around"] = errors(scene, materials, rendered(scene))
-    scene_report.follow(report)
+    follow_scene.follow(report)
     after = errors(scene, materials, rendered(scene))
     both = [m for m in after if m in report.views and all(m in table for table in tables.values())]
     now = np.array([after[m] for m in both])

@@ -29,7 +29,9 @@ SEED = 4711
 
 def dress(materials: list[Any], illuminant: str = "D65") -> None:
     """Assign the ColorChecker to materials, with σ of 20, 30 and 40° in turn."""
-    from rough_spectra.addon import assign, presets, target
+    from rough_spectra.addon.matching import solve
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.samples import presets
 
     names = [name for name in presets.names() if name.startswith("colorchecker/")]
     samples = [presets.load(name) for name in names]
@@ -37,14 +39,15 @@ def dress(materials: list[Any], illuminant: str = "D65") -> None:
     for number, material in enumerate(materials):
         sigma = float(np.radians((20, 30, 40)[number % 3]))
         sample = samples[number % len(samples)]
-        pairs.append((material, target.Request(sample, sigma, "closure", illuminant)))
-    assign.assign(pairs)
+        pairs.append((material, solve.Request(sample, sigma, "closure", illuminant)))
+    derive.assign(pairs)
 
 
 def picture(depsgraph: Any, scene: Any) -> dict[Any, tuple[Any, ...]]:
     """Give the ways of light that reach each material's hits, and the spectra of the lamps."""
-    from rough_spectra.addon import light_spectrum, scene_analysis, working_space
-    from rough_spectra.addon.scene_analysis import camera, sources, surfaces
+    from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.colorimetry import illuminant_spectra
+    from rough_spectra.addon.scene import analysis, camera, sources, surfaces
 
     random = np.random.default_rng(SEED)
     space = working_space.current()
@@ -52,11 +55,11 @@ def picture(depsgraph: Any, scene: Any) -> dict[Any, tuple[Any, ...]]:
     found = surfaces.gather(depsgraph)
     lamps, _ = sources.find(depsgraph, scene, found, space)
     hits = found.hit(origins, ways)
-    samples, places = scene_analysis.look(found, hits, ways, lamps, space, random)
+    samples, places = analysis.look(found, hits, ways, lamps, space, random)
     colors = [np.linalg.solve(space.from_xyz, lamp.rgb) for lamp in lamps]
     spectra = np.stack(
         [
-            light_spectrum.like(xyz, lamp.temperature)[0]
+            illuminant_spectra.like(xyz, lamp.temperature)[0]
             for xyz, lamp in zip(colors, lamps, strict=True)
         ]
     )
@@ -70,25 +73,28 @@ def picture(depsgraph: Any, scene: Any) -> dict[Any, tuple[Any, ...]]:
 
 def errors(seen: Mapping[Any, tuple[Any, ...]]) -> dict[Any, float]:
     """Mean ΔE00 over the hits of each material, as its shader is now."""
-    from rough_spectra.addon import light_spectrum, nodes, storage, working_space
-    from rough_spectra.core import color_difference, cycles, ladder
+    from rough_spectra.addon.blender import shader_nodes, working_space
+    from rough_spectra.addon.colorimetry import illuminant_spectra
+    from rough_spectra.addon.material import storage
+    from rough_spectra.core import cycles, ladder
+    from rough_spectra.core.color import color_difference
 
     from_xyz = working_space.current().from_xyz
     found = {}
     for material, (samples, spectra) in seen.items():
         request = storage.load(material)
-        node = nodes.shader_node(material)
-        color = np.array(nodes.color_socket(node).default_value[:3])
-        roughness = nodes.roughness_socket(node).default_value
+        node = shader_nodes.shader_node(material)
+        color = np.array(shader_nodes.color_socket(node).default_value[:3])
+        roughness = shader_nodes.roughness_socket(node).default_value
         angles = (samples.theta_i, samples.theta_r, samples.delta_phi)
         bands = request.sample.wavelengths
         # Rows: XYZ of each way of light that a white surface would send on.
-        whites = light_spectrum.to_xyz(spectra)[samples.lamp]
+        whites = illuminant_spectra.to_xyz(spectra)[samples.lamp]
         reflected = ladder.reflectance(
             request.model, request.sample.reflectance, *angles, request.sigma
         )
         weights = np.stack(
-            [light_spectrum.weights(tuple(bands.tolist()), tuple(s)) for s in spectra.tolist()]
+            [illuminant_spectra.weights(tuple(bands.tolist()), tuple(s)) for s in spectra.tolist()]
         )
         truth = np.einsum("gb,gbx->gx", np.maximum(reflected, 0), weights[samples.lamp])
         shown = cycles.reflectance(color, roughness, *angles) * (whites @ from_xyz.T)
@@ -107,9 +113,9 @@ def everywhere(view: Any) -> Any:
     """Give the same lights from directions all over the hemisphere."""
     from dataclasses import replace
 
-    from rough_spectra.core import geometry
+    from rough_spectra.core.numerics import direction_grid
 
-    spread = np.column_stack(geometry.hemisphere(16)).tolist()
+    spread = np.column_stack(direction_grid.hemisphere(16)).tolist()
     rows = tuple(
         (*angles, index, light.share / len(spread))
         for index, light in enumerate(view.lights)
@@ -119,7 +125,7 @@ def everywhere(view: Any) -> Any:
 
 
 def _lab(xyz: np.ndarray, white: np.ndarray) -> np.ndarray:
-    from rough_spectra.core import color_difference
+    from rough_spectra.core.color import color_difference
 
     return color_difference.xyz_to_lab(xyz, white)
 
@@ -129,7 +135,8 @@ def main() -> None:
     make_room = importlib.import_module("make_room")
     extension = importlib.import_module("run_command_line").load_extension()
     extension.register()
-    from rough_spectra.addon import assign, scene_analysis, scene_report
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.scene import analysis, follow_scene
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     materials = make_room.furnish()
@@ -140,15 +147,15 @@ def main() -> None:
         dress(materials, illuminant)
         seen = picture(depsgraph, scene)
         rows[f"hemisphere, {illuminant}"] = errors(seen)
-    seconds = [scene_analysis.analyze(depsgraph, scene).seconds for _ in range(5)]
-    report = scene_analysis.analyze(depsgraph, scene)
-    assign.follow_scene({material: everywhere(view) for material, view in report.views.items()})
+    seconds = [analysis.analyze(depsgraph, scene).seconds for _ in range(5)]
+    report = analysis.analyze(depsgraph, scene)
+    derive.follow_scene({material: everywhere(view) for material, view in report.views.items()})
     rows["hemisphere, the scene's lights"] = errors(
         {material: parts for material, parts in seen.items() if material in report.views}
     )
     start = time.perf_counter()
-    report = scene_analysis.analyze(depsgraph, scene)
-    scene_report.follow(report)
+    report = analysis.analyze(depsgraph, scene)
+    follow_scene.follow(report)
     whole = time.perf_counter() - start
     seen = {material: parts for material, parts in seen.items() if material in report.views}
     after = errors(seen)

@@ -16,7 +16,7 @@ import numpy as np
 def main() -> None:
     """Compute and write the weights."""
     importlib.import_module("run_command_line").load_extension()
-    e308 = importlib.import_module("rough_spectra.addon.e308")
+    e308 = importlib.import_module("rough_spectra.addon.colorimetry.astm_e308")
     # colour-science tells on the console of every table that it aligns.
     warnings.simplefilter("ignore")
     rows = [

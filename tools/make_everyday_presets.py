@@ -215,7 +215,7 @@ def preset(material: Material, usgs: Path) -> dict[str, Any]:
     usgs
         Folder with the files of splib07a.
     """
-    readers = importlib.import_module("rough_spectra.addon.readers")
+    readers = importlib.import_module("rough_spectra.addon.samples.readers")
     nix = material.file.endswith(".csv")
     missing: list[int] = []
     path = NIX / material.file if nix else next(usgs.rglob(material.file))

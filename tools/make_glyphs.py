@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write addon/preview/glyphs.py: outlines of the letters in the panel's pictures.
+"""Write addon/preview/drawing/glyphs.py: outlines of the letters in the panel's pictures.
 
 The font is Inter (SIL Open Font License 1.1, no reserved name), which Blender's own interface is
 set in. Needs fontTools and brotli, which the extension does not. Equal fonts give equal bytes:

@@ -41,7 +41,7 @@ def difference_of_a_step(sample: Any) -> float:
 
     Over `DIRECTIONS` of light and view below 80°, all bounces counted, under D65.
     """
-    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry")
+    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry.tristimulus")
     color_difference, geometry, ladder, reading = (
         importlib.import_module(f"rough_spectra.core.{name}")
         for name in ("color_difference", "geometry", "ladder", "reading")
@@ -78,7 +78,7 @@ def row(name: str, sample: Any, hexadecimal: str) -> str:
 
 def swatches(samples: list[Any]) -> list[str]:
     """Return the samples' colors under D65 for the 2° observer, as ``#rrggbb``."""
-    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry")
+    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry.tristimulus")
     found = []
     for sample in samples:
         xyz = sample.reflectance @ colorimetry.weights(sample.wavelengths, "D65", 2)
@@ -94,7 +94,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("file", type=Path, nargs="?", default=FILE)
     file = parser.parse_args(arguments).file
     importlib.import_module("run_command_line").load_extension()
-    presets = importlib.import_module("rough_spectra.addon.presets")
+    presets = importlib.import_module("rough_spectra.addon.samples.presets")
     names = presets.names_of(COLLECTION)
     samples = presets.load_all(COLLECTION)
     lines = [HEAD, RULE]

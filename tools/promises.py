@@ -55,7 +55,7 @@ def outcome(readers: ModuleType, path: Path, data: bytes, wanted: str = "") -> O
     Parameters
     ----------
     readers
-        The package ``addon.readers``.
+        The package ``addon.samples.readers``.
     path
         What messages name.
     data

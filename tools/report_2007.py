@@ -25,10 +25,13 @@ if "rough_spectra" not in sys.modules:
     # A script finds its neighbors by their bare names.
     importlib.import_module("run_command_line").load_extension()
 
-from rough_spectra.addon import colorimetry, outputs, presets
-from rough_spectra.addon.sample import Sample
-from rough_spectra.addon.science import colour
-from rough_spectra.core import color_difference, reading, vcavity
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.addon.support import atomic_files
+from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.core import reading, vcavity
+from rough_spectra.core.color import color_difference
 
 Array = NDArray[np.float64]
 
@@ -126,10 +129,10 @@ def rows() -> list[Row]:
     """Give a row for each patch, observer and model, under D65 at σ = π/4."""
     samples, wavelengths, albedo = chart()
     names = [sample.name.removeprefix("ColorChecker ") for sample in samples]
-    screen = [_hex(xyz) for xyz in albedo @ colorimetry.weights(wavelengths)]
+    screen = [_hex(xyz) for xyz in albedo @ tristimulus.weights(wavelengths)]
     found = []
     for observer in OBSERVERS:
-        weights = colorimetry.weights(wavelengths, "D65", observer)
+        weights = tristimulus.weights(wavelengths, "D65", observer)
         white = weights.sum(axis=0)
         before = albedo @ weights
         lab = color_difference.xyz_to_lab(before, white)
@@ -211,7 +214,7 @@ def _distances(
     albedo: Array, wavelengths: Array, illuminant: str, observer: int
 ) -> tuple[float, float]:
     """Distance in the a*b* plane of the two-bounce reading: as it is, at equal luminance."""
-    weights = colorimetry.weights(wavelengths, illuminant, observer)
+    weights = tristimulus.weights(wavelengths, illuminant, observer)
     before, after = albedo @ weights, predict(albedo, SIGMA, "two-bounce") @ weights
     lab, as_is, equal = color_difference.xyz_to_lab(
         np.stack((before, after, after * before[1] / after[1])), weights.sum(axis=0)
@@ -427,7 +430,7 @@ def main() -> int:
         "white": white_table(),
         "all": all_table(colors),
     }
-    with outputs.publication() as files:
+    with atomic_files.publication() as files:
         files.write(DATA / "report-2007.csv", colors_csv(colors).encode())
         files.write(DATA / "report-2007-curves.csv", curves_csv().encode())
         files.write(DATA / "report-2007-variations.csv", variations_csv(varied).encode())

@@ -16,7 +16,7 @@ from types import ModuleType
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "rough_spectra"
 FAILED_ITSELF, INTERRUPTED = 3, 130
-"""Exit statuses, as `addon/command_line.py` has them."""
+"""Exit statuses, as `addon/commands/command_line.py` has them."""
 
 
 def load_extension() -> ModuleType:
@@ -37,7 +37,7 @@ def main() -> int:
     extension = load_extension()
     importlib.import_module("bpy")  # before the extension: it brings mathutils and the like along
     extension.register()  # without it materials have no place to store a spectrum in
-    command_line = importlib.import_module(f"{PACKAGE}.addon.command_line")
+    command_line = importlib.import_module(f"{PACKAGE}.addon.commands.command_line")
     try:
         return int(command_line.main(sys.argv[1:]))
     finally:

@@ -18,13 +18,14 @@ import bpy
 import numpy as np
 
 from ...core.errors import OutputError
-from .. import blend_file, journal, outputs
-from ..second_blender import Job
+from ..blender import blend_file
+from ..blender.background_job import Job
+from ..support import atomic_files, journal
 from . import catalogs
 from .plan import Asset
 
 if TYPE_CHECKING:
-    from ..nodes import Shader
+    from ..blender.shader_nodes import Shader
 
 LONGEST_NAME = 63 if bpy.app.version < (5, 0, 0) else 255
 """Bytes that Blender leaves for the name of a material."""
@@ -108,9 +109,9 @@ class Build(Job):
         self._catalogs = folder.absolute() / catalogs.FILE_NAME
         self._titles = titles
         self._count = len(assets)
-        outputs.check_base(self.blend)
+        atomic_files.check_base(self.blend)
         for path in (self.blend, self._catalogs):
-            outputs.check_target(path)
+            atomic_files.check_target(path)
         journal.finish(self._catalogs.parent)
         ids = catalogs.merge(self._catalogs, titles).ids
 
@@ -155,7 +156,7 @@ class Build(Job):
         journal.finish(self._catalogs.parent)
         # Read again: somebody may have added a catalog meanwhile.
         merged = catalogs.merge(self._catalogs, self._titles)
-        with outputs.publication() as files:
+        with atomic_files.publication() as files:
             part = files.stage(self.blend)
             try:
                 shutil.copyfile(made, part)

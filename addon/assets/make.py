@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .. import assign
-from ..request import Request
-from ..sample import Sample
-from ..spectrophotometer.worker import end_if_orphaned, report
+from ..instrument.worker import end_if_orphaned, report
+from ..matching.request import Request
+from ..material import derive
+from ..samples.sample import Sample
 from . import previews
 
 if TYPE_CHECKING:
-    from ..solution import Solution
+    from ..matching.solution import Solution
 
 BLEND = "assets.blend"
 RESULT = "result.json"
@@ -33,7 +33,7 @@ def run(job: dict[str, Any], folder: Path) -> None:
     entries = job["assets"]
     materials = [_material(entry["name"]) for entry in entries]
     requests = [_request(entry, job) for entry in entries]
-    solutions = assign.assign(list(zip(materials, requests, strict=True)), job["shader"])
+    solutions = derive.assign(list(zip(materials, requests, strict=True)), job["shader"])
     for material, entry, request, solution in zip(
         materials, entries, requests, solutions, strict=True
     ):

@@ -10,8 +10,8 @@ from math import radians
 from pathlib import Path
 
 from ...core.errors import InputError
-from .. import presets, readers
-from ..sample import Sample
+from ..samples import presets, readers
+from ..samples.sample import Sample
 from . import catalogs
 
 STEEPEST = 90.0
@@ -76,7 +76,7 @@ def of_collection(collection: str, library: Path | None = None) -> list[Chosen]:
     title = catalogs.title(collection)
     if library is None or collection in presets.collections():
         return [Chosen(sample, title) for sample in presets.load_all(collection)]
-    from .. import library as user_library
+    from ..samples import library as user_library
 
     ids = [entry.id for entry in user_library.entries(library)]
     found = [name for name in ids if name.rpartition("/")[0] == collection]
@@ -98,7 +98,7 @@ def of_name(name: str, library: Path | None = None) -> Chosen:
     if library is None:
         sample, collection = presets.load(name), presets.path_of(name).parent.name
         return Chosen(sample, catalogs.title(collection))
-    from .. import library as user_library
+    from ..samples import library as user_library
 
     sample = user_library.load(name, library)
     # The library finds by other names than ids, too, and tells no id of what it found.

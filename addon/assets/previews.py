@@ -18,8 +18,8 @@ import bpy
 import numpy as np
 import numpy.typing as npt
 
-from .. import srgb
-from ..spectrophotometer.worker import read_exr, render_into
+from ..colorimetry import srgb
+from ..instrument.worker import read_exr, render_into
 
 PIXELS = 128
 """Width of a preview; the Asset Browser shows 96 unless told otherwise."""

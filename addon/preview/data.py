@@ -11,14 +11,16 @@ from typing import Any
 import numpy as np
 
 from ...core import cycles, reading
-from ...core.arrays import Array
-from .. import colorimetry, scene_match, settled, spectra, srgb
-from ..facts import Facts
-from ..request import VIRTUAL, Request
-from ..rgb_space import WorkingSpace, matrix_of
+from ...core.numerics.arrays import Array
+from ..colorimetry import srgb, tristimulus
+from ..colorimetry.rgb_space import WorkingSpace, matrix_of
+from ..matching import scene_match, surface_spectra
+from ..matching.assess import in_directions, under_main_light
+from ..matching.request import VIRTUAL, Request
+from ..material import settled
+from ..material.snapshot import Facts
+from .drawing.raster import Color
 from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
-from .raster import Color
-from .shown import in_directions, under_main_light
 
 VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
 """Degrees in the plane of incidence, negative on the side of the light."""
@@ -126,7 +128,7 @@ def of_request(
     sample, light = request.sample, request.illuminant
     bands = sample.wavelengths
     weights = space.rgb_weights(bands, light)
-    luminance = colorimetry.weights(bands, light)[:, 1]
+    luminance = tristimulus.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
     shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
     shown, at_instrument = shown[:-1], shown[-1]
@@ -149,7 +151,7 @@ def of_request(
         blender_curve=curve,
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
-        sigma_max=spectra.sigma_max(request),
+        sigma_max=surface_spectra.sigma_max(request),
         engine=engine,
     )
 
@@ -185,7 +187,7 @@ def rgb_bars(
 
 def spectra_of(request: Request) -> tuple[Array, Array]:
     """Give reading at the virtual instrument and albedo, each (bands,), as `target` matches."""
-    [seen], [rho] = spectra.readings_and_albedos([request])
+    [seen], [rho] = surface_spectra.readings_and_albedos([request])
     return seen, rho
 
 

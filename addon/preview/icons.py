@@ -27,9 +27,11 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
-from .. import changes, events, facts
-from ..facts import Facts
-from . import looks, theme
+from ..material import changes, snapshot
+from ..material.snapshot import Facts
+from ..support import events
+from . import theme
+from .drawing import looks
 
 _BOUND = 64
 """Pictures kept; a sheet has about 0.3 MB at scale 1."""
@@ -50,14 +52,14 @@ FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
 below each other; and each plot alone."""
 
 
-State = tuple[Facts, looks.Look]
+Basis = tuple[Facts, looks.Look]
 """All that a material's pictures depend on: its facts, and how they are drawn."""
 
 
 @dataclass
 class _Picture:
     name: str
-    state: State
+    basis: Basis
     icon: int
     drawn: float
 
@@ -71,8 +73,8 @@ class _Wish(NamedTuple):
 _collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
 _swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
-_pending: dict[_Wish, State] = {}
-_differences: dict[int, tuple[State, tuple[float, float, float]]] = {}
+_pending: dict[_Wish, Basis] = {}
+_differences: dict[int, tuple[Basis, tuple[float, float, float]]] = {}
 
 
 def unit(scale: float, pixel_size: float) -> int:
@@ -108,7 +110,7 @@ def fit(width: int, height: int, inset: float = 0.0) -> float:
     return max(int(free * 2) / 2, 1.0)
 
 
-def icon_id(uid: int, figure: str, pixels: int, state: State) -> int:
+def icon_id(uid: int, figure: str, pixels: int, basis: Basis) -> int:
     """Give the icon of a figure, to be called while drawing; 0 while there is none yet.
 
     Parameters
@@ -119,7 +121,7 @@ def icon_id(uid: int, figure: str, pixels: int, state: State) -> int:
         One of `FIGURES`.
     pixels
         From `side`.
-    state
+    basis
         What the picture depends on now.
 
     A picture that is out of date is shown until the new one is there, within a frame: an empty
@@ -127,8 +129,8 @@ def icon_id(uid: int, figure: str, pixels: int, state: State) -> int:
     """
     wish = _Wish(uid, figure, pixels)
     picture = _pictures.get(wish)
-    if picture is None or picture.state != state:
-        _pending[wish] = state
+    if picture is None or picture.basis != basis:
+        _pending[wish] = basis
         if not bpy.app.timers.is_registered(_work):
             bpy.app.timers.register(_work, first_interval=0)
     if picture is None:
@@ -138,14 +140,14 @@ def icon_id(uid: int, figure: str, pixels: int, state: State) -> int:
     return picture.icon
 
 
-def differences(uid: int, state: State) -> tuple[float, float, float] | None:
+def differences(uid: int, basis: Basis) -> tuple[float, float, float] | None:
     """Give ΔE00 of what is in the shader node, to be called while drawing, after `icon_id`.
 
     At the instrument, and mean and 95th percentile over all angles; None until they are computed
     along with the pictures. Parameters as with `icon_id`.
     """
     found = _differences.get(uid)
-    return found[1] if found is not None and found[0] == state else None
+    return found[1] if found is not None and found[0] == basis else None
 
 
 def refresh(material: Any) -> None:
@@ -235,11 +237,13 @@ def _work() -> float | None:
 
 
 def _make(material: Any, wishes: Sequence[_Wish]) -> None:
-    from .. import settled, working_space
-    from . import compose, data
+    from ..blender import working_space
+    from ..material import settled
+    from . import data
+    from .figures import compose
 
-    found, look = facts.of(material), theme.current(bpy.context.preferences)
-    state = (found, look)
+    found, look = snapshot.of(material), theme.current(bpy.context.preferences)
+    basis = (found, look)
     try:
         space = working_space.current()
         shown = data.collect(material, space, found.flat, found)
@@ -247,19 +251,19 @@ def _make(material: Any, wishes: Sequence[_Wish]) -> None:
     except RoughSpectraError:
         # The panel says what is wrong with the material; there is nothing to picture.
         for wish in wishes:
-            _store(wish, state, None)
+            _store(wish, basis, None)
         return
-    _differences[material.session_uid] = (state, apart)
+    _differences[material.session_uid] = (basis, apart)
     for wish in wishes:
-        _store(wish, state, compose.picture(wish.figure, shown, wish.side, look))
+        _store(wish, basis, compose.picture(wish.figure, shown, wish.side, look))
 
 
-def _store(wish: _Wish, state: State, canvas: Any) -> None:
+def _store(wish: _Wish, basis: Basis, canvas: Any) -> None:
     picture = _pictures.get(wish)
     if picture is None:
         name = f"{wish.material}-{wish.figure}-{wish.side}"
-        picture = _pictures[wish] = _Picture(name, state, 0, time.monotonic())
-    picture.state = state
+        picture = _pictures[wish] = _Picture(name, basis, 0, time.monotonic())
+    picture.basis = basis
     if canvas is None:
         picture.icon = 0
         return

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .looks import Look, look
+from .drawing.looks import Look, look
 
 if TYPE_CHECKING:
-    from .raster import Color
+    from .drawing.raster import Color
 
 
 _PANELS_OF_INTERFACE = bpy.app.version >= (5, 0, 0)

@@ -7,9 +7,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import readers, target
-from rough_spectra.addon.sample import Sample
-from rough_spectra.addon.science import colour
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.addon.support.colour_science import colour
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 
@@ -65,7 +66,7 @@ def request_for():
 
     def make(sample, degrees=30.0, **settings):
         settings.setdefault("model", "two-bounce")
-        return target.Request(sample, float(np.radians(degrees)), **settings)
+        return solve.Request(sample, float(np.radians(degrees)), **settings)
 
     return make
 

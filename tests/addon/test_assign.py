@@ -7,17 +7,24 @@ import json
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, changes, facts, nodes, stamp, storage, working_space
-from rough_spectra.addon.sample import Sample
+from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.material import (
+    changes,
+    derive,
+    snapshot,
+    state,
+    storage,
+)
+from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.core.errors import DomainError, MaterialError
 
 SPACE = "Linear Rec.709"
 
 
 def sockets(material):
-    node = nodes.shader_node(material)
-    color = tuple(nodes.color_socket(node).default_value)[:3]
-    return (*color, nodes.roughness_socket(node).default_value)
+    node = shader_nodes.shader_node(material)
+    color = tuple(shader_nodes.color_socket(node).default_value)[:3]
+    return (*color, shader_nodes.roughness_socket(node).default_value)
 
 
 def everything(material):
@@ -71,31 +78,31 @@ def same_sample(a, b):
 def test_what_is_stored_is_bit_exact(make_material, awkward, request_for):
     material = make_material()
     request = request_for(awkward, 37.5, model="closure", illuminant="A", observer=10)
-    assign.assign([(material, request)], "PRINCIPLED")
+    derive.assign([(material, request)], "PRINCIPLED")
     loaded = storage.load(material)
     same_sample(loaded.sample, awkward)
     assert loaded.sigma == request.sigma
     assert (loaded.model, loaded.illuminant, loaded.observer) == ("closure", "A", 10)
     assert material.rough_spectra.shader == "PRINCIPLED"
-    assert facts.has_spectrum(material)
+    assert snapshot.has_spectrum(material)
 
 
 @pytest.mark.parametrize("degrees", [0, 0.1, 1, 12.5, 15, 17.3, 30, 45, 59.99999, 89.9, 90])
 def test_sigma_comes_back_as_entered(make_material, colorchecker, request_for, degrees):
     material = make_material()
-    assign.assign([(material, request_for(colorchecker[0], degrees))])
-    assert facts.sigma_degrees(material.rough_spectra) == degrees
+    derive.assign([(material, request_for(colorchecker[0], degrees))])
+    assert snapshot.sigma_degrees(material.rough_spectra) == degrees
     assert storage.load(material).sigma == np.radians(degrees)
 
 
 def test_sockets_hold_the_solution(make_material, colorchecker, request_for):
     material = make_material()
-    (solution,) = assign.assign([(material, request_for(colorchecker[3]))])
+    (solution,) = derive.assign([(material, request_for(colorchecker[3]))])
     expected = np.append(solution.color, solution.roughness).astype(np.float32)
     np.testing.assert_array_equal(np.float32(sockets(material)), expected)
     assert (solution.color <= 1).all()
     assert (solution.color >= 0).all()
-    assert stamp.stale_reasons(material, SPACE) == []
+    assert state.stale_reasons(material, SPACE) == []
 
 
 def test_solutions_come_in_the_order_asked_for(make_material, colorchecker, nix, request_for):
@@ -113,17 +120,17 @@ def test_solutions_come_in_the_order_asked_for(make_material, colorchecker, nix,
         for i, (sample, extra) in enumerate(zip(samples, settings, strict=True))
     ]
     materials = [make_material(str(i)) for i in range(5)]
-    together = assign.assign(list(zip(materials, requests, strict=True)))
+    together = derive.assign(list(zip(materials, requests, strict=True)))
     for request, solution, material in zip(requests, together, materials, strict=True):
-        (alone,) = assign.assign([(make_material("alone"), request)])
+        (alone,) = derive.assign([(make_material("alone"), request)])
         np.testing.assert_allclose(solution.color, alone.color, rtol=1e-12)
         assert solution.roughness == pytest.approx(alone.roughness, rel=1e-12)
         assert storage.load(material).sample.name == request.sample.name
 
 
 def test_nothing_to_assign():
-    assert assign.assign([]) == []
-    assert assign.renew([]) == []
+    assert derive.assign([]) == []
+    assert derive.renew([]) == []
 
 
 def bad_node(material, _request):
@@ -157,13 +164,13 @@ def test_all_or_none(make_material, colorchecker, request_for, spoil):
     """One fault among three leaves all three as they were, wherever it stands."""
     for fault in range(3):
         materials = [make_material(f"{fault}{i}") for i in range(3)]
-        assign.assign([(m, request_for(colorchecker[7])) for m in materials])
+        derive.assign([(m, request_for(colorchecker[7])) for m in materials])
         samples = [Sample(s.name, s.wavelengths, s.values, s.kind) for s in colorchecker[10:13]]
         requests = [request_for(sample, 45) for sample in samples]
         spoil(materials[fault], requests[fault])
         before = [everything(m) for m in materials]
         with pytest.raises((MaterialError, DomainError)) as caught:
-            assign.assign(list(zip(materials, requests, strict=True)))
+            derive.assign(list(zip(materials, requests, strict=True)))
         assert str(caught.value).endswith(".")
         assert [everything(m) for m in materials] == before
 
@@ -171,23 +178,23 @@ def test_all_or_none(make_material, colorchecker, request_for, spoil):
 def test_one_material_named_twice_is_refused(make_material, colorchecker, request_for):
     material = make_material("Twice")
     with pytest.raises(MaterialError, match="'Twice' is named twice; give it one spectrum"):
-        assign.assign([(material, request_for(sample)) for sample in colorchecker[:2]])
-    assert not facts.has_spectrum(material)
+        derive.assign([(material, request_for(sample)) for sample in colorchecker[:2]])
+    assert not snapshot.has_spectrum(material)
 
 
 def test_renew_is_all_or_none_whatever_the_shaders(make_material, colorchecker, request_for):
     first, second = make_material("a"), make_material("b")
     for material, shader in ((first, "AUTO"), (second, "PRINCIPLED")):
-        assign.assign([(material, request_for(colorchecker[0]))], shader)
+        derive.assign([(material, request_for(colorchecker[0]))], shader)
         material.rough_spectra.sigma = 0.9
-    nodes.shader_node(second).mute = True
+    shader_nodes.shader_node(second).mute = True
     before = everything(first), everything(second)
     for order in ((first, second), (second, first)):
         with pytest.raises(MaterialError, match="is muted"):
-            assign.renew(order)
+            derive.renew(order)
         assert (everything(first), everything(second)) == before
     with pytest.raises(MaterialError, match="'plain' has no measured spectrum; assign one first"):
-        assign.renew([first, make_material("plain")])
+        derive.renew([first, make_material("plain")])
     assert everything(first) == before[0]
 
 
@@ -195,11 +202,11 @@ def test_renew_brings_back_what_was_derived(make_material, nix, request_for):
     material, other = make_material("a"), make_material("b")
     samples = nix["terracotta"], nix["cardboard"]
     work = list(zip((material, other), map(request_for, samples), strict=True))
-    assign.assign(work[:1], "PRINCIPLED")
-    assign.assign(work[1:], "DIFFUSE")
+    derive.assign(work[:1], "PRINCIPLED")
+    derive.assign(work[1:], "DIFFUSE")
     before = [everything(m) for m in (material, other)]
-    nodes.color_socket(nodes.shader_node(material)).default_value = (0, 0, 0, 1)
-    solutions = assign.renew([other, material])
+    shader_nodes.color_socket(shader_nodes.shader_node(material)).default_value = (0, 0, 0, 1)
+    solutions = derive.renew([other, material])
     after = [everything(m) for m in (material, other)]
     for stored, _, _ in (*before, *after):
         del stored["stamp"]  # in double precision, where company changes the last digit
@@ -209,20 +216,20 @@ def test_renew_brings_back_what_was_derived(make_material, nix, request_for):
 
 def test_a_later_change_of_settings_counts(make_material, colorchecker, request_for):
     material, fresh = make_material("a"), make_material("b")
-    assign.assign([(material, request_for(colorchecker[4], 10))])
+    derive.assign([(material, request_for(colorchecker[4], 10))])
     group = material.rough_spectra
     group.sigma, group.model, group.illuminant = np.radians(40), "closure", "A"
-    assign.renew([material])
-    assign.assign([(fresh, request_for(colorchecker[4], 40, model="closure", illuminant="A"))])
+    derive.renew([material])
+    derive.assign([(fresh, request_for(colorchecker[4], 40, model="closure", illuminant="A"))])
     assert sockets(material) == sockets(fresh)
 
 
 def change(material, what):
-    node, group = nodes.shader_node(material), material.rough_spectra
+    node, group = shader_nodes.shader_node(material), material.rough_spectra
     if what == "color":
         node.inputs[0].default_value[1] += 2e-6
     elif what == "roughness":
-        nodes.roughness_socket(node).default_value += 2e-6
+        shader_nodes.roughness_socket(node).default_value += 2e-6
     elif what == "color linked":
         tree = material.node_tree
         tree.links.new(tree.nodes.new("ShaderNodeRGB").outputs[0], node.inputs[0])
@@ -267,43 +274,43 @@ def change(material, what):
 )
 def test_each_change_that_matters_is_told(make_material, colorchecker, request_for, what, reason):
     material = make_material(node="ShaderNodeBsdfPrincipled")
-    assign.assign([(material, request_for(colorchecker[6]))], "PRINCIPLED")
-    assert stamp.stale_reasons(material, SPACE) == []
+    derive.assign([(material, request_for(colorchecker[6]))], "PRINCIPLED")
+    assert state.stale_reasons(material, SPACE) == []
     with changes.paused():  # else a setting would be followed at once
         change(material, what)
-    assert stamp.stale_reasons(material, SPACE) == [reason]
+    assert state.stale_reasons(material, SPACE) == [reason]
 
 
 def test_changes_that_do_not_matter_are_not_told(make_material, colorchecker, request_for):
     material = make_material(node="ShaderNodeBsdfPrincipled")
-    assign.assign([(material, request_for(colorchecker[6]))])
+    derive.assign([(material, request_for(colorchecker[6]))])
     material.rough_spectra.observer = "10"  # of reports only
     material.rough_spectra.sigma_source = "measured with a profilometer"
-    nodes.shader_node(material).inputs["Roughness"].default_value = 0.1
+    shader_nodes.shader_node(material).inputs["Roughness"].default_value = 0.1
     material.name = "renamed"
-    assert stamp.stale_reasons(material, SPACE) == []
+    assert state.stale_reasons(material, SPACE) == []
 
 
 def test_change_of_working_space_is_told_and_renewed(
     make_material, colorchecker, request_for, set_working_space
 ):
     material, fresh = make_material("a"), make_material("b")
-    assign.assign([(material, request_for(colorchecker[6]))])
+    derive.assign([(material, request_for(colorchecker[6]))])
     set_working_space("ACEScg")
     space = working_space.current().name
-    assert stamp.stale_reasons(material, space) == [
+    assert state.stale_reasons(material, space) == [
         "the working space changed from Linear Rec.709 to ACEScg"
     ]
-    assign.renew([material])
-    assert stamp.stale_reasons(material, space) == []
-    assign.assign([(fresh, request_for(colorchecker[6]))])
+    derive.renew([material])
+    assert state.stale_reasons(material, space) == []
+    derive.assign([(fresh, request_for(colorchecker[6]))])
     assert sockets(material) == sockets(fresh)
 
 
 def test_all_survives_save_and_load(make_material, awkward, request_for, tmp_path):
     material = make_material("Kept")
     material.use_fake_user = True
-    assign.assign([(material, request_for(awkward, 12.3))])
+    derive.assign([(material, request_for(awkward, 12.3))])
     before = everything(material)
     path = str(tmp_path / "scene.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
@@ -312,14 +319,14 @@ def test_all_survives_save_and_load(make_material, awkward, request_for, tmp_pat
     material = bpy.data.materials["Kept"]
     assert everything(material) == before
     same_sample(storage.load(material).sample, awkward)
-    assert stamp.stale_reasons(material, SPACE) == []
+    assert state.stale_reasons(material, SPACE) == []
 
 
 @pytest.mark.parametrize("link", [False, True])
 def test_all_survives_append_and_link(make_material, awkward, request_for, tmp_path, link):
     material = make_material("Kept")
     material.use_fake_user = True
-    assign.assign([(material, request_for(awkward, 12.3))])
+    derive.assign([(material, request_for(awkward, 12.3))])
     before = everything(material)
     path = str(tmp_path / "scene.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
@@ -329,11 +336,11 @@ def test_all_survives_append_and_link(make_material, awkward, request_for, tmp_p
     (material,) = wanted.materials
     assert everything(material) == before
     same_sample(storage.load(material).sample, awkward)
-    assert stamp.stale_reasons(material, SPACE) == []
+    assert state.stale_reasons(material, SPACE) == []
     if link:
         for act in (
-            lambda: assign.assign([(material, request_for(awkward))]),
-            lambda: assign.renew([material]),
+            lambda: derive.assign([(material, request_for(awkward))]),
+            lambda: derive.renew([material]),
         ):
             with pytest.raises(MaterialError, match="make it local first"):
                 act()
@@ -342,10 +349,10 @@ def test_all_survives_append_and_link(make_material, awkward, request_for, tmp_p
 
 def test_a_copy_keeps_its_own_spectrum(make_material, awkward, colorchecker, request_for):
     material = make_material("Kept")
-    assign.assign([(material, request_for(awkward))])
+    derive.assign([(material, request_for(awkward))])
     copy = material.copy()
-    assert stamp.stale_reasons(copy, SPACE) == []
-    assign.assign([(copy, request_for(colorchecker[0]))])
+    assert state.stale_reasons(copy, SPACE) == []
+    derive.assign([(copy, request_for(colorchecker[0]))])
     same_sample(storage.load(material).sample, awkward)
 
 
@@ -357,22 +364,22 @@ def test_undo_and_redo_take_spectrum_and_sockets_along(make_material, colorcheck
         for sample in (None, *colorchecker[:2]):
             material = bpy.data.materials["Undone"]
             if sample is not None:
-                assign.assign([(material, request_for(sample))])
+                derive.assign([(material, request_for(sample))])
             states.append(everything(material))
             assert bpy.ops.ed.undo_push(message="step") == {"FINISHED"}
         for expected in (states[1], states[0]):
             bpy.ops.ed.undo()
             assert everything(bpy.data.materials["Undone"]) == expected
-        assert not facts.has_spectrum(bpy.data.materials["Undone"])
+        assert not snapshot.has_spectrum(bpy.data.materials["Undone"])
         bpy.ops.ed.redo()
         assert everything(bpy.data.materials["Undone"]) == states[1]
 
 
 def test_a_newer_schema_is_not_guessed_at(make_material, colorchecker, request_for):
     material = make_material("Future")
-    assign.assign([(material, request_for(colorchecker[0]))])
+    derive.assign([(material, request_for(colorchecker[0]))])
     material.rough_spectra.schema += 1
-    for act in (storage.load, lambda m: assign.renew([m])):
+    for act in (storage.load, lambda m: derive.renew([m])):
         with pytest.raises(MaterialError, match="'Future' was stored by a newer Rough Spectra"):
             act(material)
 
@@ -387,7 +394,7 @@ def test_a_newer_schema_is_not_guessed_at(make_material, colorchecker, request_f
 )
 def test_damaged_storage_is_one_sentence(make_material, colorchecker, request_for, stored, text):
     material = make_material("Damaged")
-    assign.assign([(material, request_for(colorchecker[0]))])
+    derive.assign([(material, request_for(colorchecker[0]))])
     setattr(material.rough_spectra, stored, text)
     with pytest.raises(MaterialError, match="'Damaged': its stored spectrum cannot be read"):
         storage.load(material)
@@ -395,7 +402,7 @@ def test_damaged_storage_is_one_sentence(make_material, colorchecker, request_fo
 
 def test_stored_values_that_no_spectrum_has_are_refused(make_material, colorchecker, request_for):
     material = make_material("Damaged")
-    assign.assign([(material, request_for(colorchecker[0]))])
+    derive.assign([(material, request_for(colorchecker[0]))])
     for values in ([0.1, float("nan")], [0.1, 5.5]):
         stored = {"wavelengths": [400, 500], "values": values}
         material.rough_spectra.spectrum = json.dumps(stored)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from rough_spectra.addon import blend_file
+from rough_spectra.addon.blender import blend_file
 
 TESTS = Path(__file__).resolve().parents[1]
 SIZE = 1 << 20

@@ -8,21 +8,18 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import (
-    assign,
-    derivation,
-    presets,
-    readings,
-    target,
-    working_space,
-)
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.instrument import bake
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derivation, derive
+from rough_spectra.addon.samples import presets
 from rough_spectra.core import ladder
 
 
-def assigned(degrees, model=target.AUTO):
+def assigned(degrees, model=solve.AUTO):
     material = bpy.data.materials.new("White")
-    request = target.Request(presets.load("19"), math.radians(degrees), model)
-    (solution,) = assign.assign([(material, request)])
+    request = solve.Request(presets.load("19"), math.radians(degrees), model)
+    (solution,) = derive.assign([(material, request)])
     return material, solution
 
 
@@ -33,14 +30,14 @@ def test_smooth_needs_no_model_and_rough_needs_all_bounces(degrees, model):
     found = derivation.get_stamp(material)
     assert (found.model, found.model_reason) == (model, solution.model_reason)
     assert found.model_reason.startswith(f"{model}: ")
-    assert material.rough_spectra.model == target.AUTO
+    assert material.rough_spectra.model == solve.AUTO
 
 
 def test_smooth_material_is_lambertian_and_rough_one_is_matched():
     _, smooth = assigned(1)
     assert smooth.roughness == 0
     assert smooth.shader_reason.startswith("lambert")
-    assert smooth.delta_e_mean == smooth.delta_e_lambert < target.TOLERANCE
+    assert smooth.delta_e_mean == smooth.delta_e_lambert < solve.TOLERANCE
     _, rough = assigned(45)
     assert rough.roughness > 0.3
     assert rough.delta_e_mean < rough.delta_e_lambert / 2
@@ -50,13 +47,13 @@ def test_model_asked_for_is_kept_and_its_material_matched():
     material, solution = assigned(5, "two-bounce")
     assert solution.model == "two-bounce"
     assert solution.roughness > 0
-    assert derivation.get_stamp(material).model_reason == target.ASKED_FOR
+    assert derivation.get_stamp(material).model_reason == solve.ASKED_FOR
 
 
 def test_bake_predicts_with_the_model_that_was_assigned():
     material, solution = assigned(45)
-    (prepared,) = readings.prepare([("", material)])
-    (entry,) = readings.compare([prepared], None).entries
+    (prepared,) = bake.prepare([("", material)])
+    (entry,) = bake.compare([prepared], None).entries
     assert entry.predicted.model == "closure"
     assert entry.predicted.model_reason == solution.model_reason
     assert entry.shader_reason == solution.shader_reason
@@ -71,13 +68,13 @@ def test_bake_predicts_with_the_model_that_was_assigned():
 def test_a_material_solved_alone_is_the_one_solved_among_others(model, kind):
     """Alone, its spectra are kept from one step of a slider to the next; that changes nothing."""
     requests = [
-        target.Request(replace(presets.load(number), kind=kind), math.radians(degrees), model)
+        solve.Request(replace(presets.load(number), kind=kind), math.radians(degrees), model)
         for number, degrees in (("13", 20), ("14", 35), ("14", 36), ("19", 60))
     ]
-    together = target.solve(requests, working_space.current())
+    together = solve.solve(requests, working_space.current())
     for request, among in zip(requests, together, strict=True):
         for _ in range(2):
-            [alone] = target.solve([request], working_space.current())
+            [alone] = solve.solve([request], working_space.current())
             # Matrix products of one row and of many round differently.
             np.testing.assert_allclose(alone.color, among.color, rtol=1e-12)
             assert alone.roughness == pytest.approx(among.roughness, abs=1e-9)

@@ -5,8 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import nodes
-from rough_spectra.addon.spectrophotometer.measure import RING_45_0, Geometry, measure
+from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.instrument.measure import RING_45_0, Geometry, measure
 from rough_spectra.core import cycles
 from rough_spectra.core.errors import MaterialError
 
@@ -123,7 +123,7 @@ def test_each_principled_socket_is_refused_or_changes_no_reading(make_material):
         socket = material.node_tree.nodes["Principled BSDF"].inputs[socket.identifier]
         socket.default_value = changed(socket)
         try:
-            nodes.find(material)
+            shader_nodes.find(material)
         except MaterialError:
             continue  # the next test measures these
         accepted.append(material)
@@ -135,13 +135,13 @@ def test_each_principled_socket_is_refused_or_changes_no_reading(make_material):
     assert {name: difference for name, difference in named.items() if difference > 2e-6} == {}
 
 
-@pytest.mark.parametrize("neutral", sorted(nodes._PURE_DIFFUSE))
+@pytest.mark.parametrize("neutral", sorted(shader_nodes._PURE_DIFFUSE))
 def test_a_refused_socket_does_change_the_reading(make_material, neutral):
     base, other = make_material(**PRINCIPLED), make_material(**PRINCIPLED)
     socket = other.node_tree.nodes["Principled BSDF"].inputs[neutral]
     socket.default_value = changed(socket)
     with pytest.raises(MaterialError, match=neutral):
-        nodes.find(other)
+        shader_nodes.find(other)
     seen = measure([base, other], [RING_45_0])[0, :, 0]
     assert np.abs(seen[1] / seen[0] - 1).max() > 1e-3
     assert len(bpy.data.materials) == 2

@@ -6,9 +6,10 @@ import warnings
 
 import numpy as np
 import pytest
-from rough_spectra.addon import colorimetry, e308
-from rough_spectra.addon.science import colour
-from rough_spectra.core import color_difference, reading
+from rough_spectra.addon.colorimetry import astm_e308, tristimulus
+from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.core import reading
+from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import DomainError
 
 OBSERVERS = {
@@ -39,14 +40,14 @@ def smooth(nm):
 
 
 @pytest.mark.parametrize("observer", [2, 10])
-@pytest.mark.parametrize("illuminant", colorimetry.ILLUMINANTS)
+@pytest.mark.parametrize("illuminant", tristimulus.ILLUMINANTS)
 def test_weights_are_e308_for_every_illuminant_and_observer(illuminant, observer):
     rng = np.random.default_rng(308)
     for step in (5, 10, 20):
         wavelengths = np.arange(380.0, 781.0, step)
         values = rng.uniform(0, 1, (1, wavelengths.size))
         expected = [peer_xyz(v, wavelengths, illuminant, observer) for v in values]
-        found = values @ colorimetry.weights(wavelengths, illuminant, observer)
+        found = values @ tristimulus.weights(wavelengths, illuminant, observer)
         # E308 is linear, so only the order of the sums differs.
         np.testing.assert_allclose(found, expected, rtol=1e-13)
 
@@ -57,7 +58,7 @@ def test_weights_are_e308_where_ends_are_missing(step, first, last):
     wavelengths = np.arange(first, last + 1, step)
     values = smooth(wavelengths)
     np.testing.assert_allclose(
-        values @ colorimetry.weights(wavelengths),
+        values @ tristimulus.weights(wavelengths),
         peer_xyz(values, wavelengths, "D65", 2),
         rtol=1e-13,
     )
@@ -66,10 +67,10 @@ def test_weights_are_e308_where_ends_are_missing(step, first, last):
 @pytest.mark.parametrize("step", [5, 10])
 def test_usual_grids_need_no_import_of_colour_science(monkeypatch, step):
     """It takes half a second, in which a panel would stand still at its first use."""
-    colorimetry._weights.cache_clear()
-    monkeypatch.setattr(e308, "colour", None)
+    tristimulus._weights.cache_clear()
+    monkeypatch.setattr(astm_e308, "colour", None)
     wavelengths = np.arange(400.0, 701.0, step)
-    assert colorimetry.weights(wavelengths, "F11", 10).shape == (wavelengths.size, 3)
+    assert tristimulus.weights(wavelengths, "F11", 10).shape == (wavelengths.size, 3)
 
 
 def test_white_points_are_the_published_ones():
@@ -83,7 +84,7 @@ def test_white_points_are_the_published_ones():
         ("F11", 2, 1.00962, 0.64350),
         ("E", 2, 1.00000, 1.00000),
     ):
-        white = colorimetry.white(illuminant, observer)
+        white = tristimulus.white(illuminant, observer)
         # The tables of 5 nm and of 10 nm differ by 3e-4, for a lamp with lines by 1e-3.
         tolerance = 2e-3 if illuminant[0] == "F" else 5e-4
         np.testing.assert_allclose(white, [x, 1, z], atol=tolerance)
@@ -109,8 +110,8 @@ def test_any_grid_comes_near_the_1_nm_sum(wavelengths, illuminant):
         peer_xyz(values, fine, illuminant, 2, method="Integration")
         for values in (smooth(fine), np.ones(fine.size))
     )
-    matrix = colorimetry.weights(wavelengths, illuminant)
-    found = colorimetry.spectrum_to_lab(smooth(wavelengths), wavelengths, illuminant)
+    matrix = tristimulus.weights(wavelengths, illuminant)
+    found = tristimulus.spectrum_to_lab(smooth(wavelengths), wavelengths, illuminant)
     # 0.002 is what the 5 nm weights themselves differ by from the 1 nm sum.
     assert color_difference.delta_e(found, color_difference.xyz_to_lab(expected, white)) < 0.003
     assert matrix.shape == (wavelengths.size, 3)
@@ -122,19 +123,19 @@ def test_bands_beyond_the_visible_do_not_matter():
     wide = np.arange(300.0, 2501.0, 10.0)
     values = np.where((wide >= 360) & (wide <= 780), smooth(wide), 0.99)
     np.testing.assert_allclose(
-        values @ colorimetry.weights(wide),
-        smooth(visible) @ colorimetry.weights(visible),
+        values @ tristimulus.weights(wide),
+        smooth(visible) @ tristimulus.weights(visible),
         rtol=1e-14,
     )
 
 
 def test_unmeasured_ends_are_told_and_too_much_of_them_is_refused():
-    assert colorimetry.held_share(np.arange(360.0, 781.0, 10)) == 0
-    assert 0 < colorimetry.held_share(np.arange(400.0, 701.0, 10)) < 0.01
-    colorimetry.weights(np.arange(400.0, 701.0, 10))
+    assert tristimulus.held_share(np.arange(360.0, 781.0, 10)) == 0
+    assert 0 < tristimulus.held_share(np.arange(400.0, 701.0, 10)) < 0.01
+    tristimulus.weights(np.arange(400.0, 701.0, 10))
     for wavelengths in (np.arange(450.0, 781.0, 10), np.arange(800.0, 2500.0, 10), [550.0]):
         with pytest.raises(DomainError, match=r"nm leave|have no color") as caught:
-            colorimetry.weights(wavelengths)
+            tristimulus.weights(wavelengths)
         assert str(caught.value).endswith("a color needs about 400 to 700 nm.")
 
 
@@ -147,7 +148,7 @@ def test_unmeasured_ends_are_told_and_too_much_of_them_is_refused():
 )
 def test_unknown_light_or_observer_is_refused(arguments, sentence):
     with pytest.raises(DomainError) as caught:
-        colorimetry.weights(np.arange(400.0, 701.0, 10), *arguments)
+        tristimulus.weights(np.arange(400.0, 701.0, 10), *arguments)
     assert str(caught.value).startswith(sentence)
 
 
@@ -164,14 +165,14 @@ def test_delta_e_and_lab_agree_with_colour_science():
     lab, other = random_labs()
     expected = colour().delta_E(lab, other, method="CIE 2000")
     np.testing.assert_allclose(color_difference.delta_e(lab, other), expected, rtol=0, atol=1e-9)
-    white = colorimetry.white("A")
+    white = tristimulus.white("A")
     xyz = np.random.default_rng(31).uniform(-0.1, 1.2, (500, 3))
     expected = colour().XYZ_to_Lab(xyz, colour().XYZ_to_xy(white))
     np.testing.assert_allclose(color_difference.xyz_to_lab(xyz, white), expected, rtol=0, atol=1e-9)
 
 
 def test_adaptation_agrees_with_colour_science():
-    whites = colorimetry.white("A"), colorimetry.white("D65")
+    whites = tristimulus.white("A"), tristimulus.white("D65")
     expected = colour().adaptation.matrix_chromatic_adaptation_VonKries(
         *whites, transform="Bradford"
     )
@@ -181,7 +182,7 @@ def test_adaptation_agrees_with_colour_science():
 
 
 def test_lab_of_white_gray_and_black():
-    white = colorimetry.white("D50", 10)
+    white = tristimulus.white("D50", 10)
     np.testing.assert_allclose(color_difference.xyz_to_lab(white, white), [100, 0, 0], atol=1e-12)
     np.testing.assert_allclose(color_difference.xyz_to_lab(0 * white, white), 0, atol=1e-12)
     # L* = 116 (Y)^(1/3) - 16
@@ -197,17 +198,17 @@ def test_nix_device_and_spectrum_agree(nix):
     assert stated == {("D65", 10), ("D50", 2)}
     for sample in nix.values():
         light = sample.illuminant, sample.observer
-        lab = colorimetry.spectrum_to_lab(sample.values, sample.wavelengths, *light)
+        lab = tristimulus.spectrum_to_lab(sample.values, sample.wavelengths, *light)
         # 0.0073 at most: the device integrates in its own way and prints nine digits.
         assert color_difference.delta_e(lab, sample.lab) <= 0.02
-        xyz = sample.values @ colorimetry.weights(sample.wavelengths, *light)
+        xyz = sample.values @ tristimulus.weights(sample.wavelengths, *light)
         np.testing.assert_allclose(xyz, sample.xyz, rtol=2e-4)
 
 
 def test_brick_does_not_agree_under_another_light(nix):
     """The file is of D50, 2°: read as D65, 10° like the others it would be off."""
     brick = nix["brick"]
-    lab = colorimetry.spectrum_to_lab(brick.values, brick.wavelengths, "D65", 10)
+    lab = tristimulus.spectrum_to_lab(brick.values, brick.wavelengths, "D65", 10)
     assert color_difference.delta_e(lab, brick.lab) > 1
 
 
@@ -221,7 +222,7 @@ def test_patch_14_of_the_2007_report(colorchecker, observer, apart, same_luminan
     like; what then is left in a*b* is the change of the spectrum's shape by interreflection.
     """
     green = next(sample for sample in colorchecker if sample.name == "green")
-    matrix = colorimetry.weights(green.wavelengths, "D65", observer)
+    matrix = tristimulus.weights(green.wavelengths, "D65", observer)
     smooth_xyz = green.values @ matrix
     rough_xyz = reading.from_albedo(green.values, np.pi / 4) @ matrix
     white = matrix.sum(axis=0)

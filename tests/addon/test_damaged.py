@@ -9,22 +9,21 @@ import bpy
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from rough_spectra.addon import (
-    assign,
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.colorimetry.illuminant_spectra import GRID
+from rough_spectra.addon.interface.panels import sentences
+from rough_spectra.addon.matching import scene_view, solve
+from rough_spectra.addon.matching.solve import Request
+from rough_spectra.addon.material import (
     changes,
     derivation,
-    facts,
-    measured,
-    presets,
-    scene_view,
-    stamp,
+    derive,
+    last_measurement,
+    snapshot,
+    state,
     storage,
-    target,
-    working_space,
 )
-from rough_spectra.addon.light_spectrum import GRID
-from rough_spectra.addon.panels import sentences
-from rough_spectra.addon.target import Request
+from rough_spectra.addon.samples import presets
 from rough_spectra.core.errors import MaterialError
 
 DEEP = "[" * 20_000
@@ -58,7 +57,7 @@ def damage(material, name, value):
 @pytest.fixture
 def materials(make_material):
     found = [make_material(f"M{i}") for i in range(3)]
-    assign.assign([(m, Request(presets.load("14"), 0.35, model="two-bounce")) for m in found])
+    derive.assign([(m, Request(presets.load("14"), 0.35, model="two-bounce")) for m in found])
     return found
 
 
@@ -73,7 +72,7 @@ def test_what_is_damaged_is_named_and_the_others_are_renewed(name, value, materi
         with changes.paused():
             material.rough_spectra.sigma = 0.5
     assert bpy.ops.rough_spectra.renew("EXEC_DEFAULT", scope="ALL_STALE") == {"FINISHED"}
-    assert [stamp.state(m).kind for m in (first, third)] == ["fresh", "fresh"]
+    assert [state.state(m).kind for m in (first, third)] == ["fresh", "fresh"]
 
 
 @each_damage
@@ -152,11 +151,11 @@ def damaged(draw, text):
 def texts():
     """Every text that a material stores, as it is when nothing is damaged."""
     material = bpy.data.materials.new("Whole")
-    assign.assign([(material, Request(presets.load("14"), 0.35, model="two-bounce"))])
+    derive.assign([(material, Request(presets.load("14"), 0.35, model="two-bounce"))])
     light = scene_view.make_light("Sun", "daylight", 0 * GRID + 1.0, 1.0)
     view = scene_view.SceneView("Scene", (light,), ((0.7, 0.0, 0.0, 0, 1.0),))
     group = material.rough_spectra
-    measured.note(material, measured.fingerprint(material), (0.1, 0.2, 0.3), 0.5)
+    last_measurement.note(material, last_measurement.fingerprint(material), (0.1, 0.2, 0.3), 0.5)
     names = ("spectrum", "details", "stamp", "measured")
     return {name: getattr(group, name) for name in names} | {"scene_view": view.to_json()}
 
@@ -195,15 +194,15 @@ def test_no_stored_text_raises_but_what_names_the_material(data, extension):
         assert fault.startswith("Material 'Whole': ")
         assert fault.endswith(".")
     else:
-        target.solve([storage.load(material)], working_space.current())
-    found = facts.of(material)
-    state = stamp.state(material)
-    assert all(isinstance(reason, str) for reason in state.reasons)
-    measured.get(material)
+        solve.solve([storage.load(material)], working_space.current())
+    found = snapshot.of(material)
+    told = state.state(material)
+    assert all(isinstance(reason, str) for reason in told.reasons)
+    last_measurement.get(material)
     style = sentences.Style(Plain(), "", "", "")
     sentences.reasons(found, style)
-    sentences.difference(found, stamp.numbers(found), style)
+    sentences.difference(found, state.numbers(found), style)
     sentences.source(group.source, group.details, group.sigma_source, style)
     sentences.scene(found, "Scene", style)
-    stamp.follows(material)
-    stamp.edited_by_hand(material)
+    state.follows(material)
+    state.edited_by_hand(material)

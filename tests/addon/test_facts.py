@@ -6,29 +6,27 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import (
-    assign,
+from rough_spectra.addon.blender import ocio, shader_nodes, working_space
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import (
     changes,
     derivation,
-    facts,
-    nodes,
-    ocio,
-    stamp,
+    derive,
+    snapshot,
+    state,
     storage,
-    target,
-    working_space,
 )
 
 
 @pytest.fixture
 def material(make_material, colorchecker):
     material = make_material(node="ShaderNodeBsdfPrincipled", Specular_IOR_Level=0.0)
-    assign.assign([(material, target.Request(colorchecker[13], 0.4))])
+    derive.assign([(material, solve.Request(colorchecker[13], 0.4))])
     return material
 
 
 def socket_of(material):
-    return nodes.color_socket(nodes.shader_node(material))
+    return shader_nodes.color_socket(shader_nodes.shader_node(material))
 
 
 def link_to(material, socket):
@@ -53,13 +51,15 @@ CHANGES = {
     "no number": lambda m: socket_of(m).default_value.__setitem__(1, math.nan),
     "below zero": lambda m: socket_of(m).default_value.__setitem__(1, -1.0),
     "roughness": lambda m: setattr(
-        nodes.roughness_socket(nodes.shader_node(m)), "default_value", 0.1
+        shader_nodes.roughness_socket(shader_nodes.shader_node(m)), "default_value", 0.1
     ),
-    "gloss": lambda m: setattr(nodes.shader_node(m).inputs["Coat Weight"], "default_value", 0.1),
-    "bump": lambda m: link_to(m, nodes.shader_node(m).inputs["Normal"]),
+    "gloss": lambda m: setattr(
+        shader_nodes.shader_node(m).inputs["Coat Weight"], "default_value", 0.1
+    ),
+    "bump": lambda m: link_to(m, shader_nodes.shader_node(m).inputs["Normal"]),
     "displacement": lambda m: link_to(m, m.node_tree.nodes["Material Output"].inputs[2]),
-    "name": lambda m: setattr(nodes.shader_node(m), "name", "Plaster"),
-    "mute": lambda m: setattr(nodes.shader_node(m), "mute", True),
+    "name": lambda m: setattr(shader_nodes.shader_node(m), "name", "Plaster"),
+    "mute": lambda m: setattr(shader_nodes.shader_node(m), "mute", True),
     "link": lambda m: m.node_tree.links.clear(),
     "engine": lambda _: setattr(bpy.context.scene.render, "engine", "BLENDER_WORKBENCH"),
 }
@@ -67,30 +67,30 @@ CHANGES = {
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_every_change_shows_and_nothing_else_does(material, change):
-    before = facts.of(material)
-    assert facts.of(material) == before
+    before = snapshot.of(material)
+    assert snapshot.of(material) == before
     with changes.paused():
         CHANGES[change](material)
-    after = facts.of(material)
+    after = snapshot.of(material)
     assert after != before
-    assert facts.of(material) == after
-    assert hash(facts.of(material)) == hash(after)
+    assert snapshot.of(material) == after
+    assert hash(snapshot.of(material)) == hash(after)
 
 
 def test_a_setting_that_is_no_number_is_equal_to_itself(material):
     with changes.paused():
         material.rough_spectra.sigma = material.rough_spectra.tolerance = math.nan
-    assert facts.of(material) == facts.of(material)
+    assert snapshot.of(material) == snapshot.of(material)
 
 
 def test_equal_facts_are_judged_once(material):
-    stamp.state(material)
-    before = stamp.judge.cache_info().misses
-    stamp.state(material)
-    assert stamp.judge.cache_info().misses == before
+    state.state(material)
+    before = state.judge.cache_info().misses
+    state.state(material)
+    assert state.judge.cache_info().misses == before
     socket_of(material).default_value[0] += 0.1
-    stamp.state(material)
-    assert stamp.judge.cache_info().misses == before + 1
+    state.state(material)
+    assert state.judge.cache_info().misses == before + 1
 
 
 def test_the_working_space_is_that_of_the_file(set_working_space, tmp_path):
@@ -124,7 +124,7 @@ def test_a_configuration_without_the_role_is_told(tmp_path, monkeypatch):
 def test_what_is_kept_reads_as_earlier_versions_wrote_it(material):
     """Stored texts are compared: they have to stay the same, letter by letter."""
     socket_of(material).default_value = (0.5, 0.25, 0.125, 1.0)
-    nodes.roughness_socket(nodes.shader_node(material)).default_value = 0.0
+    shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = 0.0
     storage.keep(material)
     expected = "('Principled BSDF', (0.5, 0.25, 0.125, 0.0), (False, False, False), [])"
     assert derivation.get_stamp(material).kept == expected

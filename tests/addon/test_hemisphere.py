@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rough_spectra.core import geometry
+from rough_spectra.core.numerics import direction_grid
 
 from tools import hemisphere_table
 
@@ -25,7 +25,7 @@ RENDERED = slice(None, None, 25)
 
 @pytest.fixture(scope="module")
 def directions():
-    return geometry.hemisphere(hemisphere_table.GEOMETRIES)
+    return direction_grid.hemisphere(hemisphere_table.GEOMETRIES)
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,13 @@ from pathlib import Path
 
 import bpy
 import pytest
-from rough_spectra.addon import job_failure
-from rough_spectra.addon.spectrophotometer.measure import RING_45_0, Geometry, Measurement, measure
+from rough_spectra.addon.blender import job_failure
+from rough_spectra.addon.instrument.measure import (
+    RING_45_0,
+    Geometry,
+    Measurement,
+    measure,
+)
 from rough_spectra.core.errors import OutputError
 
 SMALLER = "ask for less"

@@ -10,7 +10,8 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import journal, library, outputs
+from rough_spectra.addon.samples import library
+from rough_spectra.addon.support import atomic_files, journal
 from rough_spectra.core.errors import OutputError
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="forks and kills")
@@ -24,9 +25,9 @@ from argparse import Namespace
 from pathlib import Path
 import numpy as np
 from rough_spectra.addon import journal, library, outputs, readings_document, writers
-from rough_spectra.addon.readings_document import Measured, Predicted, Reading, Readings
-from rough_spectra.addon.sample import Sample
-from rough_spectra.addon.verbs import merge
+from rough_spectra.addon.readings.document import Measured, Predicted, Reading, Readings
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.addon.commands.verbs import merge
 from rough_spectra.core.errors import OutputError
 
 base = Path(sys.argv[1]) / "out" / "x"
@@ -353,7 +354,7 @@ def test_what_somebody_changed_after_the_kill_stays(half):
 def test_the_next_set_does_not_fall_back_to_the_one_that_was_killed(half):
     """Neither when it writes the same names, nor when it is a single file."""
     folder, _ = half
-    with outputs.publication() as files:
+    with atomic_files.publication() as files:
         files.write(folder / "b", b"newest")
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == {
         "a": b"new",

@@ -8,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import colorimetry, judgement, presets, readers, target, working_space
-from rough_spectra.addon.sample import Sample
-from rough_spectra.core import color_difference
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.samples import presets, quality, readers
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.core.color import color_difference
 
 from tests import pace
 
@@ -21,31 +24,31 @@ NIX = sorted((Path(__file__).parents[1] / "fixtures" / "nix").glob("*.csv"))
 def test_device_lab_agrees_under_the_files_own_light(path):
     (sample,) = readers.read(path)
     # 0.02: the files print nine digits; what is left is the interpolation of the weights.
-    assert judgement.own_color_difference(sample) <= 0.02
-    assert judgement.judge([sample]) == [()]
+    assert quality.own_color_difference(sample) <= 0.02
+    assert quality.judge([sample]) == [()]
 
 
 def test_brick_only_seems_to_disagree_when_its_light_is_ignored():
     (brick,) = readers.read(next(path for path in NIX if path.stem == "brick"))
     assert (brick.illuminant, brick.observer) == ("D50", 2)
     misread = replace(brick, illuminant="D65", observer=10)
-    assert round(judgement.own_color_difference(misread), 1) == 1.7
+    assert round(quality.own_color_difference(misread), 1) == 1.7
 
 
 def test_contradiction_reaches_the_user_with_the_solution():
     (sample,) = readers.read(NIX[0])
     lightness, a, b = sample.lab
     wrong = replace(sample, lab=(lightness, a + 5, b))
-    (solution,) = target.solve([target.Request(wrong, math.radians(10))], working_space.current())
+    (solution,) = solve.solve([solve.Request(wrong, math.radians(10))], working_space.current())
     assert any("differs from its own spectrum" in warning for warning in solution.warnings)
-    (solution,) = target.solve([target.Request(sample, math.radians(10))], working_space.current())
+    (solution,) = solve.solve([solve.Request(sample, math.radians(10))], working_space.current())
     assert not any("own spectrum" in warning for warning in solution.warnings)
 
 
 def test_without_a_stated_light_nothing_is_claimed():
     (sample,) = readers.read(NIX[0])
-    assert judgement.own_color_difference(replace(sample, illuminant="")) is None
-    assert judgement.own_color_difference(replace(sample, lab=None, xyz=None)) is None
+    assert quality.own_color_difference(replace(sample, illuminant="")) is None
+    assert quality.own_color_difference(replace(sample, lab=None, xyz=None)) is None
 
 
 NM = np.arange(400.0, 701.0, 10.0)
@@ -53,7 +56,7 @@ SMOOTH = 0.4 + 0.2 * np.sin(NM / 60)
 
 
 def sentences(values=SMOOTH, nm=NM, kind="reading", **fields):
-    return judgement.judge([Sample("it", nm, values, kind, **fields)])[0]
+    return quality.judge([Sample("it", nm, values, kind, **fields)])[0]
 
 
 def changed(values, band, value):
@@ -68,12 +71,12 @@ def test_a_plain_reading_gets_no_sentence():
 
 def test_presets_get_no_sentence():
     everything = presets.load_all()
-    assert [s for s in judgement.judge(everything) if s] == []
+    assert [s for s in quality.judge(everything) if s] == []
 
 
 def shifted(delta_e):
     """The Lab of the smooth spectrum, made lighter by about this ΔE00."""
-    lab = colorimetry.spectrum_to_lab(SMOOTH, NM, "D50", 2)
+    lab = tristimulus.spectrum_to_lab(SMOOTH, NM, "D50", 2)
     other = lab
     while color_difference.delta_e(lab, other) < delta_e:
         other = other + np.array([0.001, 0, 0])
@@ -87,7 +90,7 @@ def test_own_lab_or_xyz_above_the_limit_is_a_contradiction(delta_e, count):
     found = sentences(lab=tuple(lab), **light)
     assert len(found) == count
     # XYZ by hand: Y from L* alone, X and Z from it and a*, b*, CIE 15:2018 eq. 8.3 inverted.
-    white = colorimetry.white("D50", 2)
+    white = tristimulus.white("D50", 2)
     fy = (lab[0] + 16) / 116
     xyz = white * np.array([fy + lab[1] / 500, fy, fy - lab[2] / 200]) ** 3
     found = sentences(xyz=tuple(xyz), **light)
@@ -196,7 +199,7 @@ def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
         return Sample(name, nm, values, "reading", condition=condition)
 
     brighter = changed(SMOOTH, 4, SMOOTH[4] + excess)
-    found = judgement.judge(
+    found = quality.judge(
         [
             sample("paper", "M0", SMOOTH),
             sample("other", "M1", SMOOTH + 0.2),
@@ -209,15 +212,15 @@ def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
         assert found[0] == found[2]
         assert "'paper' differs by 0.012 at 440 nm between M0 and M1" in found[0][0]
     told_apart = [sample("paper (M0)", "M0", SMOOTH), sample("paper (M1)", "M1", brighter)]
-    assert [bool(each) for each in judgement.judge(told_apart)] == [named, named]
+    assert [bool(each) for each in quality.judge(told_apart)] == [named, named]
     finer = np.arange(380.0, 731.0, 5.0)
     either = sample("paper", "M1", np.interp(finer, NM, brighter), finer)
-    assert bool(judgement.judge([sample("paper", "M2", SMOOTH), either])[0]) is named
+    assert bool(quality.judge([sample("paper", "M2", SMOOTH), either])[0]) is named
 
 
 def test_ten_thousand_samples_are_judged_in_one_go():
     values = np.random.default_rng(1).uniform(0.2, 0.6, (10_000, NM.size))
-    lab = colorimetry.spectrum_to_lab(values, NM, "D50", 2)
+    lab = tristimulus.spectrum_to_lab(values, NM, "D50", 2)
     samples = [
         Sample(
             str(i // 2), NM, values[i], "reading", illuminant="D50", observer=2, lab=tuple(lab[i])
@@ -226,4 +229,4 @@ def test_ten_thousand_samples_are_judged_in_one_go():
     ]
     # Seen: 5 paces; one by one it would be far more.
     with pace.at_most(100):
-        assert not any(judgement.judge(samples))
+        assert not any(quality.judge(samples))

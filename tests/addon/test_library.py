@@ -19,8 +19,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rough_spectra.addon import (
-    colorimetry,
+from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.samples import (
     importing,
     library,
     library_files,
@@ -28,8 +28,8 @@ from rough_spectra.addon import (
     readers,
     swatches,
 )
-from rough_spectra.addon.sample import Sample
-from rough_spectra.core import color_difference
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import InputError, OutputError
 from rough_spectra.core.instruments import REGISTRY
 
@@ -450,7 +450,7 @@ def test_nearest_agrees_with_one_by_one(tmp_path):
     library.add([infrared, *(sample(f"{i}", 0.05 + 0.02 * i) for i in range(40))], "m", tmp_path)
     rgb = (0.3, 0.5, 0.2)
     found = library.nearest(swatches.to_lab(rgb), 5, tmp_path)
-    white = colorimetry.white("D65", 2)
+    white = tristimulus.white("D65", 2)
     linear = np.where(np.array(rgb) > 0.04045, ((np.array(rgb) + 0.055) / 1.055) ** 2.4, 0)
     # IEC 61966-2-1, scaled to the white of the spectra
     matrix = np.array(
@@ -461,7 +461,7 @@ def test_nearest_agrees_with_one_by_one(tmp_path):
         (
             float(
                 color_difference.delta_e(
-                    colorimetry.spectrum_to_lab(s.reflectance, s.wavelengths), lab
+                    tristimulus.spectrum_to_lab(s.reflectance, s.wavelengths), lab
                 )
             )
         )
@@ -511,8 +511,9 @@ load_extension()
 import os, signal
 from pathlib import Path
 import numpy as np
-from rough_spectra.addon import library, outputs
-from rough_spectra.addon.sample import Sample
+from rough_spectra.addon.samples import library
+from rough_spectra.addon.support import atomic_files as outputs
+from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.core import color_difference
 NM = np.arange(400.0, 701.0, 10.0)
 folder = Path({str(folder)!r})
@@ -571,7 +572,7 @@ def test_a_killed_process_leaves_the_old_file_and_no_lock(tmp_path, moment):
 
 
 def test_a_lock_that_another_keeps_is_a_sentence_and_not_a_hang(tmp_path):
-    from rough_spectra.addon import file_lock
+    from rough_spectra.addon.support import file_lock
 
     refused = pytest.raises(OutputError, match="another program")
     with file_lock.locked(tmp_path), refused, file_lock.locked(tmp_path, 0.1):

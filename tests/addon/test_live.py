@@ -7,39 +7,38 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import (
-    assign,
+from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import (
     changes,
-    facts,
-    live,
-    nodes,
-    stamp,
+    derive,
+    follow,
+    snapshot,
+    state,
     storage,
-    target,
-    working_space,
 )
-from rough_spectra.addon.openimageio import openimageio
+from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.core import cycles
 
 
 def sockets(material):
-    node = nodes.shader_node(material)
+    node = shader_nodes.shader_node(material)
     return (
-        *nodes.color_socket(node).default_value[:3],
-        nodes.roughness_socket(node).default_value,
+        *shader_nodes.color_socket(node).default_value[:3],
+        shader_nodes.roughness_socket(node).default_value,
     )
 
 
 def derived(request):
     """What the request gives when it is assigned."""
-    [solution] = target.solve([request], working_space.current())
+    [solution] = solve.solve([request], working_space.current())
     return (*solution.color, solution.roughness)
 
 
 @pytest.fixture
 def material(make_material, colorchecker, request_for):
     found = make_material("Wall", node="ShaderNodeBsdfPrincipled")
-    assign.assign([(found, request_for(colorchecker[6], 20))])
+    derive.assign([(found, request_for(colorchecker[6], 20))])
     return found
 
 
@@ -57,12 +56,12 @@ def test_a_setting_is_followed_at_once(material, setting, value):
     setattr(material.rough_spectra, setting, value)
     assert sockets(material) != before
     assert sockets(material) == pytest.approx(derived(storage.load(material)), abs=1e-6)
-    assert stamp.state(material).kind == "fresh"
+    assert state.state(material).kind == "fresh"
 
 
 def test_instrument_is_followed(make_material, nix, request_for):
     material = make_material()
-    assign.assign([(material, request_for(next(iter(nix.values()))))])
+    derive.assign([(material, request_for(next(iter(nix.values()))))])
     before = sockets(material)
     material.rough_spectra.instrument = "di:8"
     assert sockets(material) == pytest.approx(derived(storage.load(material)), abs=1e-6)
@@ -71,8 +70,8 @@ def test_instrument_is_followed(make_material, nix, request_for):
 
 def test_another_shader_is_made_at_once(material):
     material.rough_spectra.shader = "DIFFUSE"
-    assert nodes.shader_node(material).bl_idname == "ShaderNodeBsdfDiffuse"
-    assert stamp.state(material).kind == "fresh"
+    assert shader_nodes.shader_node(material).bl_idname == "ShaderNodeBsdfDiffuse"
+    assert state.state(material).kind == "fresh"
 
 
 def test_shaders_are_changed_back_and_forth_and_undone(material):
@@ -82,7 +81,11 @@ def test_shaders_are_changed_back_and_forth_and_undone(material):
     def seen():
         wall = bpy.data.materials["Wall"]
         tree = wall.node_tree
-        return nodes.shader_node(wall).name, sorted(tree.nodes.keys()), stamp.state(wall).kind
+        return (
+            shader_nodes.shader_node(wall).name,
+            sorted(tree.nodes.keys()),
+            state.state(wall).kind,
+        )
 
     with bpy.context.temp_override(window=window, screen=window.screen):
         bpy.ops.ed.undo_push(message="start")
@@ -107,21 +110,23 @@ def test_what_does_not_change_the_color_writes_nothing(material):
 
 
 def edit_color(material):
-    nodes.color_socket(nodes.shader_node(material)).default_value[0] = 0.9
+    shader_nodes.color_socket(shader_nodes.shader_node(material)).default_value[0] = 0.9
 
 
 def edit_roughness(material):
-    nodes.roughness_socket(nodes.shader_node(material)).default_value = 0.9
+    shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = 0.9
 
 
 def mute(material):
-    nodes.shader_node(material).mute = True
+    shader_nodes.shader_node(material).mute = True
 
 
 def link_texture(material):
     tree = material.node_tree
     texture = tree.nodes.new("ShaderNodeTexNoise")
-    tree.links.new(texture.outputs["Color"], nodes.color_socket(nodes.shader_node(material)))
+    tree.links.new(
+        texture.outputs["Color"], shader_nodes.color_socket(shader_nodes.shader_node(material))
+    )
 
 
 def keep_edit(material):
@@ -140,7 +145,7 @@ def test_what_was_edited_by_hand_is_not_overwritten_unasked(material, edit):
     material.rough_spectra.sigma = math.radians(45)
     assert sockets(material) == before
     assert material.rough_spectra.stamp == written
-    assert stamp.state(material).kind in {"stale", "error"}
+    assert state.state(material).kind in {"stale", "error"}
 
 
 def test_a_material_without_spectrum_is_left_alone(make_material):
@@ -152,25 +157,25 @@ def test_a_material_without_spectrum_is_left_alone(make_material):
 
 def test_storing_writes_the_sockets_once(material, colorchecker, request_for, monkeypatch):
     count = []
-    write = nodes.write
-    monkeypatch.setattr(nodes, "write", lambda *args: count.append(1) or write(*args))
-    assign.assign([(material, request_for(colorchecker[3], 45, illuminant="A", model="closure"))])
+    write = shader_nodes.write
+    monkeypatch.setattr(shader_nodes, "write", lambda *args: count.append(1) or write(*args))
+    derive.assign([(material, request_for(colorchecker[3], 45, illuminant="A", model="closure"))])
     assert len(count) == 1
 
 
 def test_what_cannot_be_derived_is_told_and_mended(material, capfd):
-    nodes.shader_node(material).inputs["Metallic"].default_value = 0.0
+    shader_nodes.shader_node(material).inputs["Metallic"].default_value = 0.0
     before = sockets(material)
-    material.node_tree.nodes.active = nodes.shader_node(material)
-    nodes.shader_node(material).inputs["Base Color"].keyframe_insert("default_value")
+    material.node_tree.nodes.active = shader_nodes.shader_node(material)
+    shader_nodes.shader_node(material).inputs["Base Color"].keyframe_insert("default_value")
     material.rough_spectra.sigma = math.radians(45)
-    state = stamp.state(material)
-    assert state.kind == "error"
-    assert "animated" in state.reasons[0]
+    told = state.state(material)
+    assert told.kind == "error"
+    assert "animated" in told.reasons[0]
     assert sockets(material) == before
     material.node_tree.animation_data_clear()
     material.rough_spectra.sigma = math.radians(46)
-    assert stamp.state(material).kind == "fresh"
+    assert state.state(material).kind == "fresh"
     assert capfd.readouterr().err == ""
 
 
@@ -186,13 +191,13 @@ def test_dragging_and_undo_go_together(material):
         bpy.ops.ed.undo()
         found = bpy.data.materials["Wall"]
         assert sockets(found) == before
-        assert facts.sigma_degrees(found.rough_spectra) == 20
-        assert stamp.state(found).kind == "fresh"
+        assert snapshot.sigma_degrees(found.rough_spectra) == 20
+        assert state.state(found).kind == "fresh"
         bpy.ops.ed.redo()
         found = bpy.data.materials["Wall"]
         assert sockets(found) == after
-        assert facts.sigma_degrees(found.rough_spectra) == 35
-        assert stamp.state(found).kind == "fresh"
+        assert snapshot.sigma_degrees(found.rough_spectra) == 35
+        assert state.state(found).kind == "fresh"
 
 
 def test_loading_a_file_derives_nothing(material, tmp_path):
@@ -204,7 +209,7 @@ def test_loading_a_file_derives_nothing(material, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     found = bpy.data.materials["Wall"]
     assert (sockets(found), found.rough_spectra.stamp) == (before, written)
-    assert stamp.state(found).kind == "stale"
+    assert state.state(found).kind == "stale"
 
 
 @pytest.fixture
@@ -245,7 +250,7 @@ def test_renders_follow_an_animated_sigma(wall, request_for, colorchecker, tmp_p
     for frame in (1, 2, 3):
         pixels = oiio.ImageBuf(str(tmp_path / f"frame-{frame:04d}.exr")).get_pixels()
         bpy.context.scene.frame_set(frame)
-        sigma = facts.sigma_degrees(wall.rough_spectra)
+        sigma = snapshot.sigma_degrees(wall.rough_spectra)
         *color, roughness = derived(request_for(colorchecker[6], sigma))
         expected = cycles.reflectance(color, roughness, 0.0, 0.0, 0.0)
         # Four samples in single precision.
@@ -259,7 +264,7 @@ def test_frames_are_followed_and_in_step(wall):
         bpy.context.scene.frame_set(frame)
         seen.append(sockets(wall))
         assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
-        assert stamp.state(wall).kind == "fresh"
+        assert state.state(wall).kind == "fresh"
     assert len(set(seen)) == 3
 
 
@@ -286,26 +291,26 @@ def test_animation_spares_edits_by_hand_and_others(wall, make_material):
     before = sockets(wall), sockets(other)
     bpy.context.scene.frame_set(2)
     assert (sockets(wall), sockets(other)) == before
-    assert stamp.state(wall).kind == "stale"
+    assert state.state(wall).kind == "stale"
 
 
 def test_one_that_fails_does_not_hold_up_others(make_material, colorchecker, request_for):
     good, bad = make_material("good"), make_material("bad")
-    assign.assign([(m, request_for(colorchecker[6])) for m in (good, bad)])
+    derive.assign([(m, request_for(colorchecker[6])) for m in (good, bad)])
     with changes.paused():
         bad.rough_spectra.spectrum = "{}"
         good.rough_spectra.sigma = 0.2
-    assign.follow([(bad, bad), (good, good)])
-    assert stamp.state(good).kind == "fresh"
-    assert "assign the sample again" in stamp.state(bad).reasons[0]
+    derive.follow([(bad, bad), (good, good)])
+    assert state.state(good).kind == "fresh"
+    assert "assign the sample again" in state.state(bad).reasons[0]
 
 
 def test_nothing_runs_once_unregistered(extension):
     handlers = bpy.app.handlers
-    ours = [f for f in handlers.frame_change_post if f.__module__ == live.__name__]
+    ours = [f for f in handlers.frame_change_post if f.__module__ == follow.__name__]
     assert len(ours) == 1
-    live.unregister()
+    follow.unregister()
     try:
         assert ours[0] not in handlers.frame_change_post[:]
     finally:
-        live.register()
+        follow.register()

@@ -6,7 +6,7 @@ import time
 
 import bpy
 import pytest
-from rough_spectra.addon import nodes
+from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.core.errors import MaterialError
 
 COLOR, ROUGHNESS = (0.25, 0.5, 0.75), 0.625  # exact in single precision
@@ -49,7 +49,7 @@ def value(socket):
 def refused(material, sentence, shader="AUTO"):
     before = described(material)
     with pytest.raises(MaterialError) as caught:
-        nodes.find(material, shader)
+        shader_nodes.find(material, shader)
     told = str(caught.value)
     assert sentence in told
     assert repr(material.name) in told
@@ -60,13 +60,13 @@ def refused(material, sentence, shader="AUTO"):
 def written(material, shader="AUTO"):
     """Find, see that finding changed nothing, and write."""
     before = described(material)
-    place = nodes.find(material, shader)
+    place = shader_nodes.find(material, shader)
     assert described(material) == before
-    name = nodes.write(place, COLOR, ROUGHNESS)
+    name = shader_nodes.write(place, COLOR, ROUGHNESS)
     node = material.node_tree.nodes[name]
     assert surface(material) == node
-    assert tuple(nodes.color_socket(node).default_value)[:3] == COLOR
-    assert nodes.roughness_socket(node).default_value == ROUGHNESS
+    assert tuple(shader_nodes.color_socket(node).default_value)[:3] == COLOR
+    assert shader_nodes.roughness_socket(node).default_value == ROUGHNESS
     return node
 
 
@@ -174,7 +174,10 @@ def test_changing_the_shader_back_and_forth_loses_and_adds_nothing(bumpy):
     first = surface(bumpy)
     for _ in range(3):
         diffuse = written(bumpy, "DIFFUSE")
-        assert (bump_of(diffuse), nodes.color_socket(diffuse).default_value[3]) == ("Bump", 0.5)
+        assert (bump_of(diffuse), shader_nodes.color_socket(diffuse).default_value[3]) == (
+            "Bump",
+            0.5,
+        )
         principled = written(bumpy, "PRINCIPLED")
         assert principled == first
         assert bump_of(principled) == "Bump"
@@ -288,7 +291,7 @@ def test_reroutes_are_seen_through(make_material):
     tree.links.new(shader.outputs[0], first.inputs[0])
     tree.links.new(first.outputs[0], second.inputs[0])
     tree.links.new(second.outputs[0], output.inputs["Surface"])
-    assert nodes.find(material) == nodes.Place(material, shader.name, "")
+    assert shader_nodes.find(material) == shader_nodes.Place(material, shader.name, "")
 
 
 @pytest.mark.parametrize("muted", [0, 1])
@@ -302,8 +305,8 @@ def test_muted_link_counts_as_none_also_beside_a_reroute(make_material, muted):
         tree.links.new(reroute.outputs[0], output.inputs["Surface"]),
     ]
     links[muted].is_muted = True
-    assert nodes.find(material).make == "ShaderNodeBsdfDiffuse"
-    assert nodes.shader_node(material) is None
+    assert shader_nodes.find(material).make == "ShaderNodeBsdfDiffuse"
+    assert shader_nodes.shader_node(material) is None
 
 
 def test_the_output_that_cycles_uses_is_the_one(make_material):
@@ -312,12 +315,12 @@ def test_the_output_that_cycles_uses_is_the_one(make_material):
     eevee = tree.nodes.new("ShaderNodeOutputMaterial")
     eevee.target = "EEVEE"
     tree.links.new(tree.nodes.new("ShaderNodeEmission").outputs[0], eevee.inputs["Surface"])
-    assert nodes.find(material).node_name == "Diffuse BSDF"
+    assert shader_nodes.find(material).node_name == "Diffuse BSDF"
     cycles = tree.nodes.new("ShaderNodeOutputMaterial")
     cycles.target = "CYCLES"
     principled = tree.nodes.new("ShaderNodeBsdfPrincipled")
     tree.links.new(principled.outputs[0], cycles.inputs["Surface"])
-    assert nodes.find(material).node_name == principled.name
+    assert shader_nodes.find(material).node_name == principled.name
 
 
 @pytest.mark.parametrize(
@@ -442,7 +445,7 @@ def test_local_copy_of_a_linked_material_is_written(library):
     written(wanted.materials[0].copy())
 
 
-PRINCIPLED = ("Specular IOR Level", *nodes._PURE_DIFFUSE)
+PRINCIPLED = ("Specular IOR Level", *shader_nodes._PURE_DIFFUSE)
 
 
 @pytest.mark.parametrize("name", PRINCIPLED)
@@ -451,27 +454,27 @@ def test_a_surface_is_read_from_the_sockets_of_these_names(make_material, name):
     node = surface(material)
     node.inputs["Base Color"].default_value = (0.1, 0.2, 0.3, 1.0)
     node.inputs["Diffuse Roughness"].default_value = 0.4
-    found = nodes.surface(material)
+    found = shader_nodes.surface(material)
     assert (*found.color, found.roughness) == pytest.approx((0.1, 0.2, 0.3, 0.4))
     assert (found.node, found.linked, found.muted, found.disturbing) == (node.name, [], False, ())
     node.inputs[name].default_value = 0.5
-    assert nodes.surface(material).disturbing == (name,)
-    node.inputs[name].default_value = nodes._PURE_DIFFUSE.get(name, 0.0)
+    assert shader_nodes.surface(material).disturbing == (name,)
+    node.inputs[name].default_value = shader_nodes._PURE_DIFFUSE.get(name, 0.0)
     tree = material.node_tree
     tree.links.new(tree.nodes.new("ShaderNodeValue").outputs[0], node.inputs[name])
-    assert nodes.surface(material).disturbing == (name,)
+    assert shader_nodes.surface(material).disturbing == (name,)
 
 
 @pytest.mark.parametrize("kind", ["ShaderNodeBsdfDiffuse", "ShaderNodeBsdfPrincipled"])
 def test_what_other_nodes_set_is_named_as_the_sockets_are(make_material, kind):
     material = make_material(node=kind)
     node, tree = surface(material), material.node_tree
-    sockets = nodes.color_socket(node), nodes.roughness_socket(node)
+    sockets = shader_nodes.color_socket(node), shader_nodes.roughness_socket(node)
     for socket in sockets:
         tree.links.new(tree.nodes.new("ShaderNodeValue").outputs[0], socket)
-    assert nodes.surface(material).linked == [socket.name for socket in sockets]
+    assert shader_nodes.surface(material).linked == [socket.name for socket in sockets]
     node.mute = True
-    assert nodes.surface(material).muted
+    assert shader_nodes.surface(material).muted
 
 
 def test_the_link_is_found_among_those_of_a_large_tree(make_material):
@@ -482,25 +485,25 @@ def test_the_link_is_found_among_those_of_a_large_tree(make_material):
         tree.links.new(first.outputs[0], second.inputs[0])
     tree.links.remove(tree.get_output_node("CYCLES").inputs["Surface"].links[0])
     tree.links.new(node.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
-    assert nodes.shader_node(material) == node
+    assert shader_nodes.shader_node(material) == node
 
 
 @pytest.mark.parametrize("kind", ["ShaderNodeBsdfDiffuse", "ShaderNodeBsdfPrincipled"])
 def test_writing_leaves_all_other_sockets_as_they_are_to_the_bit(make_material, kind):
     material = make_material(node=kind)
-    node = nodes.shader_node(material)
+    node = shader_nodes.shader_node(material)
     for number, socket in enumerate(node.inputs):
         value = socket.default_value
         if isinstance(value, bool):
             socket.default_value = not value
         elif hasattr(value, "__len__"):
             socket.default_value = [0.1 + number / 31 + i / 7 for i in range(len(value))]
-        elif socket.name not in nodes._PURE_DIFFUSE:
+        elif socket.name not in shader_nodes._PURE_DIFFUSE:
             socket.default_value = 0.1 + number / 31
     before = [(s.name, s.default_value) for s in node.inputs]
     before = [(name, tuple(v) if hasattr(v, "__len__") else v) for name, v in before]
-    nodes.write(nodes.find(material), (0.25, 0.5, 0.75), 0.125)
-    roughness, color = nodes.roughness_socket(node).name, nodes.color_socket(node)
+    shader_nodes.write(shader_nodes.find(material), (0.25, 0.5, 0.75), 0.125)
+    roughness, color = shader_nodes.roughness_socket(node).name, shader_nodes.color_socket(node)
     for socket, (name, value) in zip(node.inputs, before, strict=True):
         found = socket.default_value
         found = tuple(found) if hasattr(found, "__len__") else found
@@ -518,9 +521,9 @@ def test_a_new_node_stands_left_of_the_output_and_moves_no_other(make_material):
     material = make_material()
     output = material.node_tree.get_output_node("CYCLES")
     output.location = (123.0, 45.0)
-    nodes.write(nodes.find(material, "PRINCIPLED"), (0.25, 0.5, 0.75), 0.125)
+    shader_nodes.write(shader_nodes.find(material, "PRINCIPLED"), (0.25, 0.5, 0.75), 0.125)
     assert tuple(output.location) == (123.0, 45.0)
-    assert tuple(nodes.shader_node(material).location) == (-177.0, -255.0)
+    assert tuple(shader_nodes.shader_node(material).location) == (-177.0, -255.0)
 
 
 @pytest.mark.parametrize("make", [False, True])
@@ -567,7 +570,7 @@ def test_a_render_follows_what_is_written(make_material, make, tmp_path):
         told.clear()
         bpy.app.handlers.depsgraph_update_post.append(note)
         try:
-            nodes.write(nodes.find(material, shader), color, 0.0)
+            shader_nodes.write(shader_nodes.find(material, shader), color, 0.0)
             bpy.context.view_layer.update()
         finally:
             bpy.app.handlers.depsgraph_update_post.remove(note)
@@ -577,11 +580,11 @@ def test_a_render_follows_what_is_written(make_material, make, tmp_path):
 
 def test_writing_takes_as_long_in_a_file_of_many_materials(make_material):
     def seconds(materials):
-        places = [nodes.find(material) for material in materials]
+        places = [shader_nodes.find(material) for material in materials]
         start = time.process_time()
         for _ in range(5):
             for place in places:
-                nodes.write(place, (0.1, 0.2, 0.3), 0.4)
+                shader_nodes.write(place, (0.1, 0.2, 0.3), 0.4)
         return time.process_time() - start
 
     first = [make_material(f"First {i}") for i in range(60)]

@@ -6,7 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, properties, storage, target, working_space
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive, properties, storage
 from rough_spectra.core import models, reading
 from rough_spectra.core.instruments import REGISTRY
 
@@ -44,14 +46,14 @@ def test_the_albedo_comes_from_the_own_instrument(colorchecker, instrument, mode
     rho = colorchecker[13].values
     printed = reading.from_albedo(rho, SIGMA, model, instrument)
     sample = replace(colorchecker[13], values=printed, kind="reading", instrument=instrument)
-    found = target.target_reading(target.Request(sample, SIGMA, model))
+    found = solve.target_reading(solve.Request(sample, SIGMA, model))
     np.testing.assert_allclose(found, reading.from_albedo(rho, SIGMA, model), rtol=1e-12)
 
 
 def test_a_sphere_reading_is_stored_as_one(make_material, colorchecker):
     sample = replace(colorchecker[13], kind="reading", instrument="di:8")
     material = make_material("Sphere")
-    assign.assign([(material, target.Request(sample, SIGMA))])
+    derive.assign([(material, solve.Request(sample, SIGMA))])
     assert material.rough_spectra.instrument == "di:8"
     assert storage.load(material).sample.instrument == "di:8"
 
@@ -61,7 +63,7 @@ def test_a_sphere_reading_is_stored_as_one(make_material, colorchecker):
 def test_more_than_white_gives_a_finite_material_and_a_warning(colorchecker, model, peak):
     values = colorchecker[13].values * peak / colorchecker[13].values.max()
     sample = replace(colorchecker[13], values=values, kind="reading")
-    [solution] = target.solve([target.Request(sample, SIGMA, model)], working_space.current())
+    [solution] = solve.solve([solve.Request(sample, SIGMA, model)], working_space.current())
     assert np.isfinite([*solution.color, solution.roughness, solution.delta_e_mean]).all()
     assert (solution.color >= 0).all()
     assert (solution.color <= 1).all()
@@ -74,5 +76,5 @@ def test_noise_below_zero_counts_as_zero(colorchecker):
     noisy = replace(colorchecker[13], values=values)
     clean = replace(colorchecker[13], values=np.maximum(values, 0))
     space = working_space.current()
-    first, second = target.solve([target.Request(s, SIGMA) for s in (noisy, clean)], space)
+    first, second = solve.solve([solve.Request(s, SIGMA) for s in (noisy, clean)], space)
     np.testing.assert_array_equal(first.color, second.color)

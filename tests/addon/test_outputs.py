@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon.outputs import publication
+from rough_spectra.addon.support.atomic_files import publication
 from rough_spectra.core.errors import OutputError
 
 # ruff: noqa: PT012 - what is in such a block fails together
@@ -21,7 +21,7 @@ import sys
 sys.path.insert(0, {str(TESTS)!r})
 import conftest
 from pathlib import Path
-from rough_spectra.addon.outputs import publication
+from rough_spectra.addon.support.atomic_files import publication
 from rough_spectra.core.errors import OutputError
 folder = Path(sys.argv[1])
 """

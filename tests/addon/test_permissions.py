@@ -13,10 +13,13 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import blend_file, library_files, outputs, readers, writers
 from rough_spectra.addon.assets import build
-from rough_spectra.addon.readings_document import Readings
-from rough_spectra.addon.sample import Sample
+from rough_spectra.addon.blender import blend_file
+from rough_spectra.addon.readings import writers
+from rough_spectra.addon.readings.document import Readings
+from rough_spectra.addon.samples import library_files, readers
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.addon.support import atomic_files
 from rough_spectra.core.errors import OutputError
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="modes, owners and pipes of POSIX")
@@ -33,7 +36,7 @@ def save_blend(path):
 
 
 def write_result(path):
-    with outputs.publication() as files:
+    with atomic_files.publication() as files:
         files.write(path, b"new")
 
 
@@ -176,7 +179,7 @@ def test_a_user_is_refused_what_is_anothers_and_does_not_open_it_to_another_grou
         sys.path.insert(0, {str(TESTS)!r})
         import conftest
         from pathlib import Path
-        from rough_spectra.addon.outputs import publication
+        from rough_spectra.addon.support.atomic_files import publication
         from rough_spectra.core.errors import OutputError
         os.chmod(".", 0o777)
         os.setgroups([])

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.spectrophotometer.measure import measure
+from rough_spectra.addon.instrument.measure import measure
 
 COORDINATES = ("Generated", "UV", "Object", "Position", "In a group")
 SPARE = 30

@@ -6,19 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, spectra, target, working_space
-from rough_spectra.addon.preview import (
-    compose,
-    data,
-    figures,
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.colorimetry import perceptibility
+from rough_spectra.addon.matching import solve, surface_spectra
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.preview import data, figures
+from rough_spectra.addon.preview.drawing import (
     lines,
     looks,
-    plot,
     raster,
     text,
-    words,
 )
-from rough_spectra.core import color_difference, reading
+from rough_spectra.addon.preview.figures import compose, plot
+from rough_spectra.core import reading
+from rough_spectra.core.color import color_difference
 
 DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
 LIGHT = looks.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
@@ -133,7 +134,7 @@ def test_a_figure_is_the_same_after_others_were_drawn(look, green):
     """What is kept from one picture to the next is never drawn on."""
     space, color = working_space.current(), np.array((0.1, 0.3, 0.1))
     low, high = (
-        data.of_request(target.Request(green, sigma, model="closure"), color, sigma / 2, space)
+        data.of_request(solve.Request(green, sigma, model="closure"), color, sigma / 2, space)
         for sigma in (0.3, 0.9)
     )
     for figure in ("swatches", "sheet", "polar"):
@@ -229,12 +230,12 @@ def test_color_blind_readers_tell_the_curves_apart(look, deficiency):
 def test_data_of_a_material_is_what_the_solver_matched(make_material, green):
     sample = replace(green, kind="reading")
     material = make_material()
-    request = target.Request(sample, np.radians(28))
-    [solution] = assign.assign([(material, request)])
+    request = solve.Request(sample, np.radians(28))
+    [solution] = derive.assign([(material, request)])
     space = working_space.current()
     found = data.collect(material, space)
     settled = replace(request, model=solution.model)
-    np.testing.assert_allclose(found.reading, target.target_reading(settled))
+    np.testing.assert_allclose(found.reading, solve.target_reading(settled))
     np.testing.assert_allclose(
         reading.from_albedo(found.albedo, np.radians(28), solution.model), found.reading, rtol=1e-6
     )
@@ -250,7 +251,7 @@ def test_data_of_a_material_is_what_the_solver_matched(make_material, green):
 
 def test_a_hand_edited_node_shows_as_it_is(make_material, green):
     material = make_material()
-    assign.assign([(material, target.Request(green, 0.4))])
+    derive.assign([(material, solve.Request(green, 0.4))])
     node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
     node.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
     node.inputs["Roughness"].default_value = 0
@@ -263,7 +264,7 @@ def test_a_hand_edited_node_shows_as_it_is(make_material, green):
 @pytest.mark.parametrize("model", ["lambert", "first-order", "two-bounce", "closure", "reference"])
 @pytest.mark.parametrize("kind", ["reading", "albedo"])
 def test_every_model_gives_curves(green, model, kind):
-    request = target.Request(replace(green, kind=kind), 0.5, model=model)
+    request = solve.Request(replace(green, kind=kind), 0.5, model=model)
     color = np.array((0.2, 0.4, 0.2))
     found = data.of_request(request, color, 0.3, working_space.current())
     assert np.isfinite(found.target_curve).all()
@@ -277,9 +278,9 @@ def test_sigma_max_is_the_published_bound(green):
         bright = replace(
             green, kind="reading", values=np.full(green.wavelengths.size, peak), instrument="45a:0"
         )
-        request = target.Request(bright, 0.1, model="two-bounce")
-        assert spectra.sigma_max(request) == pytest.approx(degrees, abs=0.06)
-    assert spectra.sigma_max(target.Request(replace(green, kind="albedo"), 0.1)) is None
+        request = solve.Request(bright, 0.1, model="two-bounce")
+        assert surface_spectra.sigma_max(request) == pytest.approx(degrees, abs=0.06)
+    assert surface_spectra.sigma_max(solve.Request(replace(green, kind="albedo"), 0.1)) is None
 
 
 def test_bars_cover_the_visible_range_in_order(green):
@@ -302,7 +303,7 @@ def test_a_color_beyond_the_screen_is_marked():
 @pytest.mark.parametrize("side", [40, 140, 200, 420])
 def test_every_figure_is_drawn_at_every_size(look, side, green):
     found = data.of_request(
-        target.Request(green, 0.5, model="closure"),
+        solve.Request(green, 0.5, model="closure"),
         np.array((0.1, 0.3, 0.1)),
         0.3,
         working_space.current(),
@@ -317,7 +318,7 @@ def test_every_figure_is_drawn_at_every_size(look, side, green):
 
 
 def test_words_follow_the_thresholds():
-    assert [words.words(x) for x in (0, 0.79, 0.8, 1.9, 2.0, 30, float("nan"))] == [
+    assert [perceptibility.words(x) for x in (0, 0.79, 0.8, 1.9, 2.0, 30, float("nan"))] == [
         "not visible",
         "not visible",
         "visible side by side",

@@ -5,23 +5,13 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import (
-    assign,
-    facts,
-    light_spectrum,
-    nodes,
-    scene_view,
-    settled,
-    target,
-    working_space,
-)
-from rough_spectra.addon.preview import (
-    data,
-    icons,
-    looks,
-    theme,
-)
-from rough_spectra.core import geometry
+from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.colorimetry import illuminant_spectra
+from rough_spectra.addon.matching import scene_view, solve
+from rough_spectra.addon.material import derive, settled, snapshot
+from rough_spectra.addon.preview import data, icons, theme
+from rough_spectra.addon.preview.drawing import looks
+from rough_spectra.core.numerics import direction_grid
 
 
 @pytest.fixture(autouse=True)
@@ -34,13 +24,13 @@ def _no_pictures():
 @pytest.fixture
 def material(make_material, colorchecker):
     material = make_material()
-    assign.assign([(material, target.Request(colorchecker[13], 0.4))])
+    derive.assign([(material, solve.Request(colorchecker[13], 0.4))])
     return material
 
 
 def asked(material, figure, units):
     """The icon that a panel gets while it draws."""
-    state = (facts.of(material), theme.current(bpy.context.preferences))
+    state = (snapshot.of(material), theme.current(bpy.context.preferences))
     return icons.icon_id(material.session_uid, figure, side(units), state)
 
 
@@ -92,7 +82,7 @@ def test_nothing_is_made_twice_until_something_changes(material):
 
 def test_leaving_the_scene_shows_though_the_node_is_edited(material):
     """Then nothing is derived again and the stamp stays, but the target's color is another."""
-    reddish = np.linspace(0, 1, light_spectrum.GRID.size)
+    reddish = np.linspace(0, 1, illuminant_spectra.GRID.size)
     lights = (scene_view.make_light("Fire", "red", reddish, 1.0),)
     group = material.rough_spectra
     group.scene_view = scene_view.SceneView("Scene", lights, ((0.5, 0.5, 1.0, 0, 1.0),)).to_json()
@@ -110,19 +100,21 @@ def test_leaving_the_scene_shows_though_the_node_is_edited(material):
 
 def test_the_plot_over_angles_is_of_the_scenes_main_light(material):
     """In a red light a green surface is dark: the target's curve is lower, and so is Blender's."""
-    reddish = np.linspace(0, 1, light_spectrum.GRID.size) ** 4
-    lights = (scene_view.make_light("Fire", "red", reddish / light_spectrum.to_xyz(reddish)[1], 1),)
-    spread = np.column_stack(geometry.hemisphere(16)).tolist()
+    reddish = np.linspace(0, 1, illuminant_spectra.GRID.size) ** 4
+    lights = (
+        scene_view.make_light("Fire", "red", reddish / illuminant_spectra.to_xyz(reddish)[1], 1),
+    )
+    spread = np.column_stack(direction_grid.hemisphere(16)).tolist()
     rows = tuple((*angles, 0, 1 / 16) for angles in spread)
     space = working_space.current()
     before = data.collect(material, space)
-    assign.follow_scene({material: scene_view.SceneView("Scene", lights, rows)})
+    derive.follow_scene({material: scene_view.SceneView("Scene", lights, rows)})
     found = data.collect(material, space)
     assert found.target_curve.max() < 0.9 * before.target_curve.max()
     # A surface without roughness sends on its color times the light's.
     color, _ = settled.shader(material)
-    node = nodes.shader_node(material)
-    nodes.roughness_socket(node).default_value = 0
+    node = shader_nodes.shader_node(material)
+    shader_nodes.roughness_socket(node).default_value = 0
     seen = color * np.maximum(space.from_xyz @ lights[0].white, 0)
     luminance = np.linalg.solve(space.from_xyz, seen)[1]
     assert data.collect(material, space).blender_curve == pytest.approx(luminance, rel=1e-4)
@@ -142,13 +134,14 @@ def test_refresh_makes_visible_pictures_at_once(material):
 
 def test_a_picture_has_the_colors_of_its_figure(material):
     """Every byte, alpha and order of rows included."""
-    from rough_spectra.addon import working_space
-    from rough_spectra.addon.preview import compose, data
+    from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.preview import data
+    from rough_spectra.addon.preview.figures import compose
 
     ask(material)
     icons._work()
     look = theme.current(bpy.context.preferences)
-    found = data.collect(material, working_space.current(), facts.engine_is_flat())
+    found = data.collect(material, working_space.current(), snapshot.engine_is_flat())
     wide = side(10)
     canvas = compose.picture("sheet", found, wide, look)
     np.testing.assert_array_equal(np.rint(pixels() * 255), canvas)
@@ -164,9 +157,9 @@ def test_a_material_without_spectrum_is_tried_once(make_material):
 
 
 def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
-    node = nodes.shader_node(material)
+    node = shader_nodes.shader_node(material)
     asked(material, "sheet", 10)
-    nodes.color_socket(node).default_value[0] = float("nan")
+    shader_nodes.color_socket(node).default_value[0] = float("nan")
     asked(material, "sheet", 10)
     assert icons._work() is None
     assert asked(material, "sheet", 10) == 0
@@ -175,10 +168,10 @@ def test_a_socket_without_a_number_is_tried_once_and_shows_nothing(material):
 
 @pytest.mark.parametrize("roughness", [-0.5, 1.5])
 def test_a_roughness_that_cycles_clips_is_pictured_clipped(material, roughness):
-    node, space = nodes.shader_node(material), working_space.current()
+    node, space = shader_nodes.shader_node(material), working_space.current()
     found = []
     for value in (roughness, min(max(roughness, 0.0), 1.0)):
-        nodes.roughness_socket(node).default_value = value
+        shader_nodes.roughness_socket(node).default_value = value
         ask(material, "swatches")
         assert icons._work() is None
         found.append((settled.differences(material, space), pixels("swatches").tolist()))

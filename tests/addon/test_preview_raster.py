@@ -6,7 +6,12 @@ import itertools
 
 import numpy as np
 import pytest
-from rough_spectra.addon.preview import glyphs, lines, raster, text
+from rough_spectra.addon.preview.drawing import (
+    glyphs,
+    lines,
+    raster,
+    text,
+)
 
 RED = (1.0, 0.0, 0.0)
 LEVEL = 0.501 / 255

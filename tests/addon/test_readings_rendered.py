@@ -12,10 +12,12 @@ import warnings
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, presets, target
-from rough_spectra.addon.sample import Sample
-from rough_spectra.addon.science import colour
-from rough_spectra.addon.spectrophotometer.measure import RING_45_0, Geometry, measure
+from rough_spectra.addon.instrument.measure import RING_45_0, Geometry, measure
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.addon.support.colour_science import colour
 from rough_spectra.core import closure
 
 SIGMAS = (0, 15, 30, 45)
@@ -80,7 +82,7 @@ def assign_and_measure(samples, request_for, illuminant="D65", **settings):
         for degrees in SIGMAS
     ]
     materials = [bpy.data.materials.new(request.sample.name) for request in requests]
-    solutions = assign.assign(list(zip(materials, requests, strict=True)))
+    solutions = derive.assign(list(zip(materials, requests, strict=True)))
     seen = measure(materials, [RING_45_0])[0]
     assert seen[:, 1].max() < 1e-6  # rounding: each sample picks one of the eight lights
     return requests, solutions, seen[:, 0]
@@ -123,13 +125,13 @@ def test_presets_and_nix_samples_read_their_target(space, nix, request_for, requ
 
 def test_with_the_model_left_to_choose_they_read_their_target_too(nix, request_for):
     samples = [*presets.load_all("colorchecker"), *nix.values()]
-    requests, solutions, rgb = assign_and_measure(samples, request_for, model=target.AUTO)
+    requests, solutions, rgb = assign_and_measure(samples, request_for, model=solve.AUTO)
     white = peer_xyz(np.ones(43), np.arange(360.0, 781.0, 10.0))
     wanted = []
     for request in requests:
         sample = request.sample
         own = peer_xyz(np.ones(sample.values.size), sample.wavelengths)
-        reading = target.target_reading(request)
+        reading = solve.target_reading(request)
         wanted.append(peer_xyz(reading, sample.wavelengths) * white / own)
     found = delta_e(scene_to_xyz(rgb, "Linear Rec.709", white), np.array(wanted), white)
     assert found[in_gamut(solutions)].max() <= LIMIT
@@ -172,8 +174,8 @@ def test_other_models_read_their_own_target(colorchecker, request_for, model):
 
 def test_principled_reads_as_diffuse_does(colorchecker, request_for):
     work = [(bpy.data.materials.new("m"), request_for(s)) for s in colorchecker[:4] * 2]
-    assign.assign(work[:4], shader="DIFFUSE")
-    assign.assign(work[4:], shader="PRINCIPLED")
+    derive.assign(work[:4], shader="DIFFUSE")
+    derive.assign(work[4:], shader="PRINCIPLED")
     oblique = Geometry(((1.1, 2.0),), 0.9)
     seen = measure([material for material, _ in work], [RING_45_0, oblique])[:, :, 0]
     np.testing.assert_allclose(seen[:, :4], seen[:, 4:], rtol=2e-6)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon.science import colour
+from rough_spectra.addon.support.colour_science import colour
 
 ROOT = Path(__file__).resolve().parents[2]
 AGAIN = "The page is out of date: run python3 docs/report_2007.py"

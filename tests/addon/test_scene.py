@@ -10,27 +10,23 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from rough_spectra.addon import (
-    assign,
-    colorimetry,
+from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.colorimetry import illuminant_spectra, tristimulus
+from rough_spectra.addon.instrument import bake
+from rough_spectra.addon.matching import scene_match, scene_view, solve
+from rough_spectra.addon.material import (
     derivation,
-    light_spectrum,
-    measured,
-    nodes,
-    presets,
-    readings,
-    scene_analysis,
-    scene_match,
-    scene_report,
-    scene_view,
-    stamp,
+    derive,
+    last_measurement,
+    state,
     storage,
-    target,
-    working_space,
 )
-from rough_spectra.addon.scene_analysis import sampling
-from rough_spectra.core import color_difference, cycles, geometry, reading
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.scene import analysis, follow_scene, sampling
+from rough_spectra.core import cycles, reading
+from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import InputError, MaterialError
+from rough_spectra.core.numerics import direction_grid
 
 from tools import judge_scene, make_room
 
@@ -39,7 +35,7 @@ SIGMA = math.radians(30)
 
 def analyze(view=None):
     scene = bpy.context.scene
-    return scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), scene, view)
+    return analysis.analyze(bpy.context.evaluated_depsgraph_get(), scene, view)
 
 
 @pytest.fixture
@@ -54,7 +50,7 @@ def plate(make_material):
     scene.camera = bpy.data.objects.new("View", lens)
     scene.camera.location = (0.5, 0, 3)
     scene.collection.objects.link(scene.camera)
-    assign.assign([(material, target.Request(presets.load("light skin"), SIGMA, "closure"))])
+    derive.assign([(material, solve.Request(presets.load("light skin"), SIGMA, "closure"))])
     return material
 
 
@@ -71,13 +67,13 @@ def add_lamp(name="Bulb", kind="POINT", place=(1, 0, 2), **settings):
 
 def light_of(rgb, name="Light", share=1.0):
     xyz = np.linalg.solve(working_space.current().from_xyz, np.array(rgb, float))
-    spd, words = light_spectrum.like(xyz)
+    spd, words = illuminant_spectra.like(xyz)
     return scene_view.make_light(name, words, spd, share)
 
 
 def view_of(*lights):
     """The lights from eight directions each."""
-    spread = np.column_stack(geometry.hemisphere(8)).tolist()
+    spread = np.column_stack(direction_grid.hemisphere(8)).tolist()
     rows = [(*a, i, light.share / 8) for i, light in enumerate(lights) for a in spread]
     return scene_view.SceneView("Scene", lights, tuple(rows))
 
@@ -106,9 +102,9 @@ def test_room_is_analyzed_faster_than_blender_casts_the_rays_and_matched_better(
         for _ in range(500):
             scene.ray_cast(depsgraph, (0, 0, 1.5), down)
 
-    rays = scene_analysis.camera.ROWS * scene_analysis.camera.COLUMNS + len(report.views) * 32 * 48
+    rays = analysis.camera.ROWS * analysis.camera.COLUMNS + len(report.views) * 32 * 48
     assert spent(analyze) < spent(cast) / 500 * rays
-    scene_report.follow(report)
+    follow_scene.follow(report)
     after = judge_scene.errors({m: parts for m, parts in seen.items() if m in report.views})
     better = [after[material] < before[material] for material in after]
     assert len(after) >= 12
@@ -162,12 +158,12 @@ def test_spectrum_of_a_light_has_its_color_and_is_one_of_light(rgb):
 def test_spectra_of_standard_lights_give_the_colors_of_their_illuminants(colorchecker):
     bands = colorchecker[0].wavelengths
     values = np.stack([sample.values for sample in colorchecker])
-    spectra = {"A": light_spectrum.planck(2855.5), "D50": light_spectrum.daylight(5003)}
+    spectra = {"A": illuminant_spectra.planck(2855.5), "D50": illuminant_spectra.daylight(5003)}
     for name, spd in spectra.items():
-        matrix = light_spectrum.weights(tuple(bands.tolist()), tuple(spd.tolist()))
+        matrix = illuminant_spectra.weights(tuple(bands.tolist()), tuple(spd.tolist()))
         own = color_difference.xyz_to_lab(values @ matrix, matrix.sum(axis=0))
         assert (
-            color_difference.delta_e(own, colorimetry.spectrum_to_lab(values, bands, name)).max()
+            color_difference.delta_e(own, tristimulus.spectrum_to_lab(values, bands, name)).max()
             < 0.02
         )
 
@@ -314,7 +310,7 @@ def test_an_analysis_whose_places_have_no_light_is_refused():
 def test_two_lights_are_told_apart_and_explained(plate):
     add_lamp("Warm", use_temperature=True, temperature=2700)
     add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
-    [change] = scene_report.follow(analyze())
+    [change] = follow_scene.follow(analyze())
     assert {name for name, _ in change.solution.delta_e_lights} == {"Warm", "Blue"}
     assert change.solution.delta_e_mean < change.before
     sentence = derivation.get_stamp(plate).scene_reason
@@ -384,7 +380,7 @@ def test_viewport_sees_what_the_camera_sees(plate):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     render = scene.render
     lens = scene.camera.calc_matrix_camera(depsgraph, x=render.resolution_x, y=render.resolution_y)
-    eye = scene_analysis.View(scene.camera.matrix_world.inverted(), lens)
+    eye = analysis.View(scene.camera.matrix_world.inverted(), lens)
     found = analyze(eye)
     assert found.pixels[plate] == pytest.approx(through_camera.pixels[plate], abs=0.01)
     angles = [report.views[plate].angles[1].mean() for report in (found, through_camera)]
@@ -393,11 +389,11 @@ def test_viewport_sees_what_the_camera_sees(plate):
 
 def test_objects_of_many_faces_are_met_as_others_are(plate, make_material, monkeypatch):
     """The same room, with every object but the plate's counted as heavy, and with none."""
-    from rough_spectra.addon.scene_analysis import heavy
+    from rough_spectra.addon.scene import dense_meshes
 
     materials = make_room.furnish(objects=40, materials=6)
     light = analyze()
-    monkeypatch.setattr(heavy, "TRIANGLES", 100)
+    monkeypatch.setattr(dense_meshes, "TRIANGLES", 100)
     found = analyze()
     assert found.pixels == pytest.approx(light.pixels, abs=2e-3)
     for material in set(materials) & light.views.keys():
@@ -409,13 +405,13 @@ def test_objects_of_many_faces_are_met_as_others_are(plate, make_material, monke
 
 def test_nothing_to_analyze_is_said(plate, make_material):
     with pytest.raises(InputError, match=r"No light reaches Plate"):
-        scene_report.follow(analyze())
+        follow_scene.follow(analyze())
     add_lamp("Bulb")
     with pytest.raises(InputError, match=r"No material chosen has a measured spectrum"):
-        scene_report.follow(analyze(), [make_material("Bare")])
+        follow_scene.follow(analyze(), [make_material("Bare")])
     bpy.context.scene.camera.rotation_euler = (math.pi, 0, 0)
     with pytest.raises(InputError, match=r"Plate: not in the picture"):
-        scene_report.follow(analyze(), [plate])
+        follow_scene.follow(analyze(), [plate])
     bpy.context.scene.camera = None
     with pytest.raises(InputError, match="no camera"):
         analyze()
@@ -424,37 +420,37 @@ def test_nothing_to_analyze_is_said(plate, make_material):
 def test_engine_without_roughness_gets_the_flat_color_of_the_scene(plate):
     add_lamp("Bulb", color=(1, 0.7, 0.5))
     report = analyze()
-    [rough] = scene_report.follow(report)
+    [rough] = follow_scene.follow(report)
     assert rough.solution.roughness > 0.1
     bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
-    assert "the render engine was changed" in stamp.state(plate).reasons[0]
-    assign.renew([plate])
+    assert "the render engine was changed" in state.state(plate).reasons[0]
+    derive.renew([plate])
     found = derivation.get_stamp(plate)
     assert found.roughness == 0
     assert "ignores diffuse roughness" in found.shader_reason
-    assert stamp.state(plate).kind == "fresh"
+    assert state.state(plate).kind == "fresh"
     # The flat color is the best of all flat ones nearby, and not simply the rough one's.
     view, space = report.views[plate], working_space.current()
     request = storage.load(plate)
-    flat = target.differences(request, view, np.array(found.color), 0.0, space)
-    same = target.differences(request, view, rough.solution.color, 0.0, space)
+    flat = solve.differences(request, view, np.array(found.color), 0.0, space)
+    same = solve.differences(request, view, rough.solution.color, 0.0, space)
     assert np.average(flat, weights=view.weights) < np.average(same, weights=view.weights)
     # A roughness that this engine does not show makes no difference.
-    nodes.roughness_socket(nodes.shader_node(plate)).default_value = 0.9
-    [change] = scene_report.follow(report)
+    shader_nodes.roughness_socket(shader_nodes.shader_node(plate)).default_value = 0.9
+    [change] = follow_scene.follow(report)
     assert change.before == pytest.approx(np.average(flat, weights=view.place_weights), abs=1e-4)
 
 
 def test_following_can_be_switched_off_and_on(plate):
     before = derivation.get_stamp(plate).color
     add_lamp("Bulb", color=(1, 0.5, 0.2))
-    [change] = scene_report.follow(analyze())
+    [change] = follow_scene.follow(analyze())
     assert derivation.get_stamp(plate).color != before
     plate.rough_spectra.use_scene = False
-    assign.renew([plate])
+    derive.renew([plate])
     assert derivation.get_stamp(plate).color == before
     plate.rough_spectra.use_scene = True
-    assign.renew([plate])
+    derive.renew([plate])
     assert derivation.get_stamp(plate).color == pytest.approx(change.solution.color.tolist())
 
 
@@ -462,8 +458,8 @@ def test_measurement_finds_what_was_matched_to_the_scene(plate):
     """The reading is held to the compromise, and the sentence tells how far off the truth it is."""
     add_lamp("Warm", use_temperature=True, temperature=2700)
     add_lamp("Blue", place=(-1, 0.5, 2), color=(0.3, 0.5, 1))
-    [change] = scene_report.follow(analyze())
-    [reading] = readings.bake([("", plate)]).entries
+    [change] = follow_scene.follow(analyze())
+    [reading] = bake.bake([("", plate)]).entries
     assert reading.delta_e_00 < 0.01
     assert reading.measured.illuminant == f"scene: {storage.load(plate).scene.lights[0].name}"
     promised = cycles.reflectance(
@@ -482,14 +478,14 @@ def test_panel_holds_a_measurement_to_the_spectrum_as_it_predicts_it(plate):
     assert predicted > 0.5
     with bpy.context.temp_override(material=plate):
         assert bpy.ops.rough_spectra.measure("EXEC_DEFAULT") == {"FINISHED"}
-    assert measured.get(plate).delta_e == pytest.approx(predicted, abs=0.01)
+    assert last_measurement.get(plate).delta_e == pytest.approx(predicted, abs=0.01)
 
 
 def test_operator_matches_and_reports(plate):
     add_lamp("Bulb", use_temperature=True, temperature=2856)
     assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
     assert plate.rough_spectra.use_scene
-    assert stamp.state(plate).kind == "fresh"
+    assert state.state(plate).kind == "fresh"
     for light in list(bpy.data.lights):
         bpy.data.lights.remove(light)
     with pytest.raises(RuntimeError, match="No light reaches Plate"):
@@ -497,7 +493,7 @@ def test_operator_matches_and_reports(plate):
 
 
 def test_verb_prints_lights_and_saves(plate, tmp_path, capsys):
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     add_lamp("Bulb", use_temperature=True, temperature=2856)
     path = tmp_path / "scene.blend"

@@ -6,11 +6,15 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, nodes, presets, scene_analysis, stamp, target
+from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive, state
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.scene import analysis
 
 
 def analyze():
-    return scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), bpy.context.scene)
+    return analysis.analyze(bpy.context.evaluated_depsgraph_get(), bpy.context.scene)
 
 
 def add_lamp(name="Bulb"):
@@ -25,8 +29,8 @@ def add_lamp(name="Bulb"):
 def show(material, size=2.0, height=0.0):
     bpy.ops.mesh.primitive_plane_add(size=size, location=(0, 0, height))
     bpy.context.object.data.materials.append(material)
-    request = target.Request(presets.load("light skin"), math.radians(30), "closure")
-    assign.assign([(material, request)])
+    request = solve.Request(presets.load("light skin"), math.radians(30), "closure")
+    derive.assign([(material, request)])
     return material
 
 
@@ -157,17 +161,17 @@ def test_nodes_that_cannot_be_read_are_named_wherever_they_are(plate):
 
 
 def color_of(material):
-    return nodes.color_socket(nodes.shader_node(material)).default_value[:]
+    return shader_nodes.color_socket(shader_nodes.shader_node(material)).default_value[:]
 
 
 def test_edits_by_hand_are_not_overwritten_unasked(plate, make_material):
     add_lamp()
     other = show(make_material("Other"), 1, 0.2)
-    nodes.color_socket(nodes.shader_node(plate)).default_value = (0.9, 0.1, 0.1, 1)
+    shader_nodes.color_socket(shader_nodes.shader_node(plate)).default_value = (0.9, 0.1, 0.1, 1)
     before = color_of(plate)
     assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
     assert color_of(plate) == before
-    assert stamp.state(plate).kind == "stale"
+    assert state.state(plate).kind == "stale"
     assert other.rough_spectra.use_scene
     assert not plate.rough_spectra.use_scene
     bpy.context.view_layer.objects.active = bpy.data.objects["Plane"]
@@ -175,13 +179,13 @@ def test_edits_by_hand_are_not_overwritten_unasked(plate, make_material):
         bpy.ops.rough_spectra.analyze_scene(scope="ACTIVE")
     assert color_of(plate) == before
     assert bpy.ops.rough_spectra.analyze_scene(overwrite_edits=True) == {"FINISHED"}
-    assert stamp.state(plate).kind == "fresh"
+    assert state.state(plate).kind == "fresh"
 
 
 def test_what_cannot_be_written_does_not_hold_up_others(plate, make_material, tmp_path):
     add_lamp()
     muted = show(make_material("Muted"), 0.5, 0.2)
-    nodes.shader_node(muted).mute = True
+    shader_nodes.shader_node(muted).mute = True
     path = str(tmp_path / "library.blend")
     bpy.data.libraries.write(path, {show(make_material("Linked"), 0.5, 0.3)})
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
@@ -199,9 +203,9 @@ def test_a_damaged_analysis_is_mended_by_analyzing_again(plate):
     add_lamp()
     plate.rough_spectra.scene_view = "{}"
     plate.rough_spectra.use_scene = True
-    assert stamp.state(plate).reasons[0].endswith("analyze it again.")
+    assert state.state(plate).reasons[0].endswith("analyze it again.")
     assert bpy.ops.rough_spectra.analyze_scene() == {"FINISHED"}
-    assert stamp.state(plate).kind == "fresh"
+    assert state.state(plate).kind == "fresh"
 
 
 def test_lights_of_one_name_are_told_apart(plate):

@@ -11,9 +11,12 @@ import warnings
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign, light_spectrum, scene_analysis, scene_report, target
-from rough_spectra.addon.openimageio import openimageio
-from rough_spectra.addon.science import colour
+from rough_spectra.addon.colorimetry import illuminant_spectra
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.material import derive
+from rough_spectra.addon.scene import analysis, follow_scene
+from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.core import oren_nayar
 
 SIGMA = math.radians(30)
@@ -76,7 +79,7 @@ def put_square(material, size=1.0, place=(0.0, 0.0, 0.0)):
 
 
 def look():
-    return scene_analysis.analyze(bpy.context.evaluated_depsgraph_get(), bpy.context.scene)
+    return analysis.analyze(bpy.context.evaluated_depsgraph_get(), bpy.context.scene)
 
 
 def to_xyz(rgb):
@@ -143,9 +146,9 @@ def test_lights_that_mix_everywhere_count_as_their_mixture(render, colorchecker,
         parts.append(part / science.sd_to_XYZ(part)[1])
     light = parts[0] + parts[1]
     white = science.sd_to_XYZ(light) / science.sd_to_XYZ(light)[1]
-    requests = [target.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
-    assign.assign(list(zip(materials, requests, strict=True)))
-    changes = scene_report.follow(look())
+    requests = [solve.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
+    derive.assign(list(zip(materials, requests, strict=True)))
+    changes = follow_scene.follow(look())
     inside = np.array([not any("gamut" in w for w in c.solution.warnings) for c in changes])
     order = [materials.index(change.material) for change in changes]
     # Each of Cycles' samples asks one sun.
@@ -163,10 +166,10 @@ def test_incandescent_light_shows_the_spectral_colors(render, colorchecker, make
     science = colour()
     truths = truths_under(science.SDS_ILLUMINANTS["A"], colorchecker)
     white = science.xy_to_XYZ(science.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]["A"])
-    requests = [target.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
-    assign.assign(list(zip(materials, requests, strict=True)))
+    requests = [solve.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
+    derive.assign(list(zip(materials, requests, strict=True)))
     plain = chart_errors(render, truths, white)
-    changes = scene_report.follow(look())
+    changes = follow_scene.follow(look())
     inside = np.array([not any("gamut" in w for w in c.solution.warnings) for c in changes])
     order = [materials.index(change.material) for change in changes]
     errors = chart_errors(render, truths, white)[order]
@@ -401,7 +404,7 @@ def test_color_of_light_is_that_of_a_white_diffuser(make, render, make_material)
     rendered = render(4, 4, 256).mean(axis=(0, 1))
     view = look().views[white]
     found = sum(light.share * light.white for light in view.lights)
-    apart = light_spectrum.to_uv(found) - light_spectrum.to_uv(to_xyz(rendered))
+    apart = illuminant_spectra.to_uv(found) - illuminant_spectra.to_uv(to_xyz(rendered))
     assert np.linalg.norm(apart) < TOLERANCES[make]
 
 

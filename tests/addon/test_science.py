@@ -27,16 +27,16 @@ rough_spectra.register()
 assert outsiders() == before == [], (before, outsiders())
 
 # The first preset of a session needs its own reader and no other.
-from rough_spectra.addon import presets
+from rough_spectra.addon.samples import presets
 assert presets.load("14").name
-formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.readers.")]
+formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.samples.readers.")]
 own = {{"preset", "_document", "_preset_fields"}}
 assert {{name.rpartition(".")[2] for name in formats}} <= own, formats
 
 np.set_printoptions(precision=3, suppress=True)
 options, filters, errors = np.get_printoptions(), list(warnings.filters), np.geterr()
 show, hook = warnings.showwarning, sys.excepthook
-from rough_spectra.addon import colorimetry
+from rough_spectra.addon.colorimetry import tristimulus as colorimetry
 assert outsiders() == [], outsiders()
 lab = colorimetry.spectrum_to_lab([0.2, 0.4, 0.6, 0.5], [400, 500, 600, 700], "F11", 10)
 assert "colour" in sys.modules

@@ -7,25 +7,25 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import (
-    assign,
+from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.colorimetry import illuminant_spectra
+from rough_spectra.addon.instrument import bake
+from rough_spectra.addon.interface.panels.redraw import Shown
+from rough_spectra.addon.matching import scene_view, solve
+from rough_spectra.addon.material import (
     changes,
     derivation,
-    facts,
-    light_spectrum,
-    nodes,
-    presets,
-    readings,
-    scene_report,
-    scene_view,
+    derive,
     settled,
-    stamp,
+    snapshot,
+    state,
     storage,
-    target,
 )
-from rough_spectra.addon.panels.redraw import Shown
 from rough_spectra.addon.preview import icons, theme
-from rough_spectra.core import cycles, geometry
+from rough_spectra.addon.samples import presets
+from rough_spectra.addon.scene import follow_scene
+from rough_spectra.core import cycles
+from rough_spectra.core.numerics import direction_grid
 
 _ROUNDING = 5e-4
 """Bake keeps four decimals of Lab and of ΔE00."""
@@ -44,21 +44,21 @@ def assigned(make_material):
 
     def assigned(model, preset="colorchecker/20-neutral-8"):
         material = make_material()
-        request = target.Request(presets.load(preset), math.radians(3), model)
-        assign.assign([(material, request)])
+        request = solve.Request(presets.load(preset), math.radians(3), model)
+        derive.assign([(material, request)])
         return material
 
     return assigned
 
 
 def edit(material):
-    nodes.roughness_socket(nodes.shader_node(material)).default_value = 0.33
+    shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = 0.33
 
 
 def of_panel(material):
     """ΔE00 at the instrument as the panel tells it, once the pictures are made."""
     look = theme.current(bpy.context.preferences)
-    shown = Shown(material.session_uid, facts.of(material), look, 20)
+    shown = Shown(material.session_uid, snapshot.of(material), look, 20)
     shown.picture("swatches", 5.0)
     icons._work()
     return shown.apart()[0]
@@ -66,19 +66,19 @@ def of_panel(material):
 
 def of_bake(material):
     """The model that a bake predicts with, and its ΔE00 if Cycles renders what its formula says."""
-    node = nodes.shader_node(material)
-    color = np.array(nodes.color_socket(node).default_value[:3])
-    roughness = nodes.roughness_socket(node).default_value
+    node = shader_nodes.shader_node(material)
+    color = np.array(shader_nodes.color_socket(node).default_value[:3])
+    roughness = shader_nodes.roughness_socket(node).default_value
     seen = cycles.reflectance(color, roughness, math.radians(45), 0.0, 0.0)
-    [item] = readings.prepare([("", material)])
-    [entry] = readings.compare([item], np.stack((seen, np.zeros(3)))[np.newaxis]).entries
-    return item.request.model, readings.from_spectrum(item, entry)
+    [item] = bake.prepare([("", material)])
+    [entry] = bake.compare([item], np.stack((seen, np.zeros(3)))[np.newaxis]).entries
+    return item.request.model, bake.from_spectrum(item, entry)
 
 
 def renewed_model(material):
     """The model of a new material with the same spectrum and settings."""
     fresh = bpy.data.materials.new("fresh")
-    [solution] = assign.assign([(fresh, storage.load(material))])
+    [solution] = derive.assign([(fresh, storage.load(material))])
     return solution.model
 
 
@@ -107,7 +107,7 @@ def set_by_hand(setting):
 
 def replace_spectrum(material):
     other = bpy.data.materials.new("other")
-    assign.assign([(other, target.Request(presets.load("colorchecker/14-green"), 0.8))])
+    derive.assign([(other, solve.Request(presets.load("colorchecker/14-green"), 0.8))])
     with changes.paused():
         material.rough_spectra.spectrum = other.rough_spectra.spectrum
         material.rough_spectra.sigma = 0.8
@@ -126,7 +126,9 @@ def change_after_keeping(material):
 
 def fail(material):
     """Derive anew in vain, which the material notes."""
-    nodes.color_socket(nodes.shader_node(material)).keyframe_insert("default_value", frame=1)
+    shader_nodes.color_socket(shader_nodes.shader_node(material)).keyframe_insert(
+        "default_value", frame=1
+    )
     material.rough_spectra.sigma = math.radians(45)
 
 
@@ -164,14 +166,14 @@ def animate_and_edit(material):
 
 
 def follow_a_scene(material):
-    lamps = [np.linspace(0, 1, light_spectrum.GRID.size), np.ones(light_spectrum.GRID.size)]
+    lamps = [np.linspace(0, 1, illuminant_spectra.GRID.size), np.ones(illuminant_spectra.GRID.size)]
     lights = tuple(
-        scene_view.make_light(name, name, lamp / light_spectrum.to_xyz(lamp)[1], 0.5)
+        scene_view.make_light(name, name, lamp / illuminant_spectra.to_xyz(lamp)[1], 0.5)
         for name, lamp in zip(("Red", "White"), lamps, strict=True)
     )
-    spread = np.column_stack(geometry.hemisphere(8)).tolist()
+    spread = np.column_stack(direction_grid.hemisphere(8)).tolist()
     rows = tuple((*angles, light, 1 / 16) for light in (0, 1) for angles in spread)
-    assign.follow_scene({material: scene_view.SceneView("Scene", lights, rows)})
+    derive.follow_scene({material: scene_view.SceneView("Scene", lights, rows)})
 
 
 def change_in_a_scene(material):
@@ -203,12 +205,12 @@ STATES = {
 
 
 @pytest.mark.parametrize("model", ["auto", "two-bounce"])
-@pytest.mark.parametrize("state", STATES)
-def test_panel_and_bake_tell_the_same_number(assigned, state, model):
+@pytest.mark.parametrize("told", STATES)
+def test_panel_and_bake_tell_the_same_number(assigned, told, model):
     material = assigned(model)
-    kind, change = STATES[state]
+    kind, change = STATES[told]
     change(material)
-    assert stamp.state(material).kind == kind
+    assert state.state(material).kind == kind
     taken, apart = of_bake(material)
     assert taken == renewed_model(material)
     assert of_panel(material) == pytest.approx(apart, abs=_ROUNDING)
@@ -224,14 +226,14 @@ def test_a_linked_material_too(assigned, tmp_path):
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
         wanted.materials = ["Material"]
     [material] = wanted.materials
-    assert stamp.state(material).kind == "linked"
+    assert state.state(material).kind == "linked"
     taken, apart = of_bake(material)
     assert (taken, of_panel(material)) == ("closure", pytest.approx(apart, abs=_ROUNDING))
     assert apart > 4
 
 
 def test_without_a_spectrum_there_is_no_target(make_material):
-    [item] = readings.prepare([("", make_material())])
+    [item] = bake.prepare([("", make_material())])
     assert item.request is None
 
 
@@ -239,7 +241,7 @@ def test_the_model_is_chosen_once_while_a_color_is_edited(assigned, monkeypatch)
     material = assigned("auto")
     set_by_hand("sigma")(material)
     settled.of(material)
-    monkeypatch.setattr(target, "settle", None)
+    monkeypatch.setattr(solve, "settle", None)
     edit(material)
     assert settled.of(material).request.model == "closure"
 
@@ -249,34 +251,34 @@ def test_what_was_derived_is_said_only_of_what_is_shown(assigned):
     material = assigned("auto", "colorchecker/19-white-9-5")
     group = material.rough_spectra
     group.kind, group.model, group.sigma = "reading", "two-bounce", math.radians(65)
-    [before] = readings.prepare([("", material)])
+    [before] = bake.prepare([("", material)])
     assert before.shader_reason
     told = [warning for warning in before.warnings if "white facets give" in warning]
     assert len(told) == 1
     edit(material)
-    [after] = readings.prepare([("", material)])
+    [after] = bake.prepare([("", material)])
     assert after.shader_reason == ""
     assert [w for w in after.warnings if not w.startswith("stale: ")] == told
     with changes.paused():
         group.sigma = math.radians(10)
-    [after] = readings.prepare([("", material)])
+    [after] = bake.prepare([("", material)])
     assert [w for w in after.warnings if not w.startswith("stale: ")] == []
 
 
 def use(name):
     def change(material):
-        nodes.shader_node(material).inputs[name].default_value = 0.5
+        shader_nodes.shader_node(material).inputs[name].default_value = 0.5
 
     return change
 
 
 def link_texture(material):
-    tree, node = material.node_tree, nodes.shader_node(material)
-    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], nodes.color_socket(node))
+    tree, node = material.node_tree, shader_nodes.shader_node(material)
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], shader_nodes.color_socket(node))
 
 
 def mute(material):
-    nodes.shader_node(material).mute = True
+    shader_nodes.shader_node(material).mute = True
 
 
 def link_another_shader(material):
@@ -287,7 +289,7 @@ def link_another_shader(material):
 
 def set_color(value):
     def change(material):
-        nodes.color_socket(nodes.shader_node(material)).default_value[1] = value
+        shader_nodes.color_socket(shader_nodes.shader_node(material)).default_value[1] = value
 
     return change
 
@@ -295,7 +297,7 @@ def set_color(value):
 OBSTACLES = {
     **{
         f"no ΔE00 is predicted with {name} in use": use(name)
-        for name in ("Specular IOR Level", *nodes._PURE_DIFFUSE)
+        for name in ("Specular IOR Level", *shader_nodes._PURE_DIFFUSE)
     },
     "color or roughness comes from another node: there is no one color to compare": link_texture,
     "the shader node is muted: there is no color to compare": mute,
@@ -313,23 +315,23 @@ def test_there_is_no_number_for_what_is_not_predicted(assigned, sentence, kept):
     """Neither in the panel nor in a bake, and a scene is not said to have been off by any."""
     material = assigned("auto")
     material.rough_spectra.shader = "PRINCIPLED"
-    [before] = readings.prepare([("", material)])
+    [before] = bake.prepare([("", material)])
     OBSTACLES[sentence](material)
     if kept:
         storage.keep(material)
     look = theme.current(bpy.context.preferences)
-    shown = Shown(material.session_uid, facts.of(material), look, 20)
+    shown = Shown(material.session_uid, snapshot.of(material), look, 20)
     assert str(shown.obstacle) == sentence
     shown.picture("swatches", 5.0)
     icons._work()
     assert (shown.apart(), shown.picture("swatches", 5.0)) == (None, 0)
-    [item] = readings.prepare([("", material)])
+    [item] = bake.prepare([("", material)])
     assert f"{sentence}; the predicted reading is the spectrum's alone" in item.warnings
     assert item.shader_reason == ""
     # The target is that of the spectrum, whatever else shows.
-    [told, same] = (readings.compare([each], None).entries[0] for each in (item, before))
+    [told, same] = (bake.compare([each], None).entries[0] for each in (item, before))
     assert told.predicted == same.predicted
-    assert scene_report._mean_now(None, material) is None
+    assert follow_scene._mean_now(None, material) is None
 
 
 def test_several_are_named_together(assigned):
@@ -337,7 +339,7 @@ def test_several_are_named_together(assigned):
     material.rough_spectra.shader = "PRINCIPLED"
     for name in ("Specular IOR Level", "Coat Weight"):
         use(name)(material)
-    found = settled.obstacle(nodes.surface(material))
+    found = settled.obstacle(shader_nodes.surface(material))
     assert str(found) == "no ΔE00 is predicted with Specular IOR Level, Coat Weight in use"
 
 
@@ -345,11 +347,11 @@ def test_several_are_named_together(assigned):
 def test_bump_is_told_of_and_takes_no_number_away(assigned, where):
     material = assigned("auto")
     before = of_bake(material)
-    tree, node = material.node_tree, nodes.shader_node(material)
+    tree, node = material.node_tree, shader_nodes.shader_node(material)
     place = node if where == "Normal" else tree.get_output_node("CYCLES")
     tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], place.inputs[where])
-    assert stamp.state(material).kind == "fresh"
+    assert state.state(material).kind == "fresh"
     assert of_bake(material) == before
     assert of_panel(material) == pytest.approx(before[1], abs=_ROUNDING)
-    [item] = readings.prepare([("", material)])
+    [item] = bake.prepare([("", material)])
     assert any(warning.startswith("bump is not counted") for warning in item.warnings)

@@ -7,27 +7,34 @@ import math
 
 import bpy
 import pytest
-from rough_spectra.addon import assign, changes, derivation, nodes, stamp, storage
-from rough_spectra.addon.properties import SCHEMA
+from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.material import (
+    changes,
+    derivation,
+    derive,
+    state,
+    storage,
+)
+from rough_spectra.addon.material.properties import SCHEMA
 from rough_spectra.core.errors import MaterialError
 
 OPS = bpy.ops.rough_spectra
 
 
 def sockets(material):
-    node = nodes.shader_node(material)
+    node = shader_nodes.shader_node(material)
     return (
-        *nodes.color_socket(node).default_value[:3],
-        nodes.roughness_socket(node).default_value,
+        *shader_nodes.color_socket(node).default_value[:3],
+        shader_nodes.roughness_socket(node).default_value,
     )
 
 
 def kind(material):
-    return stamp.state(material).kind
+    return state.state(material).kind
 
 
 def edit(material, value=0.9):
-    nodes.color_socket(nodes.shader_node(material)).default_value[0] = value
+    shader_nodes.color_socket(shader_nodes.shader_node(material)).default_value[0] = value
 
 
 @pytest.fixture
@@ -42,26 +49,26 @@ def make(make_material, colorchecker, request_for):
         bpy.context.collection.objects.link(thing)
         bpy.context.view_layer.objects.active = thing
         thing.select_set(True)
-        assign.assign([(material, request_for(colorchecker[patch]))])
+        derive.assign([(material, request_for(colorchecker[patch]))])
         return material
 
     return make
 
 
 def test_none_without_spectrum(make_material):
-    assert stamp.state(make_material()) == stamp.State("none")
+    assert state.state(make_material()) == state.State("none")
 
 
 def test_fresh_and_what_was_derived(make):
-    state = stamp.state(make())
-    assert (state.kind, state.reasons) == ("fresh", ())
-    assert state.stamp.version.count(".") == 2
+    told = state.state(make())
+    assert (told.kind, told.reasons) == ("fresh", ())
+    assert told.stamp.version.count(".") == 2
 
 
 def test_a_spectrum_without_anything_derived_is_stale(make):
     material = make()
     material.rough_spectra.stamp = ""
-    assert stamp.state(material).reasons == ("nothing was derived from the spectrum yet",)
+    assert state.state(material).reasons == ("nothing was derived from the spectrum yet",)
 
 
 def test_keep_accepts_edits_until_the_next(make):
@@ -70,21 +77,21 @@ def test_keep_accepts_edits_until_the_next(make):
     with pytest.raises(RuntimeError, match="nothing to keep"):
         OPS.keep()
     edit(material)
-    assert stamp.state(material).reasons == ("color or roughness was edited by hand",)
+    assert state.state(material).reasons == ("color or roughness was edited by hand",)
     assert OPS.keep() == {"FINISHED"}
     assert kind(material) == "kept"
-    assert stamp.state(material).reasons == ("color or roughness was edited by hand, and is kept",)
+    assert state.state(material).reasons == ("color or roughness was edited by hand, and is kept",)
     assert sockets(material)[0] == pytest.approx(0.9)
     assert material.rough_spectra.spectrum == spectrum
     edit(material, 0.8)
-    assert stamp.state(material).reasons == (
+    assert state.state(material).reasons == (
         "color or roughness was edited by hand after earlier edits were kept",
     )
     assert OPS.keep() == {"FINISHED"}
     material.rough_spectra.sigma = math.radians(40)
-    assert stamp.state(material).reasons == ("σ was changed from 30° to 40°",)
+    assert state.state(material).reasons == ("σ was changed from 30° to 40°",)
     material.rough_spectra.sigma = math.radians(36.92308)
-    assert stamp.state(material).reasons == ("σ was changed from 30° to 36.92°",)
+    assert state.state(material).reasons == ("σ was changed from 30° to 36.92°",)
     assert sockets(material)[0] == pytest.approx(0.8)
     assert OPS.renew() == {"FINISHED"}
     assert kind(material) == "fresh"
@@ -95,7 +102,7 @@ def test_keep_takes_any_surface(make):
     tree = material.node_tree
     glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
     tree.links.new(glossy.outputs[0], tree.get_output_node("CYCLES").inputs["Surface"])
-    assert stamp.state(material).reasons == ("the surface no longer comes from 'Diffuse BSDF'",)
+    assert state.state(material).reasons == ("the surface no longer comes from 'Diffuse BSDF'",)
     assert OPS.keep() == {"FINISHED"}
     assert kind(material) == "kept"
 
@@ -108,7 +115,7 @@ def test_renewing_all_leaves_edits_and_what_cannot_be(make, make_material):
     edit(edited)
     edit(kept)
     storage.keep(kept)
-    nodes.shader_node(broken).mute = True
+    shader_nodes.shader_node(broken).mute = True
     for material in (stale, kept):
         with changes.paused():
             material.rough_spectra.sigma = math.radians(40)
@@ -124,7 +131,7 @@ def test_renewing_all_leaves_edits_and_what_cannot_be(make, make_material):
 
 
 def add_gloss(material):
-    nodes.shader_node(material).inputs["Specular IOR Level"].default_value = 0.5
+    shader_nodes.shader_node(material).inputs["Specular IOR Level"].default_value = 0.5
 
 
 def change_shader(material):
@@ -145,7 +152,7 @@ def test_renewing_all_leaves_gloss_and_other_shaders(make, change):
     assert kind(material) == "stale"
     OPS.renew()
     assert kind(material) == "fresh"
-    nodes.shader_node(material).name = "Plaster"
+    shader_nodes.shader_node(material).name = "Plaster"
     assert OPS.renew(scope="ALL_STALE") == {"FINISHED"}
     assert kind(material) == "fresh"
 
@@ -153,12 +160,12 @@ def test_renewing_all_leaves_gloss_and_other_shaders(make, change):
 @pytest.mark.parametrize("channel", [0, 1, 2, None])
 def test_a_socket_that_holds_no_number_is_an_edit(make, channel):
     material = make()
-    node = nodes.shader_node(material)
+    node = shader_nodes.shader_node(material)
     if channel is None:
-        nodes.roughness_socket(node).default_value = math.nan
+        shader_nodes.roughness_socket(node).default_value = math.nan
     else:
-        nodes.color_socket(node).default_value[channel] = math.nan
-    assert stamp.state(material).reasons == ("color or roughness was edited by hand",)
+        shader_nodes.color_socket(node).default_value[channel] = math.nan
+    assert state.state(material).reasons == ("color or roughness was edited by hand",)
 
 
 @pytest.mark.parametrize("setting", ["sigma", "tolerance"])
@@ -167,9 +174,9 @@ def test_a_setting_that_is_no_number_is_refused(make, setting):
     before = sockets(material)
     setattr(material.rough_spectra, setting, math.nan)
     assert sockets(material) == before
-    state = stamp.state(material)
-    assert state.kind == "error"
-    assert "is not a number" in state.reasons[0]
+    told = state.state(material)
+    assert told.kind == "error"
+    assert "is not a number" in told.reasons[0]
     setattr(material.rough_spectra, setting, 1.0)
     assert kind(material) == "fresh"
 
@@ -185,7 +192,7 @@ def test_undo_and_redo_at_every_step(make):
         lambda: setattr(wall().rough_spectra, "sigma", math.radians(45)),
         lambda: edit(wall()),
         lambda: storage.keep(wall()),
-        lambda: assign.renew([wall()]),
+        lambda: derive.renew([wall()]),
         lambda: setattr(wall().rough_spectra, "illuminant", "A"),
     ]
     with bpy.context.temp_override(window=window, screen=window.screen):
@@ -193,22 +200,22 @@ def test_undo_and_redo_at_every_step(make):
         for step in (lambda: None, *steps):
             step()
             bpy.ops.ed.undo_push(message="step")
-            seen.append((stamp.state(wall()), sockets(wall())))
-        assert [state.kind for state, _ in seen] == [
+            seen.append((state.state(wall()), sockets(wall())))
+        assert [told.kind for told, _ in seen] == [
             *("fresh", "fresh", "stale", "kept", "fresh", "fresh")
         ]
         for expected in reversed(seen[:-1]):
             bpy.ops.ed.undo()
-            assert (stamp.state(wall()), sockets(wall())) == expected
+            assert (state.state(wall()), sockets(wall())) == expected
         for expected in seen[1:]:
             bpy.ops.ed.redo()
-            assert (stamp.state(wall()), sockets(wall())) == expected
+            assert (state.state(wall()), sockets(wall())) == expected
 
 
 def test_a_copy_is_in_step_and_on_its_own(make):
     material = make()
     copy = material.copy()
-    assert stamp.state(copy) == stamp.state(material)
+    assert state.state(copy) == state.state(material)
     before = sockets(material)
     copy.rough_spectra.sigma = math.radians(50)
     assert kind(copy) == kind(material) == "fresh"
@@ -247,15 +254,15 @@ def test_reloaded_and_appended_materials_follow(library, how):
 
 def test_a_linked_material_is_not_written_and_says_what_to_do(library):
     material = bring(library, link=True)
-    state = stamp.state(material)
-    assert state.kind == "linked"
-    assert state.reasons[0].endswith("make it local to change it, or change it there")
-    assert len(state.reasons) == 1
+    told = state.state(material)
+    assert told.kind == "linked"
+    assert told.reasons[0].endswith("make it local to change it, or change it there")
+    assert len(told.reasons) == 1
     before = sockets(material), material.rough_spectra.stamp
     # Python may write to linked data; nothing must follow.
     material.rough_spectra.sigma = math.radians(50)
     assert (sockets(material), material.rough_spectra.stamp) == before
-    assert stamp.state(material).reasons[1:] == ("σ was changed from 30° to 50°",)
+    assert state.state(material).reasons[1:] == ("σ was changed from 30° to 50°",)
     with pytest.raises(MaterialError, match="make it local"):
         storage.keep(material)
 
@@ -277,9 +284,9 @@ def test_a_library_override_is_left_alone_and_says_so(library, tmp_path):
     before = sockets(material)
     material.rough_spectra.sigma = math.radians(50)
     assert sockets(material) == before
-    state = stamp.state(material)
-    assert state.kind == "linked"
-    assert state.reasons == (
+    told = state.state(material)
+    assert told.kind == "linked"
+    assert told.reasons == (
         "it is a library override, whose nodes Blender resets; make it local to change it",
         "σ was changed from 30° to 50°",
     )
@@ -287,13 +294,13 @@ def test_a_library_override_is_left_alone_and_says_so(library, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     found = next(m for m in bpy.data.materials if m.override_library is not None)
-    assert stamp.state(found).kind == "linked"
+    assert state.state(found).kind == "linked"
     assert sockets(found) == before
     # Local, it says what differs, and renews.
     found.override_library.destroy()
     local = bpy.data.materials["Wall"].make_local()
     assert kind(local) in {"fresh", "stale"}
-    assign.renew([local])
+    derive.renew([local])
     assert kind(local) == "fresh"
 
 
@@ -301,7 +308,7 @@ def test_another_working_space_is_told_kept_and_renewed(make, set_working_space)
     material, kept = make(), make("Kept")
     set_working_space("ACEScg")
     for m in (material, kept):
-        assert stamp.state(m).reasons == (
+        assert state.state(m).reasons == (
             "the working space changed from Linear Rec.709 to ACEScg",
         )
     # Its sockets are converted; whether they were edited before is not known: left alone.
@@ -329,9 +336,9 @@ def test_an_older_stamp_is_read_without_loss(make):
     assert kind(material) == "fresh"
     with changes.paused():
         group.sigma = math.radians(40)
-    assert stamp.state(material).reasons == ("the spectrum or a setting was changed",)
+    assert state.state(material).reasons == ("the spectrum or a setting was changed",)
     spectrum = group.spectrum
-    assign.renew([material])
+    derive.renew([material])
     assert kind(material) == "fresh"
     assert (group.spectrum, group.schema) == (spectrum, SCHEMA)
 
@@ -340,7 +347,7 @@ def test_what_another_version_derived_is_told(make):
     material = make()
     group = material.rough_spectra
     group.stamp = json.dumps(json.loads(group.stamp) | {"derivation": 0, "version": "0.0.9"})
-    assert stamp.state(material).reasons == ("it was derived by an older Rough Spectra 0.0.9",)
+    assert state.state(material).reasons == ("it was derived by an older Rough Spectra 0.0.9",)
     before = sockets(material)
     group.sigma = math.radians(40)
     assert sockets(material) == before
@@ -363,7 +370,7 @@ def test_a_damaged_stamp_counts_as_none(make, damage):
     material = make()
     group = material.rough_spectra
     group.stamp = json.dumps(json.loads(group.stamp) | damage)
-    assert stamp.state(material).reasons == ("nothing was derived from the spectrum yet",)
+    assert state.state(material).reasons == ("nothing was derived from the spectrum yet",)
 
 
 def test_what_a_newer_version_stored_is_not_touched(make):
@@ -371,9 +378,9 @@ def test_what_a_newer_version_stored_is_not_touched(make):
     group = material.rough_spectra
     group.schema, group.stamp = SCHEMA + 1, '{"of": "the future"}'
     before = sockets(material)
-    state = stamp.state(material)
-    assert (state.kind, state.stamp) == ("error", None)
-    assert "update the extension" in state.reasons[0]
+    told = state.state(material)
+    assert (told.kind, told.stamp) == ("error", None)
+    assert "update the extension" in told.reasons[0]
     group.sigma = math.radians(50)
     for act in (OPS.renew, OPS.keep):
         with pytest.raises(RuntimeError):
@@ -385,6 +392,6 @@ def test_what_a_newer_version_stored_is_not_touched(make):
 
 def test_a_stamp_is_parsed_once(make, monkeypatch):
     material = make()
-    stamp.state(material)
+    state.state(material)
     monkeypatch.setattr(derivation.json, "loads", None)
     assert kind(material) == "fresh"

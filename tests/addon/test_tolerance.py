@@ -3,15 +3,15 @@
 """The tolerance of the automatic choice belongs to the material."""
 
 import numpy as np
-from rough_spectra.addon import (
-    assign,
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.matching.solve import Request
+from rough_spectra.addon.material import (
     derivation,
-    stamp,
+    derive,
+    state,
     storage,
-    target,
-    working_space,
 )
-from rough_spectra.addon.target import Request
 
 SIGMA = np.radians(30.0)
 
@@ -19,9 +19,9 @@ SIGMA = np.radians(30.0)
 def test_each_request_is_chosen_for_by_its_own_tolerance(colorchecker):
     tolerances = (20.0, 1.0, 0.05)
     requests = [Request(colorchecker[13], SIGMA, tolerance=value) for value in tolerances]
-    together = target.solve(requests, working_space.current())
+    together = solve.solve(requests, working_space.current())
     assert [found.model for found in together] == [
-        choice.model for request in requests for choice in target.choose([request])
+        choice.model for request in requests for choice in solve.choose([request])
     ]
     loose, usual, strict = together
     assert (loose.model, loose.roughness) == ("lambert", 0.0)
@@ -31,10 +31,10 @@ def test_each_request_is_chosen_for_by_its_own_tolerance(colorchecker):
 
 def test_it_is_stored_and_counts_as_a_setting(make_material, colorchecker):
     material = make_material("Wall")
-    assign.assign([(material, Request(colorchecker[13], SIGMA, tolerance=1.2))])
+    derive.assign([(material, Request(colorchecker[13], SIGMA, tolerance=1.2))])
     group = material.rough_spectra
     assert storage.load(material).tolerance == 1.2
-    assert stamp.state(material).kind == "fresh"
+    assert state.state(material).kind == "fresh"
     group.tolerance = 20.0
     assert derivation.get_stamp(material).model == "lambert"
 
@@ -42,7 +42,7 @@ def test_it_is_stored_and_counts_as_a_setting(make_material, colorchecker):
 def test_materials_of_before_are_still_up_to_date(make_material, colorchecker):
     """A digest without the tolerance is that of the usual one."""
     material = make_material("Wall")
-    assign.assign([(material, Request(colorchecker[13], SIGMA))])
+    derive.assign([(material, Request(colorchecker[13], SIGMA))])
     before = derivation.inputs_digest(material.rough_spectra)
     assert material.rough_spectra.tolerance == 1.0
     material.rough_spectra.tolerance = 1.5

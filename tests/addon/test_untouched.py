@@ -5,8 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import assign
-from rough_spectra.addon.spectrophotometer.measure import RING_45_0, Measurement, measure
+from rough_spectra.addon.instrument.measure import RING_45_0, Measurement, measure
+from rough_spectra.addon.material import derive
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")  # all properties are read
 SKIPPED = {"rna_type", "bl_rna", "original", "storage_type"}
@@ -117,7 +117,7 @@ def lived_in(make_material, colorchecker, request_for, tmp_path):
     linked = wanted.materials[0]
     image.filepath = "//pattern.png"
     spectral = make_material("Spectral")
-    assign.assign([(spectral, request_for(colorchecker[3]))])
+    derive.assign([(spectral, request_for(colorchecker[3]))])
     textured = make_material("Textured")
     tree = textured.node_tree
     texture = tree.nodes.new("ShaderNodeTexImage")

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from core.color_difference import (
+from core.color.color_difference import (
     LAB_FROM_ROOTS,
     adaptation,
     delta_e,

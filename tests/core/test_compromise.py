@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from core import compromise
+from core.cycles import least_mean_fit
 
 ANY = [[True, True]]
 
@@ -29,7 +29,7 @@ def sum_of_distances(wanted):
 def test_most_weight_at_one_place_wins_as_in_a_median(start):
     wanted = np.array([[0.2, 0.7], [0.9, 0.1], [0.6, 0.6]])
     weights = np.array([0.6, 0.25, 0.15])
-    [found] = compromise.fit(sum_of_distances(wanted), weights, [start], ANY)
+    [found] = least_mean_fit.fit(sum_of_distances(wanted), weights, [start], ANY)
     assert found == pytest.approx(wanted[0], abs=1e-3)
 
 
@@ -38,7 +38,7 @@ def test_each_search_keeps_to_the_bounds_and_to_what_is_free():
     wanted = np.array([[1.5, 0.4]])
     free = [[True, True], [True, False], [False, True], [False, False]]
     starts = [[0.5, 0.8]] * 4
-    found = compromise.fit(sum_of_distances(wanted), np.ones(1), starts, free)
+    found = least_mean_fit.fit(sum_of_distances(wanted), np.ones(1), starts, free)
     expected = [[1, 0.4], [1, 0.8], [0.5, 0.4], [0.5, 0.8]]
     assert found == [pytest.approx(each, abs=1e-3) for each in expected]
     assert found[0][0] == found[1][0] == 1
@@ -49,7 +49,7 @@ def test_what_changes_nothing_stays_where_it_is():
     def distance(points):
         return np.zeros((2, 3, len(points), 3))
 
-    assert compromise.fit(distance, np.ones(2), [[0.3, 0.6]], ANY) == [[0.3, 0.6]]
+    assert least_mean_fit.fit(distance, np.ones(2), [[0.3, 0.6]], ANY) == [[0.3, 0.6]]
 
 
 def test_elimination_solves_damped_squares():
@@ -57,7 +57,7 @@ def test_elimination_solves_damped_squares():
     for count in range(5):
         rows = random.normal(size=(count, 30))
         bowl, right = rows @ rows.T + 1e-5 * np.eye(count), random.normal(size=count)
-        found = compromise._solve(bowl.tolist(), right.tolist())
+        found = least_mean_fit._solve(bowl.tolist(), right.tolist())
         assert found == pytest.approx(np.linalg.solve(bowl, right), rel=1e-9)
 
 
@@ -72,7 +72,7 @@ def test_whitened_differences_are_distances(least):
         return np.sqrt(np.maximum(np.einsum("...i,ij,...j", apart, form, apart), 0))
 
     at = np.array([[50.0, 20.0, -10.0], [0.0, 0.0, 0.0]])
-    matrices = compromise.whitener(at, difference)
+    matrices = least_mean_fit.whitener(at, difference)
     assert np.swapaxes(matrices, 1, 2) @ matrices == pytest.approx(
         np.broadcast_to(form, (2, 3, 3)), abs=1e-6
     )

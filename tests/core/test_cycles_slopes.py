@@ -5,7 +5,8 @@
 import numpy as np
 import pytest
 
-from core import cycles, cycles_slopes
+from core import cycles
+from core.cycles import derivatives
 
 STEP = 1e-6
 
@@ -18,11 +19,11 @@ def test_values_and_slopes_are_those_of_the_closure():
     def plain(color, roughness):
         return cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *angles)
 
-    functions = cycles_slopes.functions(*angles)
+    functions = derivatives.functions(*angles)
     materials = np.column_stack((color, roughness)).tolist()
     # The closure's value and its derivatives: materials, directions, channels.
     seen, *by_channel, by_roughness = (
-        np.swapaxes(cycles_slopes.coefficients(materials) @ functions, 2, 3)
+        np.swapaxes(derivatives.coefficients(materials) @ functions, 2, 3)
     ).swapaxes(0, 1)
     assert seen == pytest.approx(plain(color, roughness), abs=1e-14)
     steeper = plain(color + STEP, roughness) - plain(color - STEP, roughness)
@@ -36,6 +37,6 @@ def test_values_and_slopes_are_those_of_the_closure():
 
 def test_ends_of_the_domain_are_finite():
     angles = (np.array([0.0, np.pi / 2]), np.array([np.pi / 2, np.pi / 2]), np.zeros(2))
-    assert np.isfinite(cycles_slopes.functions(*angles)).all()
-    ends = cycles_slopes.coefficients([[0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0]])
+    assert np.isfinite(derivatives.functions(*angles)).all()
+    ends = derivatives.coefficients([[0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0]])
     assert np.isfinite(ends).all()

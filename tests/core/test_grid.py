@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core import grid
 from core.errors import DomainError
+from core.numerics import wavelength_grid
 
 UNEVEN = np.array([380.0, 391.5, 400.0, 407.0, 430.0, 431.0, 470.0])
 
@@ -33,7 +33,7 @@ def exact_lagrange(source, values, at, points):
 def test_resampling_agrees_with_rational_arithmetic(method, points):
     values = np.random.default_rng(5).uniform(0, 1, (3, UNEVEN.size))
     target = np.sort(np.append(np.linspace(380, 470, 57), [391.5, 430.0]))
-    found = grid.resample(values, UNEVEN, target, method)
+    found = wavelength_grid.resample(values, UNEVEN, target, method)
     expected = [[exact_lagrange(UNEVEN, row, at, points) for at in target] for row in values]
     np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
 
@@ -42,7 +42,7 @@ def test_linear_is_numpys_interpolation():
     values = np.random.default_rng(6).uniform(0, 1, UNEVEN.size)
     target = np.linspace(370, 480, 111)
     np.testing.assert_allclose(
-        grid.resample(values, UNEVEN, target, ends="hold"),
+        wavelength_grid.resample(values, UNEVEN, target, ends="hold"),
         np.interp(target, UNEVEN, values),
         rtol=1e-14,
     )
@@ -55,28 +55,32 @@ def test_cubic_is_exact_for_cubic_spectra():
 
     target = np.linspace(380, 470, 91)
     np.testing.assert_allclose(
-        grid.resample(cubic(UNEVEN), UNEVEN, target, "cubic"), cubic(target), rtol=1e-13
+        wavelength_grid.resample(cubic(UNEVEN), UNEVEN, target, "cubic"), cubic(target), rtol=1e-13
     )
 
 
 def test_own_grid_gives_the_same_bits():
     values = np.random.default_rng(7).uniform(0, 1, (2, UNEVEN.size))
     for method in ("linear", "cubic"):
-        np.testing.assert_array_equal(grid.resample(values, UNEVEN, UNEVEN, method), values)
+        np.testing.assert_array_equal(
+            wavelength_grid.resample(values, UNEVEN, UNEVEN, method), values
+        )
 
 
 def test_missing_ends_are_nan_unless_asked():
     target = np.array([370.0, 380.0, 470.0, 471.0])
     values = np.linspace(0.1, 0.7, 7)
     np.testing.assert_array_equal(
-        grid.resample(values, UNEVEN, target), [np.nan, values[0], values[-1], np.nan]
+        wavelength_grid.resample(values, UNEVEN, target), [np.nan, values[0], values[-1], np.nan]
     )
     np.testing.assert_array_equal(
-        grid.resample(values, UNEVEN, target, "cubic", "hold"), values[[0, 0, -1, -1]]
+        wavelength_grid.resample(values, UNEVEN, target, "cubic", "hold"), values[[0, 0, -1, -1]]
     )
-    np.testing.assert_array_equal(grid.covered(UNEVEN, target), [False, True, True, False])
+    np.testing.assert_array_equal(
+        wavelength_grid.covered(UNEVEN, target), [False, True, True, False]
+    )
     with pytest.raises(DomainError, match="370 nm lies outside the measured 380 to 470 nm; choose"):
-        grid.resample(values, UNEVEN, target, ends="error")
+        wavelength_grid.resample(values, UNEVEN, target, ends="error")
 
 
 @pytest.mark.parametrize(("method", "reach"), [("linear", 1), ("cubic", 2)])
@@ -85,7 +89,7 @@ def test_nan_spreads_only_to_bands_that_lean_on_it(method, reach):
     values = np.linspace(0, 1, 10)
     values[4] = np.nan  # 440 nm
     target = np.arange(400.0, 491.0, 5.0)
-    found = grid.resample(values, source, target, method)
+    found = wavelength_grid.resample(values, source, target, method)
     between = [nm for nm in target if nm % 10 and abs(nm - 440) < 10 * reach]
     expected = [nm == 440 or nm in between for nm in target]
     np.testing.assert_array_equal(np.isnan(found), expected)
@@ -94,11 +98,11 @@ def test_nan_spreads_only_to_bands_that_lean_on_it(method, reach):
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_precision_leading_axes_and_nothing(dtype):
     values = np.ones((2, 1, UNEVEN.size), dtype)
-    found = grid.resample(values, UNEVEN, [390, 400, 410], "cubic")
+    found = wavelength_grid.resample(values, UNEVEN, [390, 400, 410], "cubic")
     assert found.dtype == dtype
     assert found.shape == (2, 1, 3)
     np.testing.assert_allclose(found, 1, rtol=4 * np.finfo(dtype).eps)
-    empty = grid.resample(np.ones((0, UNEVEN.size), dtype), UNEVEN, [390.0])
+    empty = wavelength_grid.resample(np.ones((0, UNEVEN.size), dtype), UNEVEN, [390.0])
     assert empty.dtype == dtype
     assert empty.shape == (0, 1)
 
@@ -106,23 +110,26 @@ def test_precision_leading_axes_and_nothing(dtype):
 @pytest.mark.parametrize("method", ["linear", "cubic"])
 def test_one_two_and_three_bands(method):
     assert (
-        grid.resample([0.3], [550.0], [500.0, 550.0, 600.0], method, "hold").tolist() == [0.3] * 3
+        wavelength_grid.resample([0.3], [550.0], [500.0, 550.0, 600.0], method, "hold").tolist()
+        == [0.3] * 3
     )
     np.testing.assert_array_equal(
-        grid.resample([0.3], [550.0], [500.0, 550.0], method), [np.nan, 0.3]
+        wavelength_grid.resample([0.3], [550.0], [500.0, 550.0], method), [np.nan, 0.3]
     )
-    assert grid.resample([0.2, 0.4], [500, 600], [550.0], method)[0] == pytest.approx(0.3)
-    parabola = grid.resample([0.0, 0.25, 1.0], [500, 550, 600], [525.0], method)[0]
+    assert wavelength_grid.resample([0.2, 0.4], [500, 600], [550.0], method)[0] == pytest.approx(
+        0.3
+    )
+    parabola = wavelength_grid.resample([0.0, 0.25, 1.0], [500, 550, 600], [525.0], method)[0]
     assert parabola == pytest.approx(0.125 if method == "linear" else 0.0625)
 
 
 def test_even_steps_are_told_from_uneven_ones():
-    assert grid.step(np.arange(380, 781, 5)) == 5
+    assert wavelength_grid.step(np.arange(380, 781, 5)) == 5
     # As files print a third of a nanometer.
-    assert grid.step([400, 403.3333, 406.6667, 410]) == pytest.approx(10 / 3)
-    assert grid.step([400, 403.3, 406.7, 410]) is None
-    assert grid.step(UNEVEN) is None
-    assert grid.step([550]) is None
+    assert wavelength_grid.step([400, 403.3333, 406.6667, 410]) == pytest.approx(10 / 3)
+    assert wavelength_grid.step([400, 403.3, 406.7, 410]) is None
+    assert wavelength_grid.step(UNEVEN) is None
+    assert wavelength_grid.step([550]) is None
 
 
 @pytest.mark.parametrize(
@@ -139,12 +146,12 @@ def test_even_steps_are_told_from_uneven_ones():
 )
 def test_bad_grids_are_refused_in_a_sentence(wavelengths, sentence):
     with pytest.raises(DomainError) as caught:
-        grid.check_wavelengths(wavelengths)
+        wavelength_grid.check_wavelengths(wavelengths)
     assert str(caught.value).startswith(sentence)
 
 
 def test_values_that_do_not_fit_their_grid_are_refused():
     with pytest.raises(DomainError, match="3 values do not fit 2 wavelengths"):
-        grid.resample([0.1, 0.2, 0.3], [400, 500], [450])
+        wavelength_grid.resample([0.1, 0.2, 0.3], [400, 500], [450])
     with pytest.raises(DomainError, match="the spectrum is a single number"):
-        grid.resample(0.1, [400], [450])
+        wavelength_grid.resample(0.1, [400], [450])

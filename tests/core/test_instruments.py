@@ -7,18 +7,15 @@ import pytest
 
 from core import (
     closure,
-    instrument_curves,
-    instrument_directions,
     instruments,
     models,
     oren_nayar,
     reading,
     vcavity,
-    vcavity_series,
-    vcavity_slopes,
-    vcavity_surface,
 )
 from core.errors import DomainError
+from core.instruments import curves, quadrature
+from core.vcavity import bounce_series, slope_law, surface
 
 NAMES = reading.INSTRUMENTS
 AVERAGING = ("45a:0-iso", "0:45a-iso", "45x:0-iso", "di:8", "de:8")
@@ -45,7 +42,7 @@ def test_the_names_and_the_default():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_weights_and_angles(name):
-    found = instrument_directions.of(name)
+    found = quadrature.of(name)
     assert np.sum(found.weights) == pytest.approx(1, rel=1e-15)
     assert (found.weights > 0).all() or name == "de:8"
     for angles, top in ((found.theta_i, 90), (found.theta_r, 90), (found.delta_phi, 180)):
@@ -142,7 +139,7 @@ def test_tilted_cones_agree_with_random_directions(light, view, azimuth):
     record = instruments.Instrument(
         *("x", "", "", "", 99), instruments.Beam(*light), instruments.Beam(*view), float(azimuth)
     )
-    of = instrument_directions.build(record)
+    of = quadrature.build(record)
     numbers = np.random.default_rng(4).random((100_000, 4))
     lit = in_cone(numbers[:, :2], *light, azimuth)
     seen = in_cone(numbers[:, 2:], *view, 0)
@@ -191,26 +188,26 @@ def test_gloss_trap_is_cut_out():
 
 @pytest.mark.parametrize("name", AVERAGING)
 def test_twice_the_nodes_change_nothing(name):
-    coarse = instrument_directions.of(name)
-    fine = instrument_directions.build(instruments.find(name), refinement=2)
+    coarse = quadrature.of(name)
+    fine = quadrature.build(instruments.find(name), refinement=2)
     assert fine.weights.size >= 4 * coarse.weights.size
     sigma = np.radians([5.0, 20, 50, 90])
     albedo = np.array([0.1, 0.5, 0.9, 1.0])
     published, cavity = [], []
     # Few nodes inside the groove: what is tested is the average of its answers.
-    resolution = vcavity_surface.Resolution(slopes=3, azimuths=6, panels=12, table=48)
-    shares = vcavity_slopes.weights(sigma, resolution.slopes)
+    resolution = surface.Resolution(slopes=3, azimuths=6, panels=12, table=48)
+    shares = slope_law.weights(sigma, resolution.slopes)
     for of in (coarse, fine):
         angles = of.theta_i, of.theta_r, of.delta_phi
         f1, f2 = oren_nayar.factors(*angles, sigma[:, np.newaxis])
         published.append(np.outer(f1 @ of.weights, albedo) + np.outer(f2 @ of.weights, albedo**2))
         rows = 0
         for part in np.array_split(np.arange(of.weights.size), of.weights.size // 8):
-            answer = vcavity_surface.response(*(a[part] for a in angles), 6, resolution)
+            answer = surface.response(*(a[part] for a in angles), 6, resolution)
             rows = rows + np.tensordot(of.weights[part], answer, 1)
-        cavity.append(vcavity_series.evaluate(shares @ rows, albedo))
+        cavity.append(bounce_series.evaluate(shares @ rows, albedo))
     for first, second in (published, cavity):
-        np.testing.assert_allclose(first, second, rtol=instrument_directions.QUADRATURE_ERROR)
+        np.testing.assert_allclose(first, second, rtol=quadrature.QUADRATURE_ERROR)
 
 
 @pytest.mark.parametrize("model", models.NAMES)
@@ -221,7 +218,7 @@ def test_level_surface_reads_its_albedo(name, model):
         tolerance = 2 * np.finfo(dtype).eps
         if model == "reference":
             # Where σ is 0 nothing is interpolated.
-            tolerance += instrument_curves.INTERPOLATION_ERROR
+            tolerance += curves.INTERPOLATION_ERROR
         for sigma in (0.0, 1e-12):
             read = reading.from_albedo(albedo, sigma, model, name)
             np.testing.assert_allclose(read, albedo, rtol=tolerance)
@@ -267,28 +264,28 @@ def test_reciprocity(model):
 def test_reciprocity_of_the_solver():
     """The tables put the larger angle first; here nothing does."""
     quarter, zero = np.array([np.pi / 4]), np.zeros(1)
-    there = vcavity_surface.response(quarter, zero, zero, 6)
-    back = vcavity_surface.response(zero, quarter, zero, 6)
+    there = surface.response(quarter, zero, zero, 6)
+    back = surface.response(zero, quarter, zero, 6)
     np.testing.assert_allclose(there, back, atol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["45a:0-iso", "di:8", "45as-15", "45as110"])
 def test_tables_follow_the_solver_between_their_nodes(name):
-    of = instrument_directions.of(name)
+    of = quadrature.of(name)
     sigma = np.radians([0.3, 0.616, 4.321, 15.1, 31.7, 47.3, 80.9])
-    shares = vcavity_slopes.weights(sigma, vcavity.STANDARD.slopes)
+    shares = slope_law.weights(sigma, vcavity.STANDARD.slopes)
     expected = 0
     for index in range(of.weights.size):
         part = slice(index, index + 1)
         angles = of.theta_i[part], of.theta_r[part], of.delta_phi[part]
-        expected = expected + of.weights[index] * (shares @ vcavity_surface.response(*angles, 6)[0])
-    bound = instrument_curves.INTERPOLATION_ERROR if name == "di:8" else 1e-12
-    np.testing.assert_allclose(instrument_curves.series(name).rows(sigma), expected, atol=bound)
+        expected = expected + of.weights[index] * (shares @ surface.response(*angles, 6)[0])
+    bound = curves.INTERPOLATION_ERROR if name == "di:8" else 1e-12
+    np.testing.assert_allclose(curves.series(name).rows(sigma), expected, atol=bound)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_published_coefficients_are_the_mean_of_the_model(name):
-    of = instrument_directions.of(name)
+    of = quadrature.of(name)
     means = oren_nayar.factors(of.theta_i, of.theta_r, of.delta_phi, SIGMAS[:, np.newaxis])
     for found, values in zip(reading.coefficients(SIGMAS, name), means, strict=True):
         np.testing.assert_allclose(found, values @ of.weights, rtol=1e-13, atol=1e-15)
@@ -300,7 +297,7 @@ def test_closure_stays_near_the_reference(name):
     albedo = np.concatenate((np.geomspace(1e-3, 0.1, 5), np.linspace(0.13, 0.99, 40), [0.999, 1]))
     expected = reading.from_albedo(albedo, sigma, "reference", name)
     found = reading.from_albedo(albedo, sigma, "closure", name)
-    np.testing.assert_allclose(found, expected, rtol=instrument_curves.CLOSURE_ERROR)
+    np.testing.assert_allclose(found, expected, rtol=curves.CLOSURE_ERROR)
     if name in (*EQUAL_TO_RING, "di:8", "45as110"):
         np.testing.assert_allclose(found, expected, rtol=closure.RING_ERROR)
     if name not in EQUAL_TO_RING:
@@ -311,7 +308,7 @@ def test_closure_stays_near_the_reference(name):
 def test_closure_coefficients_have_no_step_where_the_law_of_small_roughness_ends():
     sigma = 0.01 * (1 + np.array([-1e-9, 0, 1e-9]))
     for name in (*AVERAGING, "45as15"):
-        values = np.array(instrument_curves.closure_coefficients(sigma, name))
+        values = np.array(curves.closure_coefficients(sigma, name))
         np.testing.assert_allclose(values[:, 0], values[:, 2], rtol=1e-5)
 
 

@@ -5,9 +5,16 @@
 import numpy as np
 import pytest
 
-from core import closure, ladder, models, oren_nayar, vcavity, yardstick
-from core.color_difference import delta_e, xyz_to_lab
+from core import (
+    closure,
+    ladder,
+    models,
+    oren_nayar,
+    vcavity,
+)
+from core.color.color_difference import delta_e, xyz_to_lab
 from core.errors import DomainError
+from core.vcavity import tabulated
 
 GEOMETRY = np.radians([[[0.0], [30.0]], [[45.0], [70.0]], [[10.0], [150.0]]])
 
@@ -92,18 +99,18 @@ def test_the_table_is_as_close_to_the_solver_as_it_says():
     expected = np.stack(
         [vcavity.reflectance(r, *geometry, s) for r, s in zip(rho, sigma, strict=True)]
     )
-    error = np.abs(yardstick.reflectance(rho, *geometry, sigma) / expected - 1).max(axis=-1)
+    error = np.abs(tabulated.reflectance(rho, *geometry, sigma) / expected - 1).max(axis=-1)
     # Elsewhere than at the probes of the fit a few are larger than its bound, by little.
-    assert np.all(error <= 1.2 * yardstick.bound(*geometry, sigma[:, np.newaxis]))
-    assert np.mean(error <= yardstick.bound(*geometry, sigma[:, np.newaxis])) > 0.99
+    assert np.all(error <= 1.2 * tabulated.bound(*geometry, sigma[:, np.newaxis]))
+    assert np.mean(error <= tabulated.bound(*geometry, sigma[:, np.newaxis])) > 0.99
     assert np.median(error) < TABLE_ERROR
 
 
 def test_the_table_keeps_the_symmetries_and_goes_on_outside_its_albedos():
     light, view, azimuth = np.radians([20.0, 60, 5]), np.radians([70.0, 1, 80]), np.array([1, 2, 3])
     rho = np.array([[0.3, 1.0, 1.1, -0.1]])
-    found = yardstick.reflectance(rho, light, view, azimuth, 0.6)
-    swapped = yardstick.reflectance(rho, view, light, -azimuth - 2 * np.pi, 0.6)
+    found = tabulated.reflectance(rho, light, view, azimuth, 0.6)
+    swapped = tabulated.reflectance(rho, view, light, -azimuth - 2 * np.pi, 0.6)
     np.testing.assert_allclose(found, swapped, rtol=1e-12)
     np.testing.assert_allclose(found[..., 2], 1.1 * found[..., 1], rtol=1e-12)
     expected = vcavity.reflectance(rho[0], light, view, azimuth, 0.6)

@@ -5,10 +5,12 @@
 import numpy as np
 import pytest
 
-from core import closure, cycles, geometry, oren_nayar, remembered, yardstick
+from core import closure, cycles, oren_nayar
 from core.errors import DomainError
+from core.numerics import direction_grid, memoized
+from core.vcavity import tabulated
 
-FEW = remembered.FEW
+FEW = memoized.FEW
 
 
 @pytest.fixture
@@ -16,7 +18,7 @@ def sums():
     """A function that is remembered, and how often it ran."""
     runs = []
 
-    @remembered.remembered
+    @memoized.remembered
     def add(light, view, azimuth):
         runs.append(light.size)
         return (light + view + azimuth,)
@@ -26,7 +28,7 @@ def sums():
 
 def test_the_same_directions_are_computed_once(sums):
     add, runs = sums
-    angles = geometry.hemisphere(12)
+    angles = direction_grid.hemisphere(12)
     first, again = add(*angles), add(*(angle.copy() for angle in angles))
     assert runs == [12]
     assert first[0] is again[0]
@@ -36,7 +38,7 @@ def test_the_same_directions_are_computed_once(sums):
 
 def test_other_directions_shapes_and_precisions_are_others(sums):
     add, runs = sums
-    light, view, azimuth = (angle.copy() for angle in geometry.hemisphere(12))
+    light, view, azimuth = (angle.copy() for angle in direction_grid.hemisphere(12))
     add(light, view, azimuth)
     light[3] += 0.01
     assert add(light, view, azimuth)[0][3] == light[3] + view[3] + azimuth[3]
@@ -48,7 +50,7 @@ def test_other_directions_shapes_and_precisions_are_others(sums):
 def test_of_many_directions_nothing_is_kept(sums):
     add, runs = sums
     for _ in range(2):
-        found = add(*geometry.hemisphere(FEW + 1))[0]
+        found = add(*direction_grid.hemisphere(FEW + 1))[0]
     assert runs == [FEW + 1, FEW + 1]
     found[0] = 7
 
@@ -66,7 +68,7 @@ def test_of_a_grid_of_few_by_few_directions_nothing_is_kept(sums):
 
 def test_bytes_in_the_other_order_are_other_numbers(sums):
     add, _ = sums
-    angles = geometry.hemisphere(3)
+    angles = direction_grid.hemisphere(3)
     swapped = [angle.astype(angle.dtype.newbyteorder()) for angle in angles]
     np.testing.assert_array_equal(add(*swapped)[0], add(*angles)[0])
 
@@ -76,14 +78,14 @@ def test_bytes_in_the_other_order_are_other_numbers(sums):
     [
         lambda angles: closure.factors(*angles, 0.6),
         lambda angles: oren_nayar.factors(*angles, 0.6),
-        lambda angles: [yardstick.bound(*angles, 0.6)],
-        lambda angles: yardstick.reflectance(np.full((1, 3), 0.4), *angles, 0.6),
+        lambda angles: [tabulated.bound(*angles, 0.6)],
+        lambda angles: tabulated.reflectance(np.full((1, 3), 0.4), *angles, 0.6),
         lambda angles: [cycles.reflectance(np.full((angles[0].size, 3), 0.4), 0.6, *angles)],
     ],
     ids=["closure", "published", "bound", "yardstick", "cycles"],
 )
 def test_few_directions_give_what_they_give_among_many(of):
-    many = geometry.hemisphere(FEW + 50)
+    many = direction_grid.hemisphere(FEW + 50)
     few = tuple(angle[:40] for angle in many)
     for alone, among in zip(of(few), of(many), strict=True):
         rest = among[:40] if alone.shape[0] == 40 else among[..., :40]
@@ -98,7 +100,7 @@ def test_few_directions_give_what_they_give_among_many(of):
     [
         closure.factors,
         oren_nayar.factors,
-        yardstick.bound,
+        tabulated.bound,
         lambda *angles: cycles.reflectance(np.full((1, 3), 0.4), angles[-1], *angles[:-1]),
     ],
     ids=["closure", "published", "bound", "cycles"],

@@ -8,8 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core import vcavity, vcavity_series, vcavity_slopes, vcavity_surface, vcavity_tables
+from core import vcavity
 from core.errors import DomainError
+from core.vcavity import (
+    bounce_series,
+    sigma_tables,
+    slope_law,
+    surface,
+)
 
 sys.path.insert(0, str(Path(__file__).parent))
 import vcavity_monte_carlo
@@ -61,8 +67,8 @@ def test_white_furnace(theta_i):
 def test_reciprocity_of_the_solver():
     # `series` orders light and view, which hides any asymmetry; `response` does not.
     angles = np.radians([[45, 60, 80, 88], [10, 75, 30, 85], [20, 180, 90, 3]])
-    forward = vcavity_surface.response(*angles, bounces=6)
-    backward = vcavity_surface.response(angles[1], angles[0], -angles[2], bounces=6)
+    forward = surface.response(*angles, bounces=6)
+    backward = surface.response(angles[1], angles[0], -angles[2], bounces=6)
     # Rounding; a_1 reaches 40 in the last geometry.
     np.testing.assert_allclose(forward, backward, rtol=1e-9, atol=1e-11)
 
@@ -140,10 +146,10 @@ def test_roughness_goes_to_zero_smoothly(sigma):
 
 def test_weights_of_any_roughness_add_up():
     sigma = np.array([0.0, 1e-300, 1e-8, 0.01, 0.1, 0.5, 1.0, np.pi / 2])
-    weights = vcavity_slopes.weights(sigma, 6)
+    weights = slope_law.weights(sigma, 6)
     np.testing.assert_allclose(weights.sum(axis=-1), 1, rtol=1e-14)
     # Mean of θ² under the distribution: 2σ² for small σ.
-    mean_square = weights @ vcavity_slopes.nodes(6) ** 2
+    mean_square = weights @ slope_law.nodes(6) ** 2
     np.testing.assert_allclose(mean_square[3], 2 * sigma[3] ** 2, rtol=1e-3)
 
 
@@ -216,10 +222,8 @@ def test_ring_table_matches_the_solver():
     # Between the table's nodes, and closely where panels of σ and shadows begin.
     sigma = np.concatenate((np.linspace(0, np.pi / 2, 200), np.radians([2.999, 3.001, 38.1])))
     solved = vcavity.series(np.pi / 4, 0, 0, sigma)
-    interpolated = vcavity_tables.ring().rows(sigma)
-    np.testing.assert_allclose(
-        interpolated, solved, rtol=0, atol=vcavity_tables.INTERPOLATION_ERROR
-    )
+    interpolated = sigma_tables.ring().rows(sigma)
+    np.testing.assert_allclose(interpolated, solved, rtol=0, atol=sigma_tables.INTERPOLATION_ERROR)
     np.testing.assert_array_equal(vcavity.ring_coefficients(sigma), interpolated[:, :6])
 
 
@@ -250,10 +254,10 @@ def test_readings_outside_the_range_are_not_clipped():
 
 def test_tail_shares_reproduce_ratios_between_the_nodes():
     ratio = np.array([-0.99, -0.5, 0.1, 0.6, 0.9, 0.97, 0.995, 0.9999])
-    bounces = vcavity_tables.SERIES_BOUNCES
+    bounces = sigma_tables.SERIES_BOUNCES
     rho = np.linspace(0, 1, 101)[:, np.newaxis]
-    fitted = 1 / (1 - rho * vcavity_series.TAIL_RATIOS)
-    fitted = fitted @ vcavity_series.tail_shares(ratio, bounces).T * rho ** (bounces + 1)
+    fitted = 1 / (1 - rho * bounce_series.TAIL_RATIOS)
+    fitted = fitted @ bounce_series.tail_shares(ratio, bounces).T * rho ** (bounces + 1)
     exact = rho ** (bounces + 1) / (1 - rho * ratio)
     # In units of the tail of white facets, which the fit meets exactly. 7e-4 is seen at g = 0.9999;
     # no surface has more than 1 % of its light there.

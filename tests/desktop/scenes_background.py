@@ -38,7 +38,7 @@ def jobs():
 
 def _measured():
     material = wall()
-    found = None if material is None else ours("addon.measured").get(material)
+    found = None if material is None else ours("addon.material.last_measurement").get(material)
     return None if found is None else [found.delta_e, found.current]
 
 
@@ -54,7 +54,7 @@ def _ended():
 
 def _watch_result():
     """Note each time that the panel draws what was measured."""
-    panel, drawn = ours("addon.panels.drawing"), []
+    panel, drawn = ours("addon.interface.panels.drawing"), []
     draw = panel._draw_measured
 
     def watched(*arguments):
@@ -192,7 +192,7 @@ def switched_off_while_measuring(found):
 def failing_to_measure(found):
     """Ask for what a second Blender cannot do."""
     yield from green_file()
-    measure = ours("addon.spectrophotometer.measure")
+    measure = ours("addon.instrument.measure")
     broken = measure.Geometry((("not an angle", 0.0),), 0.0)
     job = measure.Measurement([wall()], [broken])
     yield job.poll
@@ -267,9 +267,9 @@ def wheels_of_extensions(found):
     (folder / "seven.csv").write_text(SEVEN, encoding="utf-8")
     with over(area("TEXT_EDITOR")):
         OPS.import_samples("EXEC_DEFAULT", filepath=str(folder / "seven.csv"), collection="seven")
-    library = ours("addon.library")
+    library = ours("addon.samples.library")
     # As the panel does: the drop list shows what is known.
-    library.contents(ours("addon.preferences").user_folder())
+    library.contents(ours("addon.material.preferences").user_folder())
     for collection in ("everyday", "seven"):
         with over(area("TEXT_EDITOR")):
             OPS.build_assets(

@@ -50,7 +50,7 @@ def sidebar_and_menus(found):
     yield 1.0
     found["category"] = sidebar.active_panel_category
     drawn = []
-    for name in ours("addon.panels.menus")._MENUS:
+    for name in ours("addon.interface.panels.menus")._MENUS:
         kind, where = getattr(bpy.types, name), area("PROPERTIES")
         if name.partition("_")[0] != "MATERIAL":
             editor.ui_type = EDITORS[name.partition("_")[0]]
@@ -87,7 +87,7 @@ def preferences(found):
         OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
     group = wall().rough_spectra
     chosen.library_folder = bpy.app.tempdir
-    found["library"] = ours("addon.preferences").user_folder().samefile(bpy.app.tempdir)
+    found["library"] = ours("addon.material.preferences").user_folder().samefile(bpy.app.tempdir)
     chosen.library_folder = ""
     found["new"] = [group.illuminant, group.observer, round(group.tolerance, 3)]
     bpy.ops.wm.save_userpref()
@@ -132,7 +132,7 @@ def another_language(found):
 
 def _measurement():
     """The line that the panel draws of a measurement, in the language of now."""
-    sentences, text = ours("addon.panels.sentences"), ours("addon.panels.text")
+    sentences, text = ours("addon.interface.panels.sentences"), ours("addon.interface.panels.text")
     style = sentences.style(text.Format(600, False, 1.0, 11.0))
     _, ((line, _),) = sentences.measurement(0.0, 0.1, True, style)
     return line

@@ -20,9 +20,10 @@ PLASTER = "\n".join(
 
 
 def _library():
-    library = ours("addon.library")
+    library = ours("addon.samples.library")
     return sorted(
-        entry.name for entry in library.contents(ours("addon.preferences").user_folder()).entries
+        entry.name
+        for entry in library.contents(ours("addon.material.preferences").user_folder()).entries
     )
 
 

@@ -94,7 +94,7 @@ def state():
     material = wall()
     if material is None:
         return None
-    nodes = ours("addon.nodes")
+    nodes = ours("addon.blender.shader_nodes")
     node = nodes.shader_node(material)
     group = material.rough_spectra
     return {
@@ -103,5 +103,5 @@ def state():
         "color": list(nodes.color_socket(node).default_value)[:3],
         "roughness": nodes.roughness_socket(node).default_value,
         "stamp": group.stamp,
-        "kind": ours("addon.stamp").state(material).kind,
+        "kind": ours("addon.material.state").state(material).kind,
     }

@@ -36,7 +36,7 @@ bpy.ops.preferences.addon_disable(module=name)
 bpy.ops.preferences.addon_enable(module=name)
 # The tests' own environment has the library too; what Blender unpacked comes first now.
 sys.path.sort(key=lambda entry: "extensions" not in entry)
-readers = importlib.import_module(name + ".addon.readers")
+readers = importlib.import_module(name + ".addon.samples.readers")
 samples = readers.read(sys.argv[2])
 print("RESULT " + json.dumps({
     "enabled": enabled,

@@ -3,7 +3,7 @@
 """What every refusal of a measurement file has to be: one sentence that begins with the file."""
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 from rough_spectra.core.errors import InputError
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import readers
-from rough_spectra.addon.readers import asd
-from rough_spectra.addon.readers._document import Document
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.formats import asd
+from rough_spectra.addon.samples.readers.parts.document import Document
 from rough_spectra.core.errors import InputError
 
 TILE = Path(__file__).resolve().parents[1] / "fixtures" / "asd" / "tile.asd"

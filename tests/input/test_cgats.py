@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 
 from tests import pace
 from tests.input.refused import refusal
@@ -218,14 +218,14 @@ def test_a_table_of_light_beside_one_of_surfaces_is_left_out(tmp_path):
 
 
 def test_what_is_written_is_read_back(tmp_path):
-    from rough_spectra.addon import readings_document
-    from rough_spectra.addon.writers import cgats
+    from rough_spectra.addon.readings import document
+    from rough_spectra.addon.readings.writers import cgats
 
     rng = np.random.default_rng(5)
     nm = tuple(float(band) for band in range(380, 731, 10))
     names = ('Brick "old"', "Plaster, white")
     parts = [
-        readings_document.Predicted(
+        document.Predicted(
             kind="albedo",
             model_reason="",
             sigma_degrees=30.0,
@@ -241,11 +241,11 @@ def test_what_is_written_is_read_back(tmp_path):
         for _ in names
     ]
     entries = tuple(
-        readings_document.Reading(name, "", name, "", part, None, None, "", ())
+        document.Reading(name, "", name, "", part, None, None, "", ())
         for name, part in zip(names, parts, strict=True)
     )
     path = tmp_path / "readings.txt"
-    path.write_bytes(cgats.predicted(readings_document.Readings("Linear Rec.709", "5.2", entries)))
+    path.write_bytes(cgats.predicted(document.Readings("Linear Rec.709", "5.2", entries)))
     samples = readers.read(path)
     assert [sample.name for sample in samples] == list(names)
     for sample, part in zip(samples, parts, strict=True):

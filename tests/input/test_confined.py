@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
-from rough_spectra.addon.readers import cxf, spdx
-from rough_spectra.addon.readers._document import Document
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.formats import cxf, spdx
+from rough_spectra.addon.samples.readers.parts.document import Document
 from rough_spectra.core.errors import InputError
 
 from tools import promises

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 
 from tests import pace
 from tests.input.refused import refusal

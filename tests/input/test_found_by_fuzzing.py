@@ -5,7 +5,7 @@
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 
 from tools import promises
 

@@ -3,7 +3,11 @@
 """Words for geometries in files: which instrument they mean, and when the user is told."""
 
 import pytest
-from rough_spectra.addon.readers._geometry import geometry_of_device, instrument_of, specular_of
+from rough_spectra.addon.samples.readers.parts.geometry_words import (
+    geometry_of_device,
+    instrument_of,
+    specular_of,
+)
 from rough_spectra.core.instruments import REGISTRY
 
 from tests import pace

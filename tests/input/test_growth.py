@@ -6,7 +6,7 @@
 """
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 
 from tests import pace
 from tools import growth, promises

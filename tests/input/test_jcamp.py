@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rough_spectra.addon import readers
-from rough_spectra.addon.readers import jcamp
-from rough_spectra.addon.readers._document import Document
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.formats import jcamp
+from rough_spectra.addon.samples.readers.parts.document import Document
 from rough_spectra.core.errors import InputError
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "jcamp"

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from rough_spectra.addon import readers
-from rough_spectra.addon.readers._document import Document
-from rough_spectra.addon.sample import BRIGHTEST, DEEPEST_NOISE
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.parts.document import Document
+from rough_spectra.addon.samples.sample import BRIGHTEST, DEEPEST_NOISE
 from rough_spectra.core.errors import InputError
 
 from tests import pace

@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 
 from tests.input.refused import refusal
 

@@ -8,7 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import judgement, presets, readers, validate
+from rough_spectra.addon.samples import (
+    preset_validation,
+    presets,
+    quality,
+    readers,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "presets" / "schema.json").read_text("utf-8"))
@@ -57,7 +62,7 @@ def allowed(schema, value):
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_every_bundled_preset_is_valid_and_without_remark(path):
     assert allowed(SCHEMA, json.loads(path.read_text("utf-8")))
-    verdict = validate.validate(path)
+    verdict = preset_validation.validate(path)
     assert verdict.faults == ()
     assert verdict.remarks == ()
 
@@ -77,7 +82,7 @@ def test_an_everyday_preset_says_where_everything_comes_from(name):
     assert re.match(rf"Estimate, not measured: {sample.sigma_degrees:.0f}°,", sample.sigma_source)
     assert sample.wavelengths[0] <= 400
     assert sample.wavelengths[-1] >= 700
-    assert judgement.judge([sample]) == [()]
+    assert quality.judge([sample]) == [()]
 
 
 @pytest.mark.parametrize(
@@ -139,7 +144,7 @@ def test_schema_and_validator_agree(tmp_path, field, value):
         del fields[field]
     path = tmp_path / "brick.json"
     path.write_text(json.dumps(fields), "utf-8")
-    faults = validate.validate(path).faults
+    faults = preset_validation.validate(path).faults
     assert bool(faults) == (not allowed(SCHEMA, fields)), faults
     for sentence in faults:
         assert sentence.startswith(f"{path}, field")
@@ -153,7 +158,7 @@ def test_every_fault_is_said_at_once(tmp_path):
     path = tmp_path / "bad.json"
     fields = {**BRICK, "kind": "color", "license": "", "values": [9.0, *BRICK["values"][1:]]}
     path.write_text(json.dumps(fields), "utf-8")
-    sentences = validate.validate(path).faults
+    sentences = preset_validation.validate(path).faults
     assert [re.search(r"fields? '(\w+)'", text)[1] for text in sentences] == [
         "license",
         "kind",
@@ -165,7 +170,7 @@ def test_a_spectrum_without_the_red_is_a_fault(tmp_path):
     path = tmp_path / "short.json"
     short = {**BRICK, "wavelengths": BRICK["wavelengths"][:-2], "values": BRICK["values"][:-2]}
     path.write_text(json.dumps(short), "utf-8")
-    [sentence] = validate.validate(path).faults
+    [sentence] = preset_validation.validate(path).faults
     assert "field 'wavelengths': it covers 400 to 680 nm" in sentence
     assert sentence.endswith("measure the whole range.")
 
@@ -179,7 +184,7 @@ def test_optional_fields_reach_the_sample():
 
 
 def test_the_verb_reports_every_file_and_fails(tmp_path, capsys):
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     (tmp_path / "brick.json").write_text(json.dumps(BRICK), "utf-8")
     assert command_line.main(["validate", str(tmp_path)]) == 0

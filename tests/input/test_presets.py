@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import presets, readers
+from rough_spectra.addon.samples import presets, readers
 from rough_spectra.core.errors import InputError
 
 ROOT = Path(__file__).resolve().parents[2]

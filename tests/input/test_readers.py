@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
-from rough_spectra.addon.readers import _document
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.parts import document
 from rough_spectra.core.errors import InputError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -45,7 +45,7 @@ def test_every_module_keeps_the_protocol_and_the_general_one_comes_last():
 
 def test_a_new_format_is_one_new_file(tmp_path, monkeypatch):
     (tmp_path / "shouting.py").write_text(
-        "from rough_spectra.addon.sample import Sample\n"
+        "from rough_spectra.addon.samples.sample import Sample\n"
         "NAME = 'shouting'\n"
         "PRIORITY = 50\n"
         "def sniff(document):\n"
@@ -63,7 +63,7 @@ def test_a_new_format_is_one_new_file(tmp_path, monkeypatch):
     finally:
         monkeypatch.undo()
         readers.readers.cache_clear()
-        sys.modules.pop("rough_spectra.addon.readers.shouting", None)
+        sys.modules.pop("rough_spectra.addon.samples.readers.shouting", None)
 
 
 @pytest.mark.parametrize("ending", [".txt", ".exr", ".json", ""])
@@ -77,7 +77,8 @@ def test_content_decides_and_not_the_ending(tmp_path, ending):
 
 def test_readers_need_neither_blender_nor_colour_science():
     script = (
-        "import sys, runpy; runpy.run_path(sys.argv[1]); import rough_spectra.addon.presets as p;"
+        "import sys, runpy; runpy.run_path(sys.argv[1]);"
+        "import rough_spectra.addon.samples.presets as p;"
         "p.load('14'); print(sorted({'bpy', 'colour', 'OpenImageIO'} & set(sys.modules)))"
     )
     command = [sys.executable, "-c", script, str(ROOT / "tests" / "conftest.py")]
@@ -139,7 +140,7 @@ def test_not_a_measurement(tmp_path, data, part):
 
 
 def test_too_large_is_refused_before_it_is_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(_document, "LARGEST_FILE", 2**20)
+    monkeypatch.setattr(document, "LARGEST_FILE", 2**20)
     monkeypatch.setattr(Path, "read_bytes", lambda self: pytest.fail("was read"))
     with (tmp_path / "large.csv").open("wb") as file:
         file.truncate(2**20 + 1)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from rough_spectra.addon.sample import Sample, check_spectrum
+from rough_spectra.addon.samples.sample import Sample, check_spectrum
 from rough_spectra.core.errors import InputError
 
 NM = [400.0, 410.0, 420.0]

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rough_spectra.addon import readers
-from rough_spectra.addon.openimageio import openimageio
-from rough_spectra.addon.readers import spectral_exr
-from rough_spectra.addon.readers._document import Document
-from rough_spectra.addon.writers import images
+from rough_spectra.addon.readings.writers import images
+from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples.readers.formats import spectral_exr
+from rough_spectra.addon.samples.readers.parts.document import Document
+from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.core.errors import InputError
 
 from tests.input.refused import refusal

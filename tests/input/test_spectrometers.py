@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 from rough_spectra.core.errors import InputError
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon import readers
+from rough_spectra.addon.samples import readers
 from rough_spectra.core.errors import InputError
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "usgs"

@@ -94,7 +94,7 @@ from run_command_line import load_extension
 @pytest.fixture
 def main(capfd):
     """Run the command line in this process: the same code, without the second to start Blender."""
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     def main(*words) -> Result:
         capfd.readouterr()
@@ -108,8 +108,9 @@ def main(capfd):
 @pytest.fixture(scope="session")
 def scene_file(tmp_path_factory, extension):
     """A .blend with spectra on two wavelength grids, hand-made materials and objects."""
-    from rough_spectra.addon import assign, presets, readers
-    from rough_spectra.addon.target import Request
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.samples import presets, readers
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     folder = tmp_path_factory.mktemp("scene")
@@ -120,7 +121,7 @@ def scene_file(tmp_path_factory, extension):
         (rgb_material(ODD_NAME), Request(measured, 0.5)),
         (rgb_material("Delta"), Request(presets.load("20"), 0.1)),
     ]
-    assign.assign(pairs)
+    derive.assign(pairs)
     rgb_material("Plain", (0.2, 0.4, 0.6))
     checkered_and_glowing("Patterned")
     for name, slots in (("Panel", ["Alpha", "Plain", "Patterned"]), ("Bare", [])):

@@ -10,8 +10,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import presets, storage
 from rough_spectra.addon.assets import build, catalogs, plan, previews
+from rough_spectra.addon.material import storage
+from rough_spectra.addon.samples import presets
 from rough_spectra.core.errors import CancelledError, InputError, OutputError
 
 from tests.desktop import other_extension

@@ -9,7 +9,7 @@ import signal
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.version import version
+from rough_spectra.addon.support.version import version
 
 from tests.integration.support import contents, rgb_material, spectrum_csv
 

@@ -181,14 +181,15 @@ def test_pattern_and_glow_of_a_hand_made_material_are_measured(baked):
 
 
 def test_csv_of_one_grid_reads_back_through_our_own_reader(scene_file, main, tmp_path):
-    from rough_spectra.addon import readers
+    from rough_spectra.addon.samples import readers
 
     words = ("--material", "Alpha", "--material", "Beta", "--material", "Delta")
     base = tmp_path / "x"
     result = main("bake", "--blend", scene_file, "--output", base, "--predicted-only", *words)
     assert result.status == 0
     samples = readers.read(tmp_path / "x.predicted.csv")
-    from rough_spectra.addon import storage, target
+    from rough_spectra.addon.matching import solve
+    from rough_spectra.addon.material import storage
 
     assert [sample.name for sample in samples] == [
         "ColorChecker 14 Green",
@@ -196,7 +197,7 @@ def test_csv_of_one_grid_reads_back_through_our_own_reader(scene_file, main, tmp
         "ColorChecker 20 Neutral 8 (.23 D)",
     ]
     for sample, name in zip(samples, words[1::2], strict=True):
-        wanted = target.target_reading(storage.load(bpy.data.materials[name]))
+        wanted = solve.target_reading(storage.load(bpy.data.materials[name]))
         assert sample.kind == "reading"
         assert sample.instrument == "45a:0"
         assert np.abs(sample.values - wanted).max() <= 0.5e-6 * 1.001
@@ -204,7 +205,7 @@ def test_csv_of_one_grid_reads_back_through_our_own_reader(scene_file, main, tmp
 
 @pytest.mark.parametrize("name", [ODD_NAME, "#FF8800", " # 2"])
 def test_a_name_like_a_comment_reads_back_too(name, scene_file, main, tmp_path):
-    from rough_spectra.addon import readers
+    from rough_spectra.addon.samples import readers
 
     bpy.ops.wm.open_mainfile(filepath=str(scene_file))
     bpy.data.materials[ODD_NAME].name = name
@@ -215,8 +216,9 @@ def test_a_name_like_a_comment_reads_back_too(name, scene_file, main, tmp_path):
 
 
 def test_fine_wavelengths_keep_their_digits(main, tmp_path):
-    from rough_spectra.addon import assign, readers
-    from rough_spectra.addon.target import Request
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.samples import readers
 
     lines = ["wavelength,fine"]
     lines += [f"{380 + 20 * band / 3 + 0.0001},{0.3}" for band in range(61)]
@@ -224,7 +226,7 @@ def test_fine_wavelengths_keep_their_digits(main, tmp_path):
     source = tmp_path / "fine.csv"
     source.write_text("\n".join(lines), encoding="utf-8")
     sample = readers.read(source)[0]
-    assign.assign([(rgb_material("Fine"), Request(sample, 0.1))])
+    derive.assign([(rgb_material("Fine"), Request(sample, 0.1))])
     assert main("bake", "--predicted-only", "--output", tmp_path / "x").status == 0
     (found,) = readers.read(tmp_path / "x.predicted.csv")
     assert np.array_equal(found.wavelengths, sample.wavelengths)
@@ -442,7 +444,7 @@ def test_bytes_do_not_depend_on_the_folder(baked, scene_file, main, tmp_path):
 
 
 def test_spectrum_helper_writes_what_the_reader_reads(tmp_path):
-    from rough_spectra.addon import readers
+    from rough_spectra.addon.samples import readers
 
     samples = readers.read(spectrum_csv(tmp_path / "a.csv", "one", "two"))
     assert [sample.name for sample in samples] == ["one", "two"]

@@ -19,9 +19,9 @@ def stored(name):
 
 
 def degrees(name):
-    from rough_spectra.addon import facts
+    from rough_spectra.addon.material import snapshot
 
-    return facts.sigma_degrees(stored(name))
+    return snapshot.sigma_degrees(stored(name))
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def test_help_names_every_verb(run):
 def test_help_of_a_verb_explains_every_option(verb, main):
     import argparse
 
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     result = main(verb, "--help")
     assert result.status == 0

@@ -10,8 +10,8 @@ import subprocess
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon import readings
-from rough_spectra.addon.verbs import search
+from rough_spectra.addon.commands.verbs import search
+from rough_spectra.addon.instrument import bake
 
 from tests.integration.support import COMMAND, SECONDS, contents
 
@@ -152,11 +152,11 @@ def test_a_check_compares_the_others_and_shards_merge_as_ever(scene, main, tmp_p
 def test_what_renders_no_number_is_named_and_the_others_are_measured(scene):
     """Cycles mends most of these itself; what it left would be NaN."""
     bpy.ops.wm.open_mainfile(filepath=str(scene))
-    prepared = readings.prepare([("", bpy.data.materials[name]) for name in ("Alpha", "Delta")])
+    prepared = bake.prepare([("", bpy.data.materials[name]) for name in ("Alpha", "Delta")])
     values = np.full((2, 2, 3), 0.25)
-    whole = readings.compare(prepared, values)
+    whole = bake.compare(prepared, values)
     values[1, 0, 2] = math.nan
-    found = readings.compare(prepared, values)
+    found = bake.compare(prepared, values)
     assert found.entries[0] == whole.entries[0]
     assert found.entries[1].measured is None
     assert found.faults == [

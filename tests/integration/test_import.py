@@ -8,8 +8,9 @@ import shutil
 
 import bpy
 import pytest
-from rough_spectra.addon import importing, library, preferences, readers
-from rough_spectra.addon.operators import import_review, import_samples
+from rough_spectra.addon.interface.operators import import_review, import_samples
+from rough_spectra.addon.material import preferences
+from rough_spectra.addon.samples import importing, library, readers
 
 from tests.integration.support import ROOT, contents, rgb_material, spectrum_csv
 from tests.integration.test_operators import mesh_object, refusal
@@ -256,7 +257,7 @@ def test_library_of_an_installed_extension_is_outside_of_it(blender):
     found = blender("""
         extension = load_extension()
         extension.register()
-        from rough_spectra.addon import preferences
+        from rough_spectra.addon.material import preferences
         clone = str(preferences.user_folder())
         preferences.PACKAGE = "bl_ext.user_default.rough_spectra"
         installed = str(preferences.user_folder())

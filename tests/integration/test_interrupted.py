@@ -28,8 +28,9 @@ pytestmark = posix
 @pytest.fixture(scope="session")
 def many(tmp_path_factory, extension):
     """A .blend with spectra enough for a bake of some seconds."""
-    from rough_spectra.addon import assign, presets
-    from rough_spectra.addon.target import Request
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.samples import presets
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     # These lie outside Rec.709 at some σ, where no color of Cycles reads like them.
@@ -38,7 +39,7 @@ def many(tmp_path_factory, extension):
         sample for sample in presets.load_all("colorchecker") if not sample.name.endswith(outside)
     ]
     materials = [rgb_material(f"m{number:04d}") for number in range(MANY)]
-    assign.assign(
+    derive.assign(
         [
             (material, Request(samples[i % 22], 0.001 * (i % 700)))
             for i, material in enumerate(materials)
@@ -53,7 +54,7 @@ def many(tmp_path_factory, extension):
 @pytest.fixture(scope="session")
 def predicted(many, tmp_path_factory):
     """The files of a bake of all of them; merging its JSON writes them all again, and at once."""
-    from rough_spectra.addon import command_line
+    from rough_spectra.addon.commands import command_line
 
     base = tmp_path_factory.mktemp("predicted") / "x"
     words = ["bake", "--blend", str(many), "--predicted-only", "--output", str(base)]

@@ -4,7 +4,7 @@
 
 import bpy
 import pytest
-from rough_spectra.addon import measured
+from rough_spectra.addon.material import last_measurement
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object, refusal
@@ -16,31 +16,31 @@ def test_the_reading_stands_beside_the_prediction_until_something_changes():
     material = rgb_material("Wall")
     mesh_object("Wall", material)
     OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/14-green", sigma=0.5)
-    assert measured.get(material) is None
+    assert last_measurement.get(material) is None
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
-    found = measured.get(material)
+    found = last_measurement.get(material)
     assert found.current
     assert found.delta_e < 0.02
     node = next(node for node in material.node_tree.nodes if node.type == "BSDF_DIFFUSE")
     kept = tuple(node.inputs["Color"].default_value)
     node.inputs["Color"].default_value = (0.5, 0.1, 0.1, 1)
-    assert not measured.get(material).current
+    assert not last_measurement.get(material).current
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
-    wrong = measured.get(material)
+    wrong = last_measurement.get(material)
     assert wrong.current
     assert wrong.delta_e > 20
     assert wrong.rgb[0] > found.rgb[0]
     node.inputs["Color"].default_value = kept
-    assert not measured.get(material).current
+    assert not last_measurement.get(material).current
     material.rough_spectra.measured = '{"of": 3}'
-    assert measured.get(material) is None
+    assert last_measurement.get(material) is None
 
 
 def test_a_material_without_a_spectrum_is_measured_too():
     material = rgb_material("Plain", (0.2, 0.4, 0.6))
     mesh_object("Wall", material)
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
-    found = measured.get(material)
+    found = last_measurement.get(material)
     assert found.delta_e is None
     assert found.rgb == pytest.approx((0.2, 0.4, 0.6), abs=1e-5)
 
@@ -48,7 +48,7 @@ def test_a_material_without_a_spectrum_is_measured_too():
 def test_all_materials_with_a_spectrum_are_measured(scene):
     bpy.ops.wm.open_mainfile(filepath=str(scene))
     assert OPS.measure("EXEC_DEFAULT", scope="ALL") == {"FINISHED"}
-    readings = {m.name: measured.get(m) for m in bpy.data.materials}
+    readings = {m.name: last_measurement.get(m) for m in bpy.data.materials}
     assert {name for name, found in readings.items() if found} == {
         material.name for material in bpy.data.materials if material.rough_spectra.spectrum
     }
@@ -63,7 +63,7 @@ def test_gloss_and_bump_are_measured_and_not_predicted():
         mesh_object(name, materials[-1])
         OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/24-black-2", sigma=0.3)
         materials[-1].rough_spectra.shader = "PRINCIPLED"
-        assert measured.get(materials[-1]) is None
+        assert last_measurement.get(materials[-1]) is None
     bumpy, glossy = materials
     tree = bumpy.node_tree
     noise, bump = tree.nodes.new("ShaderNodeTexNoise"), tree.nodes.new("ShaderNodeBump")
@@ -74,20 +74,20 @@ def test_gloss_and_bump_are_measured_and_not_predicted():
     gloss["Specular IOR Level"].default_value = 0.5
     gloss["Roughness"].default_value = 0.8
     assert OPS.measure("EXEC_DEFAULT", scope="ALL") == {"FINISHED"}
-    found = measured.get(bumpy)
+    found = last_measurement.get(bumpy)
     assert found.predicted == pytest.approx(0, abs=0.01)
     assert found.delta_e > 1
-    found = measured.get(glossy)
+    found = last_measurement.get(glossy)
     assert found.predicted is None
     assert found.delta_e > 1
     # Each of them is measured before the last change as soon as what it adds has changed.
     assert found.current
     gloss["Roughness"].default_value = 0.6
-    assert not measured.get(glossy).current
+    assert not last_measurement.get(glossy).current
     gloss["Specular IOR Level"].default_value = 0.0
-    assert not measured.get(glossy).current
+    assert not last_measurement.get(glossy).current
     tree.links.remove(tree.nodes["Principled BSDF"].inputs["Normal"].links[0])
-    assert not measured.get(bumpy).current
+    assert not last_measurement.get(bumpy).current
 
 
 def test_without_anything_to_measure_the_operator_says_so():

@@ -7,7 +7,7 @@ import types
 
 import bpy
 import pytest
-from rough_spectra.addon.operators import common
+from rough_spectra.addon.interface.operators import common
 
 from tests.integration.support import checkered_and_glowing, contents, rgb_material, spectrum_csv
 

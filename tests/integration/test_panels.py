@@ -14,8 +14,8 @@ import types
 
 import bpy
 import pytest
-from rough_spectra.addon import facts, measured, panels, storage
-from rough_spectra.addon.panels import sentences, text
+from rough_spectra.addon.interface.panels import panels, sentences, text
+from rough_spectra.addon.material import last_measurement, snapshot, storage
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
 
@@ -108,7 +108,7 @@ def green():
 
 def differences(material):
     """ΔE00 that the panel computed of what is in the shader node."""
-    state = (facts.of(material), theme.current(bpy.context.preferences))
+    state = (snapshot.of(material), theme.current(bpy.context.preferences))
     return icons.differences(material.session_uid, state)
 
 
@@ -186,7 +186,7 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     icons._work()
     at_instrument, mean, high = differences(green)
     assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
-    assert at_instrument == pytest.approx(measured.get(green).delta_e, abs=0.01)
+    assert at_instrument == pytest.approx(last_measurement.get(green).delta_e, abs=0.01)
     assert at_instrument > 1
     assert high > mean > 0
     page = drawn()
@@ -314,7 +314,7 @@ def test_gloss_is_not_compared_and_a_measurement_of_it_stands_alone(green):
         assert not any("ΔE00 0" in line for line in page)
         assert "There is no color to plot" in page
         assert not any(line.startswith("picture") for line in page)
-    measured.note(green, measured.fingerprint(green), (0.1, 0.2, 0.1), 5.5)
+    last_measurement.note(green, last_measurement.fingerprint(green), (0.1, 0.2, 0.1), 5.5)
     page = drawn()
     assert "Measured: ΔE00 5.50, visible" in page
     assert not any(line.startswith("Predicted") for line in page)
@@ -353,7 +353,7 @@ def light_and_camera():
 
 def test_a_measurement_stands_beside_the_prediction(green):
     rgb = (0.1, 0.2, 0.1)
-    measured.note(green, measured.fingerprint(green), rgb, 0.004)
+    last_measurement.note(green, last_measurement.fingerprint(green), rgb, 0.004)
     page = drawn()
     at = page.index("Predicted: ΔE00 0.00, not visible")
     assert page[at + 1] == "Measured: ΔE00 0.00, not visible"

@@ -26,9 +26,9 @@ def test_register_brings_no_heavy_module_and_little_work(blender):
     for heavy in ("numpy", "colour", "scipy", "matplotlib", "pandas", "OpenImageIO"):
         assert heavy not in tops
     parts = {name.removeprefix("rough_spectra.") for name in found["added"]}
-    computing = {"core.cycles", "core.reading", "core.oren_nayar", "addon.colorimetry"}
+    computing = {"core.cycles", "core.reading", "core.oren_nayar", "addon.colorimetry.tristimulus"}
     assert not computing & parts
-    drawing = {"addon.panels.drawing", "addon.preview.icons", "addon.preview.theme"}
+    drawing = {"addon.interface.panels.drawing", "addon.preview.icons", "addon.preview.theme"}
     assert not drawing & parts
     # What Blender's start waits for: a tenth of the code to read, 3,400 calls.
     shipped = [path for name in ("core", "addon") for path in (ROOT / name).rglob("*.py")]
@@ -49,15 +49,17 @@ def test_use_leaves_no_stand_ins_in_sys_modules(blender):
         from unittest import mock
         extension = load_extension()
         extension.register()
-        from rough_spectra.addon import assign, colorimetry, presets
-        from rough_spectra.addon.target import Request
+        from rough_spectra.addon.colorimetry import tristimulus
+        from rough_spectra.addon.matching.request import Request
+        from rough_spectra.addon.material import derive
+        from rough_spectra.addon.samples import presets
         material = bpy.data.materials.new("A")
         material.use_nodes = True
         material.node_tree.nodes.clear()
-        assign.assign([(material, Request(presets.load("14"), 0.3))])
+        derive.assign([(material, Request(presets.load("14"), 0.3))])
         usual = "colour" in sys.modules
         # Only the weights of unusual grids come from colour-science itself.
-        colorimetry.weights(range(400, 701, 20))
+        tristimulus.weights(range(400, 701, 20))
         fakes = [name for name in sys.modules if isinstance(sys.modules[name], mock.Mock)]
         bpy.ops.wm.read_factory_settings(use_empty=True)
         extension.unregister()
@@ -80,7 +82,7 @@ def test_unregister_leaves_nothing_and_register_works_again(blender):
                 "commands": len(command_line._handles),
             }
 
-        command_line = importlib.import_module("rough_spectra.addon.command_line")
+        command_line = importlib.import_module("rough_spectra.addon.commands.command_line")
         states = [ours()]
         for _ in range(2):
             extension.register()
@@ -103,7 +105,7 @@ def test_unregister_ends_jobs_under_way(blender):
     found = blender("""
         extension = load_extension()
         extension.register()
-        from rough_spectra.addon.spectrophotometer import measure
+        from rough_spectra.addon.instrument import measure
         material = bpy.data.materials.new("A")
         job = measure.Measurement([material], [measure.RING_45_0] * 500)
         states = []
@@ -116,7 +118,7 @@ def test_unregister_ends_jobs_under_way(blender):
 
 
 def operators():
-    from rough_spectra.addon import registration
+    from rough_spectra.addon.interface import registration
 
     return [cls for cls in registration.classes if issubclass(cls, bpy.types.Operator)]
 
@@ -161,8 +163,8 @@ def test_stored_properties_have_tooltips_and_identifiers_that_files_hold():
 
 
 def test_presets_are_offered_by_ids_that_scripts_can_rely_on():
-    from rough_spectra.addon import presets
-    from rough_spectra.addon.operators import assign_preset
+    from rough_spectra.addon.interface.operators import assign_preset
+    from rough_spectra.addon.samples import presets
 
     items = assign_preset.preset_items(None, None)
     assert [item[0] for item in items] == presets.names()
@@ -172,24 +174,31 @@ def test_presets_are_offered_by_ids_that_scripts_can_rely_on():
 
 def test_panel_computes_nothing_that_takes_time():
     """What `draw` calls, with 500 materials in the file as with 5."""
-    from rough_spectra.addon import assign, derivation, facts, presets, stamp, working_space
-    from rough_spectra.addon.target import Request
+    from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import (
+        derivation,
+        derive,
+        snapshot,
+        state,
+    )
+    from rough_spectra.addon.samples import presets
 
     request = Request(presets.load("14"), 0.3)
     materials, spent = [], []
     for count in (5, 500):
         more = [rgb_material(f"{number}") for number in range(len(materials), count)]
-        assign.assign([(material, request) for material in more])
+        derive.assign([(material, request) for material in more])
         materials += more
 
         def draw(material=materials[3]):
-            assert facts.has_spectrum(material)
-            assert not stamp.stale_reasons(material, working_space.working_space_name())
+            assert snapshot.has_spectrum(material)
+            assert not state.stale_reasons(material, working_space.working_space_name())
             assert derivation.get_stamp(material) is not None
 
         draw()  # what is looked up the next time
         spent.append(pace.calls(draw))
-    assert all(not stamp.stale_reasons(m, working_space.working_space_name()) for m in materials)
+    assert all(not state.stale_reasons(m, working_space.working_space_name()) for m in materials)
     assert spent[0] == spent[1]
     # Seen: 65 against 1,900.
-    assert spent[1] < pace.calls(lambda: assign.renew(materials[3:4])) / 10
+    assert spent[1] < pace.calls(lambda: derive.renew(materials[3:4])) / 10

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 import pytest
 from rough_spectra.addon.assets import build, plan
-from rough_spectra.addon.spectrophotometer.measure import measure
+from rough_spectra.addon.instrument.measure import measure
 
 from tests.integration.support import ROOT, rgb_material
 

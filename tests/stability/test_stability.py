@@ -5,11 +5,19 @@
 import bpy  # noqa: F401, before mathutils, which comes with it
 import numpy as np
 import pytest
-from rough_spectra.addon import target
-from rough_spectra.addon.rgb_space import WorkingSpace
-from rough_spectra.addon.sample import Sample
+from rough_spectra.addon.colorimetry.rgb_space import WorkingSpace
+from rough_spectra.addon.matching import solve
+from rough_spectra.addon.samples.sample import Sample
 
-from core import cycles, cycles_match, grid, models, oren_nayar, reading, vcavity
+from core import (
+    cycles,
+    models,
+    oren_nayar,
+    reading,
+    vcavity,
+)
+from core.cycles import matching
+from core.numerics import wavelength_grid
 from tests.stability import checks
 
 REC709_FROM_XYZ = np.linalg.inv(
@@ -74,7 +82,7 @@ def test_published_model_is_left_as_published():
 
 
 def targets_of_matching(monkeypatch):
-    """Targets that `addon.target` hands to the match for a dark rough surface seen steeply."""
+    """Targets that `addon.matching.solve` hands to the match for a dark surface seen steeply."""
     seen = []
 
     def match(readings, targets, *rest, **keywords):
@@ -84,12 +92,12 @@ def targets_of_matching(monkeypatch):
     def hemisphere(count, *_):
         return tuple(np.resize(angle, count) for angle in checks.opposite_geometries())
 
-    monkeypatch.setattr(target.geometry, "hemisphere", hemisphere)
-    monkeypatch.setattr(target.cycles_match, "match", match)
+    monkeypatch.setattr(solve.direction_grid, "hemisphere", hemisphere)
+    monkeypatch.setattr(solve.matching, "match", match)
     wavelengths = np.arange(380.0, 731, 10)
     sample = Sample("Soot", wavelengths, np.full(wavelengths.size, 0.05), "albedo")
-    request = target.Request(sample, np.radians(70.0))
-    target.solve([request], WorkingSpace("Linear Rec.709", REC709_FROM_XYZ))
+    request = solve.Request(sample, np.radians(70.0))
+    solve.solve([request], WorkingSpace("Linear Rec.709", REC709_FROM_XYZ))
     return seen[0]
 
 
@@ -133,7 +141,7 @@ def test_noise_below_black_averages_out():
 
 
 def test_socket_colors_out_of_range_come_back():
-    checks.check_color_noise(cycles_match.color_for_reading, cycles.reflectance)
+    checks.check_color_noise(matching.color_for_reading, cycles.reflectance)
 
 
 def test_readings_far_below_black():
@@ -146,7 +154,7 @@ def test_readings_far_below_black():
         *(lambda v, s, m=m: reading.from_albedo(v, s, m) for m in models.NAMES),
         *(lambda v, s, m=m: reading.to_albedo(v, s, m) for m in models.NAMES),
         lambda v, s: oren_nayar.reflectance(v, 0.7, 0.3, 2.0, s),
-        lambda v, s: cycles_match.color_for_reading(v, s / 2),
+        lambda v, s: matching.color_for_reading(v, s / 2),
         lambda v, s: cycles.reflectance(v, s / 2, 0.7, 0.3, 2.0),
     ],
 )
@@ -159,7 +167,7 @@ def test_nan_angles_stay_nan():
 
 
 def test_nan_reaches_no_other_wavelength():
-    checks.check_bad_neighbor(grid.resample)
+    checks.check_bad_neighbor(wavelength_grid.resample)
 
 
 def test_cycles_lobe_without_roughness():

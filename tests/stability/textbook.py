@@ -8,7 +8,8 @@ as the core. Each takes what the core's function takes.
 
 import numpy as np
 
-from core import cycles_match, oren_nayar, reading, vcavity
+from core import oren_nayar, reading, vcavity
+from core.cycles import matching
 from core.errors import DomainError
 
 
@@ -167,7 +168,7 @@ def coefficients_of_anything(sigma):
 
 def color_of_clipped(values, roughness):
     """Socket color of a reading whose noise was taken for black."""
-    return cycles_match.color_for_reading(np.maximum(values, 0), roughness)
+    return matching.color_for_reading(np.maximum(values, 0), roughness)
 
 
 def factors_with_qualitative_constant(theta_i, theta_r, delta_phi, sigma):

@@ -8,10 +8,17 @@ the same while σ is dragged is drawn once and copied. Nothing is told by color 
 in dash and thickness and are named beside a sample.
 """
 
-from ._angles import LIGHT_ANGLE, STEEPEST, angles, angles_axes, angles_polar, polar_place
-from ._sigma_range import LARGEST_SIGMA, sigma_range
-from ._spectrum import VISIBLE_NM, spectrum, spectrum_axes
-from ._swatches import swatch, swatch_pair, swatches
+from .angles import (
+    LIGHT_ANGLE,
+    STEEPEST,
+    angles,
+    angles_axes,
+    angles_polar,
+    polar_place,
+)
+from .sigma_range import LARGEST_SIGMA, sigma_range
+from .spectrum import VISIBLE_NM, spectrum, spectrum_axes
+from .swatches import swatch, swatch_pair, swatches
 
 __all__ = [
     "LARGEST_SIGMA",

@@ -1,0 +1,175 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run a job in a second Blender, so that this one stays free and its file untouched.
+
+The job is a JSON file in a temporary folder of its own. The worker, a script, leaves its results
+beside it and tells its progress there; see `spectrophotometer.worker` for what it owes this side.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, ClassVar
+
+import bpy
+
+from ...core.errors import CancelledError, OutputError
+from ..support import events
+from . import job_failure
+
+_POLL_SECONDS = 0.05
+_PATIENCE_SECONDS = 5.0
+"""How long a Blender that was asked to end may take before it is killed."""
+
+
+class Job:
+    """A job under way in a second Blender.
+
+    Parameters
+    ----------
+    worker
+        The script that does it.
+    prepare
+        Puts what the worker needs into the job's folder and gives what the job says.
+
+    Raises
+    ------
+    OutputError
+        If the temporary folder cannot be written or the second Blender not be started.
+    """
+
+    doing: ClassVar[str]
+    """What the second Blender does, as in "measures"."""
+    interrupted: ClassVar[str]
+    """Sentence for an interrupt from the keyboard."""
+    smaller: ClassVar[str]
+    """How to ask for less when the memory is full, as in "measure fewer materials at once"."""
+
+    def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
+        self._folder: Path | None = None
+        self._process: subprocess.Popen[bytes] | None = None
+        self._traces = ExitStack()
+        self.total = 0
+        self.done = 0
+        try:
+            with ExitStack() as undone:
+                undone.callback(self.close)
+                # Switching the extension off, or quitting Blender, ends what runs.
+                events.unregistering.subscribe(self.close)
+                self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
+                job = {"asked_by": os.getpid(), **prepare(self._folder)}
+                self._start(self._folder, worker, job)
+                undone.pop_all()
+        except (OSError, RuntimeError) as error:
+            # Blender says "Error: Success" when the disk is full.
+            reason = getattr(error, "strerror", None) or "is the disk full?"
+            msg = (
+                f"Temporary files cannot be written in {tempfile.gettempdir()} ({reason}); free "
+                "the disk, or let TMPDIR name another one."
+            )
+            raise OutputError(msg) from error
+
+    def poll(self) -> bool:
+        """Update `done` and `total`; returns whether the job has ended."""
+        assert self._process is not None
+        assert self._folder is not None
+        ended = self._process.poll() is not None
+        try:
+            done, total = (self._folder / "progress").read_text(encoding="ascii").split()
+            self.done, self.total = int(done), int(total)
+        except FileNotFoundError:
+            pass  # the other Blender is still starting
+        return ended
+
+    def wait(self, progress: Callable[[int, int], None] | None = None) -> None:
+        """Wait for the end.
+
+        Raises
+        ------
+        CancelledError
+            On an interrupt from the keyboard.
+        """
+        try:
+            while not self.poll():
+                if progress is not None:
+                    progress(self.done, self.total)
+                time.sleep(_POLL_SECONDS)
+        except KeyboardInterrupt as error:
+            raise CancelledError(self.interrupted) from error
+
+    def output(self, name: str) -> Path:
+        """Give the path of a file that the worker left, once `poll` says that it has ended.
+
+        Raises
+        ------
+        OutputError
+            If the second Blender failed.
+        """
+        assert self._process is not None
+        assert self._folder is not None
+        path = self._folder / name
+        if self._process.returncode != 0 or not path.exists():
+            raise OutputError(self._failure(self._folder, self._process.returncode))
+        return path
+
+    def when_closed(self, act: Callable[[], None]) -> None:
+        """Call a function once the job is closed, whoever closes it."""
+        self._traces.callback(act)
+
+    def close(self) -> None:
+        """Stop the second Blender if it still runs, and remove its files and all other traces."""
+        if self._process is not None and self._process.poll() is None:
+            self._process.terminate()
+            try:
+                self._process.wait(_PATIENCE_SECONDS)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)
+        events.unregistering.unsubscribe(self.close)
+        self._traces.close()
+
+    def _failure(self, folder: Path, status: int) -> str:
+        """Say what became of the second Blender, and what to do."""
+        log = (folder / "log").read_text(encoding="utf-8", errors="replace")
+        said = job_failure.reason(log)
+        free = shutil.disk_usage(folder).free
+        remedy = job_failure.remedy(status, said, log, free, self.smaller)
+        if remedy is None:
+            kept = folder.with_name(f"{folder.name}.log")
+            shutil.copyfile(folder / "log", kept)
+            remedy = f"This is no fault of yours: please report it with {kept}."
+        return (
+            f"The Blender that {self.doing} stopped with status {status} ({said}); nothing was "
+            f"written. {remedy}"
+        ).rstrip()
+
+    def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
+        job_path = folder / "job.json"
+        job_path.write_text(json.dumps(job), encoding="utf-8")
+        with (folder / "log").open("wb") as log:
+            self._process = subprocess.Popen(
+                [*_blender(worker), str(job_path)],
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"},
+            )
+
+
+def _blender(worker: Path) -> list[str]:
+    """Command that runs a worker, in Blender's executable or in Python with the bpy module."""
+    if bpy.app.binary_path:
+        options = ["--background", "--factory-startup", "--python-exit-code", "1"]
+        return [bpy.app.binary_path, *options, "--python", str(worker), "--"]
+    return [sys.executable, "-P", str(worker)]

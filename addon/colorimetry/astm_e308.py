@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Weights of ASTM E308 by colour-science, those of the usual grids from a file.
+
+Importing colour-science and computing one matrix takes half a second, in which a panel would stand
+still at its first use. At 5 and 10 nm the weights of every grid follow from those of the whole
+visible range: bands that were not measured count as equal to the nearest one that was.
+`tools/make_e308_weights.py` writes the file.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from ...core.numerics.arrays import Array
+from ..support.colour_science import colour
+
+ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3")
+OBSERVERS = (2, 10)
+"""CIE 1931 (2°) and CIE 1964 (10°)."""
+
+VISIBLE_NM = (360.0, 780.0)
+"""ASTM E308's range."""
+TABLED_STEPS = (5, 10)
+"""Nanometers. At 20 nm the first and last weights follow another rule."""
+FILE = Path(__file__).with_name("e308_weights.npy")
+
+_OBSERVER_NAMES = {
+    2: "CIE 1931 2 Degree Standard Observer",
+    10: "CIE 1964 10 Degree Standard Observer",
+}
+
+
+def weights(wavelengths: Array, illuminant: str, observer: int) -> Array:
+    """Weights of a grid of 5, 10 or 20 nm, shape (bands, 3): `values @ weights` is XYZ, Y ≤ 1.
+
+    Parameters
+    ----------
+    wavelengths
+        Multiples of the step, nanometers, some of them visible, shape (bands,).
+    illuminant, observer
+        One of `ILLUMINANTS` and of `OBSERVERS`.
+    """
+    matrix = np.zeros((wavelengths.size, 3))
+    visible = (wavelengths >= VISIBLE_NM[0]) & (wavelengths <= VISIBLE_NM[1])
+    seen = wavelengths[visible]
+    step = round(float(wavelengths[1] - wavelengths[0]))
+    if step in TABLED_STEPS:
+        matrix[visible] = _folded(seen, step, illuminant, observer)
+    else:
+        matrix[visible] = by_science(seen, illuminant, observer)
+    return matrix
+
+
+def by_science(seen: Array, illuminant: str, observer: int) -> Array:
+    """Compute the weights of visible bands, by ASTM E308 of every unit spectrum."""
+    science = colour()
+    xyz = science.msds_to_XYZ(
+        science.MultiSpectralDistributions(np.eye(seen.size), seen),
+        cmfs=science.MSDS_CMFS[_OBSERVER_NAMES[observer]],
+        illuminant=science.SDS_ILLUMINANTS[_science_name(illuminant)],
+        method="ASTM E308",
+    )
+    return np.asarray(xyz) / 100
+
+
+def integration(wavelengths: Array, illuminant: str, observer: int) -> Array:
+    """Weights of the plain sum over a 1 nm grid, with which ASTM E308 begins."""
+    science = colour()
+    shape = science.SpectralShape(wavelengths[0], wavelengths[-1], 1)
+    matching = science.MSDS_CMFS[_OBSERVER_NAMES[observer]].copy().align(shape).values
+    light = science.SDS_ILLUMINANTS[_science_name(illuminant)].copy().align(shape).values
+    matrix = np.asarray(matching * light[:, np.newaxis])
+    return np.asarray(matrix / matrix[:, 1].sum())
+
+
+def whole(step: int) -> Array:
+    """Bands of the whole visible range, nanometers."""
+    return np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 1, step)
+
+
+def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
+    """Weights from the file, those of missing bands added to the nearest."""
+    start = sum(whole(finer).size for finer in TABLED_STEPS if finer < step)
+    lights = _file()[OBSERVERS.index(observer), ILLUMINANTS.index(illuminant)]
+    full = lights[start : start + whole(step).size]
+    first = round((float(seen[0]) - VISIBLE_NM[0]) / step)
+    end = first + seen.size
+    found = full[first:end].copy()
+    found[0] += full[:first].sum(axis=0)
+    found[-1] += full[end:].sum(axis=0)
+    return np.asarray(found)
+
+
+@lru_cache(maxsize=1)
+def _file() -> Array:
+    """Weights, shape (observers, illuminants, bands of all steps in a row, 3)."""
+    return np.asarray(np.load(FILE, allow_pickle=False))
+
+
+def _science_name(illuminant: str) -> str:
+    return illuminant.replace("F", "FL", 1) if illuminant[0] == "F" else illuminant

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which material gets which sample: mapping files, and matching by name."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, cast
+
+import bpy
+
+from ...core.errors import InputError, MaterialError
+from ..matching.request import Request
+from ..material import preferences, selection
+from ..samples import library, readers
+from ..samples.sample import KINDS, Kind, Sample
+
+_FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One assignment as asked for; `sigma_degrees` is None where nothing says it."""
+
+    material: str
+    sample: Sample
+    sigma_degrees: float | None
+
+
+def rows(options: argparse.Namespace) -> list[Row]:
+    """Give the assignments that the options of the verb `assign` ask for.
+
+    Raises
+    ------
+    InputError
+        If a file or a row of it cannot be used.
+    """
+    if options.mapping is not None:
+        if options.material:
+            msg = f"{options.mapping} names the materials already; leave --material out."
+            raise InputError(msg)
+        return read_mapping(options.mapping)
+    if options.preset is not None:
+        sample = library.load(options.preset, preferences.user_folder())
+        if not options.material:
+            msg = f"Name the materials that get {sample.name!r}, with --material NAME."
+            raise InputError(msg)
+        return [Row(name, sample, sample.sigma_degrees) for name in options.material]
+    return _by_name(options)
+
+
+def _by_name(options: argparse.Namespace) -> list[Row]:
+    samples = [sample for path in options.by_name for sample in readers.read(path)]
+    names = dict.fromkeys(sample.name for sample in samples)
+    shown = ", ".join(list(names)[:5]) + (", …" if len(names) > 5 else "")
+    absent = [name for name in options.material if name not in names]
+    if absent:
+        msg = f"No sample is named {absent[0]!r}; the files have {shown}."
+        raise InputError(msg)
+    known = {material.name for material in bpy.data.materials}
+    wanted = set(options.material or (names if options.create else known))
+    chosen = [Row(s.name, s, s.sigma_degrees) for s in samples if s.name in wanted]
+    if not chosen:
+        msg = f"No material is named like a sample ({shown}); rename, or use --mapping."
+        raise InputError(msg)
+    return chosen
+
+
+def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, Request]]:
+    """Find the materials and settle σ and kind; makes materials only with --create.
+
+    Raises
+    ------
+    InputError, MaterialError
+        If σ is out of range or a material is missing; none was made then.
+    """
+    requests = []
+    for row in chosen:
+        degrees = row.sigma_degrees if options.sigma is None else options.sigma
+        requests.append(_request(row, 0.0 if degrees is None else degrees, options))
+    known = selection.every()
+    missing = [row.material for row in chosen if row.material not in known]
+    if missing and not options.create:
+        msg = (
+            f"There is no material {missing[0]!r}"
+            + (f" nor {len(missing) - 1} others" if len(missing) > 1 else "")
+            + "; correct the names, or add --create to make them."
+        )
+        raise MaterialError(msg)
+    for name in dict.fromkeys(missing):
+        known[name] = bpy.data.materials.new(name)
+        known[name].use_fake_user = True
+    return [(known[row.material], request) for row, request in zip(chosen, requests, strict=True)]
+
+
+def read_mapping(path: Path) -> list[Row]:
+    """Read a mapping file, CSV or JSON.
+
+    Raises
+    ------
+    InputError
+        Naming file, row and remedy.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        msg = f"{path} cannot be read ({error}); give a CSV or JSON file in UTF-8."
+        raise InputError(msg) from error
+    is_json = text.lstrip()[:1] in ("[", "{")
+    records = _json_records(path, text) if is_json else _csv_records(path, text)
+    if not records:
+        msg = f"{path} has no rows; give one a material."
+        raise InputError(msg)
+    samples = _Samples(path)
+    return [_row(path, place, record, samples) for place, record in records]
+
+
+class _Samples:
+    """The samples that a mapping file names, each looked up once."""
+
+    def __init__(self, mapping: Path) -> None:
+        self._folder = mapping.parent
+        self._library = preferences.user_folder()
+        self._files: dict[Path, dict[str, Sample]] = {}
+        self._named: dict[str, Sample] = {}
+
+    def find(self, where: str, name: str, file: str) -> Sample:
+        if not file:
+            return self._of_library(where, name)
+        source = self._folder / file
+        if source not in self._files:
+            samples = reversed(readers.read(source))  # the first of a name counts
+            self._files[source] = {sample.name: sample for sample in samples}
+        found = self._files[source]
+        if name not in found:
+            names = ", ".join(list(reversed(found))[:5])
+            msg = f"{where}: {source} has no sample {name!r}; it has {names}."
+            raise InputError(msg)
+        return found[name]
+
+    def _of_library(self, where: str, name: str) -> Sample:
+        if name not in self._named:
+            try:
+                self._named[name] = library.load(name, self._library)
+            except InputError as error:
+                msg = f"{where}: {error}"
+                raise InputError(msg) from error
+        return self._named[name]
+
+
+def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        msg = f"{path} is not valid JSON ({error}); correct it."
+        raise InputError(msg) from error
+    if not isinstance(data, list) or not all(isinstance(record, dict) for record in data):
+        msg = f"{path} must be a list of objects with the keys {', '.join(_FIELDS)}."
+        raise InputError(msg)
+    return [(f"entry {number}", record) for number, record in enumerate(data, 1)]
+
+
+def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    header = lines[0] if lines else ""
+    delimiter = max(",;\t", key=header.count)
+    table = csv.reader(lines, delimiter=delimiter)
+    try:
+        names, *rows = [[cell.strip() for cell in row] for row in table if any(row)] or [[]]
+    except csv.Error as error:
+        msg = f"{path}: a quotation mark is not closed ({error}); close or remove it."
+        raise InputError(msg) from error
+    if "material" not in names or "sample" not in names:
+        msg = (
+            f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
+            f"{', '.join(_FIELDS)}, of which material and sample are needed."
+        )
+        raise InputError(msg)
+    records = []
+    for number, cells in enumerate(rows, 1):
+        if len(cells) > len(names) and any(cells[len(names) :]):
+            msg = (
+                f"{path}, row {number}: {len(cells)} cells stand under {len(names)} columns; put "
+                "names that hold the delimiter in quotation marks."
+            )
+            raise InputError(msg)
+        records.append((f"row {number}", dict(zip(names, cells, strict=False))))
+    return records
+
+
+def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> Row:
+    where = f"{path}, {place}"
+    unknown = [key for key in record if key not in _FIELDS]
+    if unknown:
+        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(_FIELDS)}."
+        raise InputError(msg)
+    given = {key: record.get(key) for key in _FIELDS}
+    cells = {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
+    if not cells["material"] or not cells["sample"]:
+        msg = f"{where}: material and sample must both be given."
+        raise InputError(msg)
+    sample = samples.find(where, cells["sample"], cells["file"])
+    if cells["kind"] and cells["kind"] not in KINDS:
+        msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
+        raise InputError(msg)
+    if cells["kind"]:
+        sample = replace(sample, kind=cast(Kind, cells["kind"]))
+    sigma = sample.sigma_degrees
+    if cells["sigma_deg"]:
+        try:
+            sigma = float(cells["sigma_deg"])
+        except ValueError as error:
+            msg = f"{where}: sigma_deg is {cells['sigma_deg']!r}; give degrees as a number."
+            raise InputError(msg) from error
+    return Row(cells["material"], sample, sigma)
+
+
+def _request(row: Row, degrees: float, options: argparse.Namespace) -> Request:
+    if not 0 <= degrees <= 90:
+        msg = f"Material {row.material!r}: σ is {degrees:g}°; give 0 to 90 degrees."
+        raise InputError(msg)
+    sample = row.sample if options.kind is None else replace(row.sample, kind=options.kind)
+    return Request(
+        sample=sample,
+        sigma=math.radians(degrees),
+        model=options.model,
+        illuminant=options.illuminant,
+        observer=options.observer,
+    )

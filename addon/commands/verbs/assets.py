@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`assets`: a Blender asset library of measured materials."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+SUMMARY = "build a Blender asset library of measured materials"
+DESCRIPTION = (
+    "Build a folder that Blender takes for an asset library: materials with rendered previews, "
+    "catalogs, tags and descriptions. Without samples it is the ColorChecker. The open .blend is "
+    "not changed."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `assets`."""
+    from ....core.models import NAMES
+    from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
+
+    parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="the folder")
+    parser.add_argument(
+        "--sigma",
+        type=float,
+        nargs="+",
+        default=[],
+        metavar="DEGREES",
+        help="roughnesses, each of which every sample gets; without any, what the samples say",
+    )
+    parser.add_argument(
+        "--collection",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        help="all samples of collections, such as colorchecker or everyday",
+    )
+    parser.add_argument(
+        "--preset", nargs="+", default=[], metavar="NAME", help="presets or samples of the library"
+    )
+    parser.add_argument(
+        "--file", type=Path, nargs="+", default=[], metavar="FILE", help="measurement files"
+    )
+    parser.add_argument(
+        "--library", type=Path, metavar="DIR", help="the user's library, if not the usual folder"
+    )
+    parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
+    parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument("--model", choices=("auto", *NAMES), default="auto")
+    parser.add_argument("--shader", choices=("diffuse", "principled"), default="diffuse")
+    parser.add_argument("--author", metavar="NAME", help="author of the assets")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Build the library; exit status 0."""
+    from ...assets import build, plan
+    from ...material import preferences
+    from ..progress import ProgressLine, counted
+
+    folder = options.library or preferences.user_folder()
+    chosen = [
+        *(item for name in options.collection for item in plan.of_collection(name, folder)),
+        *(plan.of_name(name, folder) for name in options.preset),
+        *(item for path in options.file for item in plan.of_file(path)),
+    ]
+    if not (options.collection or options.preset or options.file):
+        chosen = plan.of_collection("colorchecker")
+    assets = plan.assets(chosen, options.sigma, build.LONGEST_NAME)
+    settings = build.Settings(
+        model=options.model,
+        illuminant=options.illuminant,
+        observer=options.observer,
+        shader=options.shader.upper(),
+        author=options.author or build.AUTHOR,
+    )
+    progress = ProgressLine("rendering previews")
+    try:
+        built = build.build(assets, options.output, settings, progress)
+    finally:
+        progress.close()
+    for name, sentences in built.warnings.items():
+        for sentence in sentences:
+            print(f"warning: material {name!r}: {sentence}", file=sys.stderr)
+    print(f"{counted(built.count, 'material')} in {built.blend}", file=sys.stderr)
+    return 0

@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`bake`: virtual spectrophotometer readings into files."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ...readings.document import Readings
+
+SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
+DESCRIPTION = (
+    "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "
+    "samples at 45°a:0°, and write both. The .blend itself is not changed."
+)
+
+_UNUSABLE = 2
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `bake`."""
+    add_surface_arguments(parser)
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="BASE",
+        help="folder and base name: BASE.json, BASE.predicted.csv, BASE.measured.csv …",
+    )
+    add_format_argument(parser)
+    parser.add_argument("--predicted-only", action="store_true", help="do not render")
+    parser.add_argument(
+        "--shard",
+        type=_shard,
+        default=(1, 1),
+        metavar="I/N",
+        help="bake only every N-th material, from the I-th on, into BASE.part-I-of-N.json; "
+        "join the parts with merge",
+    )
+
+
+def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare which materials are meant."""
+    parser.add_argument(
+        "--material",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="a material, repeatable; without any, all that store a spectrum",
+    )
+    parser.add_argument(
+        "--object",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="the materials on this object's surface, repeatable",
+    )
+
+
+def add_format_argument(parser: argparse.ArgumentParser) -> None:
+    """Declare which files are written."""
+    parser.add_argument(
+        "--format",
+        action="append",
+        choices=("csv", "cgats", "exr"),
+        help="write only these beside the JSON; repeatable",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Bake and write; exit status 0, or 2 where a material could not be predicted or measured."""
+    from ...instrument import bake
+    from ...material import selection
+    from ...readings import document, writers
+    from ...support import atomic_files
+    from ..progress import counted
+
+    index, count = options.shard
+    if count > 1:
+        atomic_files.check_base(options.output)
+        target = options.output.with_name(f"{options.output.name}.part-{index}-of-{count}.json")
+        atomic_files.check_target(target)
+    else:
+        writers.check(options.output)
+    result = measure(options, not options.predicted_only)
+    if count > 1:
+        surfaces = selection.surfaces(options.material, options.object)
+        whole = bake.digest(surfaces, not options.predicted_only)
+        part = replace(result, shard=index, shards=count, whole=whole)
+        with atomic_files.publication() as files:
+            files.write(target, document.to_json(part))
+        written = [target]
+    else:
+        written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+    largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
+    names = ", ".join(path.name for path in written)
+    print(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}", file=sys.stderr)
+    return tell_faults(result)
+
+
+def tell_faults(result: Readings) -> int:
+    """Name what could not be predicted or measured; gives the exit status, 0 or 2."""
+    for sentence in result.faults:
+        print(f"rough_spectra: {sentence}", file=sys.stderr)
+    return _UNUSABLE if result.faults else 0
+
+
+def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readings:
+    """Take the readings that the options ask for, with a progress line."""
+    from ....core.errors import MaterialError
+    from ...instrument import bake
+    from ...material import selection, storage
+    from ..progress import ProgressLine
+
+    surfaces = selection.surfaces(options.material, options.object)
+    faults = [storage.fault(material) for _, material in surfaces]
+    if all(faults):
+        raise MaterialError(faults[0])  # nothing is left to do for any of them
+    index, count = getattr(options, "shard", (1, 1))
+    progress = ProgressLine("measuring")
+    try:
+        return bake.bake(surfaces[index - 1 :: count], with_measurement, progress)
+    finally:
+        progress.close()
+
+
+def _shard(text: str) -> tuple[int, int]:
+    try:
+        index, count = (int(word) for word in text.split("/"))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is not I/N, as in 2/8") from error
+    if not 1 <= index <= count:
+        raise argparse.ArgumentTypeError(f"{text!r}: I runs from 1 to N")
+    return index, count

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`merge`: join the parts of a sharded bake."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from .bake import add_format_argument, tell_faults
+
+SUMMARY = "join the parts that bake --shard wrote"
+DESCRIPTION = (
+    "Join the parts of a bake into the files that one bake of everything would have written, byte "
+    "for byte."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `merge`."""
+    parser.add_argument("parts", type=Path, nargs="+", metavar="PART.json")
+    parser.add_argument("--output", type=Path, required=True, metavar="BASE")
+    add_format_argument(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Join and write; exit status as that of one bake."""
+    from ...readings import document, writers
+    from ...support import journal
+    from ..progress import counted
+
+    writers.check(options.output)
+    for folder in sorted({path.parent for path in options.parts}):
+        journal.finish(folder)  # a document of a killed bake may wait for its name
+    result = document.merge(document.from_json(path) for path in options.parts)
+    written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+    names = ", ".join(path.name for path in written)
+    print(f"{counted(len(result.entries), 'reading')}; wrote {names}", file=sys.stderr)
+    return tell_faults(result)

@@ -1,0 +1,296 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings of materials, predicted and measured, kept apart.
+
+Predicted is what the core says of the stored spectrum: a full spectrum. Measured is what a real
+Cycles render of the material shows: three numbers, since that is all an RGB renderer has. ΔE00
+links the two, for the 2° observer that scene colors are defined with.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.color import color_difference
+from ...core.errors import RoughSpectraError
+from ...core.numerics.arrays import Array
+from ..blender import shader_nodes, working_space
+from ..colorimetry import rgb_space, tristimulus
+from ..matching import scene_match, solution, solve
+from ..matching.scene_view import SceneView
+from ..material import (
+    derivation,
+    settled,
+    snapshot,
+    state,
+    storage,
+)
+from ..readings.document import (
+    Measured,
+    Predicted,
+    Reading,
+    Readings,
+    Triple,
+)
+from . import measure, rendered
+
+_IN_SCENE = (
+    "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
+    "{:.2f} from the spectrum's own reading"
+)
+
+_ALONE = "{}; the predicted reading is the spectrum's alone"
+_BUMPED = "bump is not counted: the predicted reading is of the surface without it"
+_NO_NUMBER = "Cycles rendered a value that is not a number; check the material's nodes."
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """What a reading is to be compared with, taken before the measurement.
+
+    Holds nothing of Blender's, so the user may go on editing while the measurement runs.
+    `promised` is what a material that follows its scene is to show: a compromise over the scene's
+    lights and directions, which at 45°/0° is not the spectrum's own reading. `fault` says why there
+    is nothing to compare with although a spectrum is stored, else it is empty.
+    """
+
+    surface: str
+    material: str
+    request: solve.Request | None
+    model_reason: str
+    shader_reason: str
+    warnings: tuple[str, ...]
+    promised: solution.Solution | None = None
+    fault: str = ""
+
+
+def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
+    """Take down what materials store now.
+
+    Parameters
+    ----------
+    surfaces
+        Name of the object it was asked for by, or an empty string, and the material.
+
+    Returns
+    -------
+    One for each surface. A material whose stored data cannot be used says so as its `fault`, and
+    does not hold up the others.
+    """
+    space = working_space.current().name
+    prepared = []
+    for surface, material in surfaces:
+        try:
+            prepared.append(_prepared(surface, material, space))
+        except RoughSpectraError as error:
+            reasons = ("", "", (str(error),))
+            prepared.append(Prepared(surface, material.name, None, *reasons, fault=str(error)))
+    return prepared
+
+
+def _prepared(surface: str, material: Any, space: str) -> Prepared:
+    request, warnings, model_reason, shader_reason = None, [], "", ""
+    if snapshot.has_spectrum(material):
+        request, model_reason = settled.of(material)
+        reasons = state.stale_reasons(material, space)
+        found = derivation.get_stamp(material)
+        warnings = [f"stale: {reason}" for reason in reasons]
+        if found is not None and not reasons and not found.kept:
+            warnings += found.warnings
+            shader_reason = found.shader_reason
+        else:
+            # What was derived is not what is shown: only what is said of the target holds.
+            warnings += solve.remarks(request)
+        surface_now = shader_nodes.surface(material)
+        reason = settled.obstacle(surface_now)
+        if reason is not None:
+            warnings.append(_ALONE.format(reason))
+        elif surface_now is not None and surface_now.bumped:
+            warnings.append(_BUMPED)
+    promised = _promised(material, request)
+    if promised is not None:
+        warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
+    reasons_why = (model_reason, shader_reason, tuple(warnings))
+    return Prepared(surface, material.name, request, *reasons_why, promised)
+
+
+def _promised(material: Any, request: solve.Request | None) -> solution.Solution | None:
+    """Match anew what follows its scene: its shader is what the measurement has to find."""
+    if request is None or request.scene is None:
+        return None
+    return solve.solve([storage.load(material)], working_space.current())[0]
+
+
+def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
+    """Predict readings and put the measured ones beside them.
+
+    Parameters
+    ----------
+    prepared
+        What `prepare` gave.
+    measured
+        What `measure.measure` gave for these materials at one geometry, shape (n, 2, 3), or None
+        for predictions alone.
+
+    Returns
+    -------
+    A reading for each; what could not be predicted or measured says why as its `fault`.
+    """
+    space = working_space.current()
+    entries = [
+        _reading(item, None if measured is None else measured[i], space)
+        for i, item in enumerate(prepared)
+    ]
+    return Readings(space.name, bpy.app.version_string, tuple(entries))
+
+
+def bake(
+    surfaces: Sequence[tuple[str, Any]],
+    with_measurement: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+) -> Readings:
+    """Predict the readings of materials and measure them in Cycles.
+
+    Parameters
+    ----------
+    surfaces
+        As in `prepare`; one material on many surfaces is rendered once.
+    with_measurement
+        Whether to render; predictions alone need no second Blender.
+    progress
+        As in `measure.measure`.
+
+    Raises
+    ------
+    OutputError, CancelledError
+        As in `measure.measure`.
+    """
+    prepared = prepare(surfaces)
+    if not with_measurement:
+        return compare(prepared, None)
+    distinct, places = distinct_materials(surfaces)
+    return compare(prepared, measure.measure(distinct, progress=progress)[0][places])
+
+
+def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], list[int]]:
+    """Give each material once, and for every surface the place of its material."""
+    distinct = list(dict.fromkeys(material for _, material in surfaces))
+    index = {material: i for i, material in enumerate(distinct)}
+    return distinct, [index[material] for _, material in surfaces]
+
+
+def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
+    """Tell bakes apart: by what is read, the spectra and settings stored in it, and its nodes."""
+    told = [
+        (
+            *(surface, material.name, derivation.inputs_digest(material.rough_spectra)),
+            *(material.rough_spectra.stamp, rendered.digest(material)),
+        )
+        for surface, material in surfaces
+    ]
+    return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]
+
+
+def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace) -> Reading:
+    request = item.request
+    illuminant = "D65" if request is None else request.illuminant
+    scene = None if request is None else request.scene
+    seen, fault, warnings = None, item.fault, item.warnings
+    if measured is not None and np.isfinite(measured).all():
+        seen = _measured(measured, space, illuminant, scene)
+    elif measured is not None:
+        no_number = f"Material {item.material!r}: {_NO_NUMBER}"
+        fault, warnings = " ".join(filter(None, (fault, no_number))), (*warnings, no_number)
+    promised, difference = item.promised, None
+    if promised is not None and scene is not None and seen is not None:
+        lab = scene_match.promised(promised.color, promised.roughness, scene, space)
+        difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
+    elif request is not None and seen is not None:
+        wavelengths, wanted = request.sample.wavelengths, solve.target_reading(request)
+        lab = tristimulus.spectrum_to_lab(wanted, wavelengths, illuminant, observer=2)
+        difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
+    return Reading(
+        material=item.material,
+        surface=item.surface,
+        sample="" if request is None else request.sample.name,
+        source="" if request is None else request.sample.source,
+        predicted=None if request is None else _predicted(request, item.model_reason, space),
+        measured=seen,
+        delta_e_00=difference,
+        shader_reason=item.shader_reason,
+        warnings=warnings,
+        fault=fault,
+    )
+
+
+def from_spectrum(item: Prepared, entry: Reading) -> float | None:
+    """Give ΔE00 of what was measured from the spectrum's own reading, or None without either.
+
+    `Reading.delta_e_00` is the same, but for a material that follows its scene: that one is
+    compared with what was matched, and this with what the spectrum asks for under the main light.
+    """
+    if item.request is None or item.request.scene is None or entry.measured is None:
+        return entry.delta_e_00
+    light, wanted = item.request.scene.lights[0], solve.target_reading(item.request)
+    weights = light.weights(item.request.sample.wavelengths)
+    lab = color_difference.xyz_to_lab(wanted @ weights, light.white)
+    return round(float(color_difference.delta_e(lab, np.array(entry.measured.lab))), 4)
+
+
+def _predicted(
+    request: solve.Request, model_reason: str, space: rgb_space.WorkingSpace
+) -> Predicted:
+    sample = request.sample
+    values = solve.target_reading(request)
+    weights = tristimulus.weights(sample.wavelengths, request.illuminant, request.observer)
+    xyz = values @ weights
+    return Predicted(
+        kind=sample.kind,
+        model=request.model,
+        model_reason=model_reason,
+        sigma_degrees=round(float(np.degrees(request.sigma)), 5),
+        illuminant=request.illuminant,
+        observer=request.observer,
+        wavelengths=tuple(sample.wavelengths.tolist()),
+        values=tuple(round(value, 6) for value in values.tolist()),
+        xyz=_triple(100 * xyz, 4),
+        lab=_triple(color_difference.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
+        preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
+    )
+
+
+def _measured(
+    values: Array,
+    space: rgb_space.WorkingSpace,
+    illuminant: str,
+    scene: SceneView | None = None,
+) -> Measured:
+    mean, spread = values
+    if scene is not None:
+        light = scene.lights[0]
+        return Measured(
+            rgb=_triple(mean, 6),
+            spread=_triple(spread, 6),
+            illuminant=f"scene: {light.name}",
+            xyz=_triple(100 * scene_match.to_xyz(mean, light, space), 4),
+            lab=_triple(scene_match.to_lab(mean, light, space), 4),
+        )
+    return Measured(
+        rgb=_triple(mean, 6),
+        spread=_triple(spread, 6),
+        illuminant=illuminant,
+        xyz=_triple(100 * space.to_xyz(mean, illuminant), 4),
+        lab=_triple(space.to_lab(mean, illuminant), 4),
+    )
+
+
+def _triple(values: Array, digits: int) -> Triple:
+    # Adding zero turns -0.0 into 0.0.
+    first, second, third = (round(float(value), digits) + 0.0 for value in values)
+    return first, second, third

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ask a second Blender to measure materials, without touching anything in this one.
+
+A render in this Blender would add datablocks, replace the last Render Result and block the
+window. The materials are written to a file of their own, and `worker` measures them there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.numerics.arrays import Array
+from ..blender.background_job import Job
+
+SAMPLES = 16
+"""Rays a pixel unless told otherwise: with 16 pixels a sample, 256 places on a texture."""
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """Lights and view of one measurement.
+
+    Parameters
+    ----------
+    lights
+        Polar angle and azimuth of each light, radians; they share the irradiance equally.
+    view
+        Polar angle of the view, radians below π/2; its azimuth is 0.
+    """
+
+    lights: tuple[tuple[float, float], ...]
+    view: float
+
+
+RING_45_0 = Geometry(tuple((math.pi / 4, 2 * math.pi * k / 8) for k in range(8)), 0.0)
+"""45°a:0°: eight lights around the sample at 45°, view along the normal."""
+
+
+class Measurement(Job):
+    """A measurement under way in a second Blender.
+
+    Parameters
+    ----------
+    materials
+        `bpy.types.Material`, linked ones too; each is measured as it is now.
+    geometries
+        Where to measure.
+    samples
+        Rays a pixel. One is exact for an even material; textures and bumps need more.
+
+    Raises
+    ------
+    OutputError
+        If the temporary folder cannot be written or the second Blender not be started.
+    """
+
+    doing = "measures"
+    interrupted = "Measuring was interrupted; nothing was written."
+    smaller = "measure fewer materials at once"
+
+    def __init__(
+        self,
+        materials: Sequence[Any],
+        geometries: Sequence[Geometry],
+        samples: int = SAMPLES,
+    ) -> None:
+        def prepare(folder: Path) -> dict[str, Any]:
+            blend = folder / "materials.blend"
+            # Blender leaves linked data out unless local data use it: the worker links it anew.
+            local = {material for material in materials if material.library is None}
+            bpy.data.libraries.write(
+                str(blend), local, fake_user=True, path_remap="ABSOLUTE", compress=False
+            )
+            return {
+                "blend": blend.name,
+                "samples": samples,
+                "materials": [[m.name, _library_path(m)] for m in materials],
+                "geometries": [{"lights": g.lights, "view": g.view} for g in geometries],
+            }
+
+        super().__init__(Path(__file__).with_name("worker.py"), prepare)
+
+    def result(self) -> Array:
+        """Give what was measured, once `poll` says that it has ended.
+
+        Returns
+        -------
+        Shape (geometries, materials, 2, 3): mean and standard deviation over the sample's area of
+        the reflectance factor in scene-linear RGB.
+
+        Raises
+        ------
+        OutputError
+            If the second Blender failed.
+        """
+        return np.asarray(np.load(self.output("result.npy")))
+
+
+def measure(
+    materials: Sequence[Any],
+    geometries: Sequence[Geometry] = (RING_45_0,),
+    progress: Callable[[int, int], None] | None = None,
+    samples: int = SAMPLES,
+) -> Array:
+    """Measure materials and wait for the result.
+
+    Parameters
+    ----------
+    materials, geometries, samples
+        As in `Measurement`.
+    progress
+        Called with renders done and renders in all; may raise to stop.
+
+    Returns
+    -------
+    Shape (geometries, materials, 2, 3), as in `Measurement.result`.
+
+    Raises
+    ------
+    OutputError
+        If the second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+    """
+    if not materials:
+        return np.empty((len(geometries), 0, 2, 3))
+    measurement = Measurement(materials, geometries, samples)
+    try:
+        measurement.wait(progress)
+        return measurement.result()
+    finally:
+        measurement.close()
+
+
+def _library_path(material: Any) -> str | None:
+    if material.library is None:
+        return None
+    return bpy.path.abspath(material.library.filepath)

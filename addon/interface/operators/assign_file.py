@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assign a sample of a measurement file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+
+from ....core.errors import InputError, RoughSpectraError
+from ...material.properties import KIND_ITEMS
+from . import common
+
+AS_FILE = "FILE"
+_KIND_ITEMS = (
+    (AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
+    *KIND_ITEMS,
+)
+_items: list[tuple[str, str, str]] = []
+"""Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
+
+
+def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
+    """List the samples of the file that was read last."""
+    return _items
+
+
+class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
+    """Make the material read like a sample of a measurement file, and store its spectrum"""
+
+    bl_idname = "rough_spectra.assign_file"
+    bl_label = "Assign from File"  # the file browser's button holds no more
+    bl_options = {"REGISTER", "UNDO"}
+
+    filepath: StringProperty(
+        name="File", description="Spectra that an instrument wrote", subtype="FILE_PATH"
+    )
+    sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Need something that can carry a material."""
+        return common.can_have_material(cls, context)
+
+    def invoke(self, context: Any, _event: Any) -> set[str]:
+        """Let the user choose the file."""
+        common.begin_with_sigma(self, context)
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Any) -> set[str]:
+        """Assign to all materials in scope, or to none; ask which sample if there are several."""
+        from ...samples import readers
+
+        try:
+            samples = readers.read(bpy.path.abspath(self.filepath))
+            if len(samples) > 1 and not self.sample and not bpy.app.background:
+                return self._ask(samples)
+            sample = _choose(samples, self.sample, self.filepath)
+            if self.kind != AS_FILE:
+                sample = replace(sample, kind=self.kind)
+            request = common.request_in_scope(context, self.scope, sample, self.sigma)
+            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+        except RoughSpectraError as error:
+            common.report_error(self, error)
+            return {"CANCELLED"}
+        for note in sample.notes:
+            self.report({"WARNING"}, f"{sample.name}: {note}")
+        common.report_assigned(self, assigned, sample)
+        return {"FINISHED"}
+
+    def _ask(self, samples: list[Any]) -> set[str]:
+        _items[:] = [(s.name, s.name, f"{s.position} of the file") for s in samples]
+        bpy.ops.rough_spectra.assign_file_sample(
+            "INVOKE_DEFAULT",
+            filepath=self.filepath,
+            kind=self.kind,
+            sigma=self.sigma,
+            shader=self.shader,
+            scope=self.scope,
+        )
+        return {"CANCELLED"}
+
+
+class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operator):
+    """Choose one of a measurement file's samples for the material"""
+
+    bl_idname = "rough_spectra.assign_file_sample"
+    bl_label = "Assign Sample of File"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    bl_property = "sample"
+
+    filepath: StringProperty(name="File", description="Spectra that an instrument wrote")
+    sample: EnumProperty(name="Sample", description="Sample of the file", items=sample_items)
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+    )
+
+    def invoke(self, context: Any, _event: Any) -> set[str]:
+        """Let the user search the samples by name."""
+        context.window_manager.invoke_search_popup(self)
+        return {"FINISHED"}
+
+    def execute(self, _context: Any) -> set[str]:
+        """Hand the choice to the operator that reads the file."""
+        try:
+            return set(
+                bpy.ops.rough_spectra.assign_file(
+                    filepath=self.filepath,
+                    sample=self.sample,
+                    kind=self.kind,
+                    sigma=self.sigma,
+                    shader=self.shader,
+                    scope=self.scope,
+                )
+            )
+        except RuntimeError as error:
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
+
+
+def _choose(samples: list[Any], name: str, path: str) -> Any:
+    if not name:
+        if len(samples) == 1:
+            return samples[0]
+        names = ", ".join(sample.name for sample in samples[:5])
+        more = ", …" if len(samples) > 5 else ""
+        msg = f"{path} has {len(samples)} samples ({names}{more}); say which with sample=."
+        raise InputError(msg)
+    for sample in samples:
+        if sample.name == name:
+            return sample
+    msg = f"{path} has no sample {name!r}; check the name."
+    raise InputError(msg)
+
+
+classes = (ROUGHSPECTRA_OT_assign_file, ROUGHSPECTRA_OT_assign_file_sample)

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure materials and keep the result with them, beside the prediction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.props import EnumProperty
+
+from ....core.errors import MaterialError
+from . import background, common
+
+if TYPE_CHECKING:
+    from ....core.numerics.arrays import Array
+
+
+class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
+    """Render the material with a virtual spectrophotometer and compare with its spectrum"""
+
+    bl_idname = "rough_spectra.measure"
+    bl_label = "Measure with Virtual Spectrophotometer"
+    bl_options = {"REGISTER", "UNDO"}
+
+    scope: EnumProperty(
+        name="For",
+        description="Materials to measure",
+        items=(*common.SCOPE_ITEMS, common.ALL_WITH_SPECTRUM),
+    )
+
+    @classmethod
+    def description(cls, _context: Any, properties: Any) -> str:
+        """Say what the button at hand measures."""
+        what = {
+            "ACTIVE": "Render the material",
+            "SELECTED": "Render the materials of the selected objects",
+            "ALL": "Render every material that stores a spectrum",
+        }[properties.scope]
+        return (
+            f"{what} with a virtual spectrophotometer, in a second Blender in the background, and "
+            "compare with the spectrum; ESC stops"
+        )
+
+    @classmethod
+    def poll(cls, _context: Any) -> bool:
+        """Need at least one material."""
+        return common.has_materials(cls)
+
+    def to_measure(self, context: Any) -> list[Any]:
+        """Take down the predictions, and what each material is like now."""
+        from ...instrument import bake
+        from ...material import last_measurement
+
+        materials = common.materials_in_scope(context, self.scope)
+        self._prepared = bake.prepare([("", material) for material in materials])
+        # A pointer to a material does not survive an undo while the measurement runs.
+        self._ids = [material.session_uid for material in materials]
+        self._states = [last_measurement.fingerprint(material) for material in materials]
+        self._predicted = [_predicted(material) for material in materials]
+        return materials
+
+    def take(self, values: Array) -> str:
+        """Keep each reading with its material; linked ones are only reported."""
+        from ...instrument import bake
+        from ...material import last_measurement
+
+        # As the panel predicts it, so from the spectrum even where a scene asks for something else.
+        entries = [
+            replace(entry, delta_e_00=bake.from_spectrum(item, entry))
+            for item, entry in zip(
+                self._prepared, bake.compare(self._prepared, values).entries, strict=True
+            )
+        ]
+        present = {material.session_uid: material for material in bpy.data.materials}
+        rows = zip(entries, self._ids, self._states, self._predicted, strict=True)
+        for entry, uid, state, predicted in rows:
+            material = present.get(uid)
+            if material is not None and material.is_editable and entry.measured is not None:
+                last_measurement.note(
+                    material, state, entry.measured.rgb, entry.delta_e_00, predicted
+                )
+        for entry in entries:
+            if entry.fault:
+                self.report({"WARNING"}, entry.fault)
+        return _sentence(entries)
+
+
+def _predicted(material: Any) -> float | None:
+    """ΔE00 at the instrument that Cycles is to show now; None where that cannot be said."""
+    from ...blender import working_space
+    from ...material import settled, snapshot
+
+    if not snapshot.has_spectrum(material):
+        return None
+    try:
+        return settled.differences(material, working_space.current())[0]
+    except MaterialError:
+        return None
+
+
+def _sentence(entries: Any) -> str:
+    if len(entries) == 1:
+        entry = entries[0]
+        if entry.delta_e_00 is not None:
+            sentence = rpt_("{material}: measured ΔE00 {difference:.2f} from its spectrum")
+            return sentence.format(material=entry.material, difference=entry.delta_e_00)
+        if entry.measured is None:
+            return rpt_("{material}: not measured").format(material=entry.material)
+        if entry.fault:
+            return rpt_("{material}: measured, but not compared").format(material=entry.material)
+        rgb = ", ".join(f"{value:.3f}" for value in entry.measured.rgb)
+        sentence = rpt_("{material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with")
+        return sentence.format(material=entry.material, rgb=rgb)
+    worst = max(entries, key=lambda entry: entry.delta_e_00 or 0.0)
+    if worst.delta_e_00 is None:
+        return rpt_("{count} materials measured").format(count=len(entries))
+    sentence = rpt_("{count} materials measured; largest ΔE00 {difference:.2f} in {material}")
+    return sentence.format(count=len(entries), difference=worst.delta_e_00, material=worst.material)
+
+
+classes = (ROUGHSPECTRA_OT_measure,)

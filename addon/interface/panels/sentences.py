@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panels say of a material: composed once for equal facts, and drawn at every redraw."""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_tip as tip_
+
+from ...colorimetry import perceptibility
+from ...material import derivation, settled, state
+from ...material.snapshot import Facts
+from .text import Format, Sentence
+
+Numbers = tuple[float, float, float]
+"""ΔE00 at the instrument, and mean and 95th percentile over all angles."""
+
+_KEPT = 1024
+"""Materials whose sentences are kept, as many as their states."""
+
+SWATCHES = 98.0
+"""Pixels at UI scale 1 that the swatches take beside the numbers."""
+
+_WHERE = ("45°/0°", "All angles", "95 % below")
+_BOX = 24.0
+_NOTHING = 0.005
+"""ΔE00 that is written as 0.00."""
+_GAMUT = 0.05
+"""ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
+_ANGLES = "Limited by the angles: one roughness has to fit all of them"
+_SHOWN = (
+    *(("device", "Device"), ("geometry", "Geometry"), ("aperture", "Aperture")),
+    *(("condition", "Condition"), ("specular", "Specular"), ("license", "License")),
+)
+
+
+class Style(NamedTuple):
+    """What sentences depend on besides the material: their format, and the language.
+
+    The language is told by its name and by how two of our own texts read, for labels and tooltips
+    are translated or not, each as the user prefers.
+    """
+
+    format: Format
+    locale: str
+    label: str
+    tip: str
+
+
+def style(form: Format) -> Style:
+    """Give the style of a region in the language of now."""
+    locale = bpy.app.translations.locale
+    return Style(form, locale, iface_("not visible"), tip_(_ANGLES))
+
+
+@lru_cache(maxsize=64)
+def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
+    """Give one sentence, from a label that is to be translated."""
+    return (how.format.sentence(iface_(text), icon),)
+
+
+@lru_cache(maxsize=_KEPT)
+def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
+    """Say why a material's color does not follow from its spectrum."""
+    known = state.judge(found)
+    icon, sentences = "INFO" if known.kind in ("kept", "linked") else "ERROR", []
+    for reason in map(tip_, known.reasons):
+        sentences.append(how.format.sentence(_capital(reason), icon, _BOX))
+        icon = "BLANK1"
+    return tuple(sentences)
+
+
+@lru_cache(maxsize=64)
+def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
+    """Say why there is no number."""
+    told = tip_(found.template).format(names=found.names)
+    return (how.format.sentence(_capital(told), "INFO"),)
+
+
+@lru_cache(maxsize=_KEPT)
+def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
+    """Tell how far Blender is from the target, beside the swatches or below them."""
+    inset = SWATCHES if beside else 0.0
+    return tuple(
+        how.format.sentence(_difference(iface_(where), delta_e), "NONE", inset)
+        for where, delta_e in zip(_WHERE, apart, strict=True)
+    )
+
+
+@lru_cache(maxsize=_KEPT)
+def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
+    """Say what limits a fresh material, and why its model and shader were taken.
+
+    `apart` is None until it is computed.
+    """
+    last = state.judge(found).stamp
+    if last is None:
+        return ()
+    told = [(_limit(last, apart, found), "INFO")]
+    if found.inputs.model == "auto":
+        # Whatever the engine, the target is the surface's.
+        text = iface_("Target of the model {}" if found.flat else "Model {}")
+        told.append((text.format(last.model_reason), "MODIFIER"))
+    told.append((iface_("Material {}").format(_shader(last, found)), "MATERIAL"))
+    told += [(warning, "ERROR") for warning in last.warnings]
+    return tuple(how.format.sentence(text, icon) for text, icon in told)
+
+
+@lru_cache(maxsize=_KEPT)
+def measurement(
+    predicted: float | None, measured: float, current: bool, how: Style
+) -> tuple[Sentence, ...]:
+    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since.
+
+    There may be no prediction.
+    """
+    told = [] if predicted is None else [(_difference(iface_("Predicted"), predicted), "BLANK1")]
+    told.append((_difference(iface_("Measured"), measured), "BLANK1"))
+    if not current:
+        told.append((iface_("Measured before the last change; measure again"), "ERROR"))
+    return tuple(how.format.sentence(text, icon) for text, icon in told)
+
+
+@lru_cache(maxsize=_KEPT)
+def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
+    """Say how right a material is under each light of its scene; `name` is the scene's of now."""
+    if not found.analyzed:
+        return of("Finds the lights and directions that meet the materials in view", "INFO", how)
+    last, view = state.judge(found).stamp, found.inputs.scene_view
+    if not view or last is None:
+        return ()
+    told = []
+    if settled.numbers(found, found.flat) is not None:
+        told = [(_difference(light, delta_e), "LIGHT") for light, delta_e in last.delta_e_lights]
+        if last.scene_reason:
+            told.append((last.scene_reason, "INFO"))
+    analyzed = derivation.analyzed_scene(view)
+    if analyzed not in {"", name}:
+        text = iface_("Analyzed in scene {name}; analyze again if that is not this one")
+        told.append((text.format(name=repr(analyzed)), "INFO"))
+    return tuple(how.format.sentence(text, icon) for text, icon in told)
+
+
+@lru_cache(maxsize=_KEPT)
+def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sentence, ...], ...]:
+    """Say where a spectrum and its σ come from; what the file says of itself stands together."""
+    about, notes = _details(details)
+    write = how.format.sentence
+    told = [write(f"{iface_('σ from')}: {sigma}", "FORCE_TURBULENCE")] if sigma else []
+    return (
+        (write(cited or iface_("The source is not known"), "FILE"),),
+        tuple(write(f"{iface_(label)}: {value}") for label, value in about),
+        (*told, *(write(text, "INFO") for text in notes)),
+    )
+
+
+def _capital(reason: str) -> str:
+    return reason if reason.startswith("σ") else reason[:1].upper() + reason[1:]
+
+
+def _difference(where: str, delta_e: float) -> str:
+    return f"{where}: ΔE00 {delta_e:.2f}, {iface_(perceptibility.words(delta_e))}"
+
+
+def _limit(last: derivation.Stamp, apart: Numbers | None, found: Facts) -> str:
+    if apart is not None and max(apart) < _NOTHING:
+        return tip_("Limited by nothing: Blender shows the target")
+    if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
+        return tip_("Limited by the engine: only Cycles shows the roughness")
+    lights = [delta_e for _, delta_e in last.delta_e_lights]
+    several = len(lights) > 1
+    # Where lights mix everywhere, it is at the instrument, under the main one alone, that it shows.
+    if (
+        several
+        and max(max(lights) - min(lights), last.delta_e_instrument) >= perceptibility.SIDE_BY_SIDE
+    ):
+        return tip_("Limited by the lights: no single color is right under all of them")
+    if not several and last.delta_e_instrument > _GAMUT:
+        return tip_("Limited by the gamut: {space} cannot hold this color").format(
+            space=last.working_space
+        )
+    if last.roughness == 0.0:
+        return tip_("Limited by leaving the roughness out, which hardly shows here")
+    return tip_(_ANGLES)
+
+
+def _shader(last: derivation.Stamp, found: Facts) -> str:
+    if last.roughness == 0.0 or not found.flat:
+        return last.shader_reason
+    if found.analyzed:
+        return tip_(
+            "lambert: this engine leaves the roughness out; check Light from the Scene for the "
+            "closest color"
+        )
+    return tip_(
+        "lambert: this engine leaves the roughness out; analyze the scene for the closest color"
+    )
+
+
+def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:
+    try:
+        data: dict[str, Any] = json.loads(text or "{}")
+        shown = [(label, str(data[key])) for key, label in _SHOWN if data.get(key)]
+        return shown, [*map(str, data.get("altered", ())), *map(str, data.get("notes", ()))]
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return [], []

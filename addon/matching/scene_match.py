@@ -1,0 +1,388 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Match a material to the lights and directions of its scene. No Blender data here.
+
+The color seen in each of the scene's directions, under the light that comes from there, is to be
+the spectrum's; color and roughness are chosen for the least mean ΔE00 over all of them. A reading
+at 45°/0° is then no longer met by itself: what the material reads there follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from ...core import cycles, ladder, reading
+from ...core.color import color_difference
+from ...core.cycles import (
+    derivatives,
+    instrument_lobe,
+    least_mean_fit,
+    matching,
+)
+from ...core.numerics import direction_grid
+from ...core.numerics.arrays import Array
+from ..colorimetry.perceptibility import SIDE_BY_SIDE
+from ..colorimetry.rgb_space import WorkingSpace, matrix_of
+from .request import VIRTUAL
+from .scene_view import SceneLight, SceneView
+
+_ELSEWHERE = 12
+"""Directions all over the hemisphere, which decide what the scene leaves open."""
+_WEIGHT_ELSEWHERE = 0.03
+"""Their part in the mean: the scene's directions win wherever they have a say."""
+_STARTS = (0.1, 0.5, 0.9, 0.0)
+"""Cycles' roughnesses that the search starts from; the last is of the material without any."""
+_FREE = [[True, True, True, start > 0] for start in _STARTS]
+"""What may change from each of `_STARTS`: red, green, blue and roughness."""
+FLAT = "lambert: the render engine ignores diffuse roughness; the color is right for its scene."
+_ENOUGH = 1e-4
+"""Overshoot of the gamut that nobody sees."""
+_FAINT = 0.01
+"""Part of a light's strongest channel below which its color hangs on almost nothing."""
+_KEPT = 32
+"""Views of which `_Places` are kept, some 100 kB each: a dragged slider asks for them again."""
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    """A color and roughness, and what they leave over.
+
+    Parameters
+    ----------
+    color, roughness
+        Of the shader; the color within 0 to 1, shape (3,).
+    over_scene
+        ΔE00 in each of the view's places, shape (places,).
+    instrument
+        ΔE00 at 45°/0° under each of the view's lights, shape (lights,).
+    """
+
+    color: Array
+    roughness: float
+    over_scene: Array
+    instrument: Array
+
+
+def match(
+    view: SceneView,
+    albedo: Array,
+    read: Array,
+    model: str,
+    sigma: float,
+    bands: Array,
+    space: WorkingSpace,
+) -> tuple[Match, Match, Array]:
+    """Match one material, with roughness and without.
+
+    Parameters
+    ----------
+    view
+        Its lights and directions.
+    albedo, read
+        ρ(λ), and r(λ) at the virtual instrument, each of shape (bands,).
+    model
+        One of `core.models.NAMES`.
+    sigma
+        Roughness, radians.
+    bands
+        Wavelengths, nanometers, shape (bands,).
+    space
+        The working space.
+
+    Returns
+    -------
+    rough, lambert, target
+        The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
+    """
+    places = _places(view, bands.tobytes(), space.key)
+    wanted = places.relative(_reflected(albedo, model, sigma, places), read)
+    mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
+    roots, _ = color_difference.roots(wanted)
+    lab = color_difference.roots_to_lab(roots)
+    color = np.clip(
+        matching.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, VIRTUAL), 0, 1
+    )
+    starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
+    found = least_mean_fit.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
+    apart = color_difference.delta_e(places.perceive(found), lab)
+    searched, in_view = len(places.weights), len(view.place_weights)
+    best = int(np.argmin(apart[:-1, :searched] @ places.weights))
+    rough, lambert = (
+        Match(np.array(found[row][:3]), found[row][3], apart[row, :in_view], apart[row, searched:])
+        for row in (best, len(found) - 1)
+    )
+    return rough, lambert, target
+
+
+def judge(
+    view: SceneView,
+    shader: tuple[Array, float],
+    albedo: Array,
+    model: str,
+    sigma: float,
+    bands: Array,
+    space: WorkingSpace,
+) -> Array:
+    """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
+    cycles.check_roughness(np.asarray(shader[1]))
+    places = _places(view, bands.tobytes(), space.key)
+    wanted = places.relative(_reflected(albedo, model, sigma, places))
+    seen = places.perceive([[*shader[0].tolist(), shader[1]]])
+    lab = color_difference.roots_to_lab(color_difference.roots(wanted)[0])
+    return color_difference.delta_e(seen[0, : len(wanted)], lab)[: len(view.place_weights)]
+
+
+def choose_shader(
+    view: SceneView, lambert: Match, rough: Match, tolerance: float
+) -> tuple[Match, str]:
+    """Choose the material without roughness where that is good enough, else the closer one.
+
+    Closer on average: where several lights contradict each other, they and not the roughness make
+    up the largest error.
+
+    Returns
+    -------
+    The material, and one sentence for a person.
+    """
+    worst = float(lambert.over_scene.max())
+    if worst <= tolerance:
+        return lambert, f"lambert: at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
+    weights = view.place_weights / view.place_weights.sum()
+    flat, bent = (float(each.over_scene @ weights) for each in (lambert, rough))
+    if bent <= flat:
+        words = "rough: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
+        return rough, words.format(bent, flat)
+    words = "lambert: ΔE00 {:.2f} off on average in its scene; rough would be off by {:.2f}."
+    return lambert, words.format(flat, bent)
+
+
+def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
+    """Mean ΔE00 where each light shines, with the light's name.
+
+    A place counts by the part of its light that comes from there; `apart` has shape (places,).
+    """
+    return tuple(
+        (light.name, float(parts @ apart))
+        for light, parts in zip(view.lights, view.light_parts, strict=True)
+        if parts.any()
+    )
+
+
+def percentile(values: Array, weights: Array, share: float) -> float:
+    """Value below which that share of the weights lies."""
+    order = np.argsort(values)
+    passed = np.cumsum(weights[order]) / weights.sum()
+    return float(values[order][min(int(np.searchsorted(passed, share)), len(values) - 1)])
+
+
+def explain(view: SceneView, per_light: tuple[tuple[str, float], ...]) -> str:
+    """Say in one sentence what the scene's lights decided."""
+    if len(view.lights) == 1:
+        light = view.lights[0]
+        return f"Matched to one color of light, {light.name} ({light.words})."
+    shares = {light.name: light.share for light in view.lights}
+    parts = ", ".join(
+        f"{name} ΔE00 {apart:.2f} ({shares[name]:.0%} of the light)" for name, apart in per_light
+    )
+    apart = [delta_e for _, delta_e in per_light]
+    said = (
+        f"Matched to {len(view.lights)} colors of light as they mix in the picture; the mean over "
+        f"it is least with {parts}."
+    )
+    if max(apart) - min(apart) < SIDE_BY_SIDE:
+        return said
+    return f"{said} No single color is right under all of them."
+
+
+def gamut(name: str, target: Array, space: WorkingSpace) -> str:
+    """Say when the reading needs a channel below 0 or above 1; an empty sentence if not."""
+    outside = np.maximum(-target, target - 1)
+    channel = int(np.argmax(outside))
+    if outside[channel] <= _ENOUGH:
+        return ""
+    return (
+        f"{name!r} lies outside the gamut of {space.name} under the scene's light: its reading "
+        f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."
+    )
+
+
+def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
+    """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
+    seen = instrument_lobe.reflectance(color, roughness, VIRTUAL)
+    return to_lab(seen, view.lights[0], space)
+
+
+def to_lab(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
+    """L*a*b* of a surface's scene-linear reflectance (..., 3), rendered under a light."""
+    return color_difference.xyz_to_lab(to_xyz(rgb, light, space), light.white)
+
+
+def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
+    """XYZ (Y = 1 for white) of a surface's reflectance (..., 3), rendered under a light."""
+    return np.asarray(rgb @ _rendered(light, space.key))
+
+
+@lru_cache(maxsize=_KEPT)
+def _rendered(light: SceneLight, key: bytes) -> Array:
+    """Matrix of `to_xyz`, for a working space's key."""
+    matrix = matrix_of(key)
+    return np.asarray(light_rgb(light.white, matrix)[:, np.newaxis] * np.linalg.inv(matrix).T)
+
+
+def light_rgb(white: Array, from_xyz: Array) -> Array:
+    """Scene-linear RGB of lights of XYZ (..., 3); never negative, as in Blender."""
+    return np.maximum(white @ from_xyz.T, 0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Where materials are looked at in a scene, and all of it that no material changes.
+
+    First come the places of the view and, with little weight, one for each of some directions all
+    around: these are searched. Last comes 45°/0° under each of the lights.
+
+    Parameters
+    ----------
+    angles
+        θi, θr and Δφ of the ways of light to what is searched, shape (3, ways).
+    weights
+        Of what is searched, shape (searched,).
+    colors
+        From spectra to XYZ under each light, shape (bands, 3 lights).
+    own
+        Where each way and its light are in an array of (ways · lights), shape (ways,).
+    mixing
+        Part of each way in the light of what is searched, shape (searched, ways).
+    whites
+        XYZ of the light, shape (places, 3).
+    to_relative
+        From coefficients of Cycles' closure, by channel and function, to XYZ relative to white, by
+        place and X, Y or Z: shape (3 places, 9).
+    to_means
+        From XYZ relative to white to two means of RGB, by mean and channel: over what is searched,
+        and over the lights at 45°/0°. Shape (6, 3 places).
+    """
+
+    angles: Array
+    weights: Array
+    colors: Array
+    own: Array
+    mixing: Array
+    whites: Array
+    to_relative: Array
+    to_means: Array
+
+    def relative(self, reflected: Array, read: Array | None = None) -> Array:
+        """XYZ relative to white of spectra (ways, bands) and a reading (bands,): (places, 3).
+
+        Without a reading, only of what is searched.
+        """
+        xyz = self.mixing @ (reflected @ self.colors).reshape(-1, 3).take(self.own, axis=0)
+        if read is not None:
+            xyz = np.concatenate((xyz, (read @ self.colors).reshape(-1, 3)))
+        return np.asarray(xyz / self.whites[: len(xyz)])
+
+    def perceive(self, parameters: list[least_mean_fit.Numbers]) -> Array:
+        """Lab, shape (materials, places, 3), of materials as `cycles_slopes` takes them."""
+        parts = derivatives.coefficients(parameters)
+        relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
+        relative = relative.reshape(len(parameters), -1, 3)
+        return color_difference.roots_to_lab(color_difference.roots(relative)[0])
+
+    def distance_to(self, roots: Array, lab: Array) -> least_mean_fit.Distance:
+        """Give what `compromise.fit` searches: how far materials are from wanted colors.
+
+        Parameters
+        ----------
+        roots, lab
+            The same colors in all places, each of shape (places, 3).
+        """
+        count = len(self.weights)
+        wanted, to_relative = roots[:count, :, np.newaxis], self.to_relative[: 3 * count]
+        metric = least_mean_fit.whitener(lab[:count]) @ color_difference.LAB_FROM_ROOTS
+
+        def distance(parameters: list[least_mean_fit.Numbers]) -> Array:
+            parts = derivatives.coefficients(parameters)
+            found = (to_relative @ parts.reshape(-1, 9).T).reshape(count, 3, len(parameters), -1)
+            bent, slope = color_difference.roots(found[..., 0])
+            np.subtract(bent, wanted, out=found[..., 0])
+            found[..., 1:] *= slope[..., np.newaxis]
+            return (metric @ found.reshape(count, 3, -1)).reshape(found.shape)
+
+        return distance
+
+
+@lru_cache(maxsize=_KEPT)
+def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
+    """Make them, for the bytes of wavelengths and a working space's key."""
+    matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
+    angles, lights, mixing = _ways(view)
+    white = np.stack([light.white for light in view.lights])[lights]
+    rgb = light_rgb(white, matrix)
+    whites = mixing @ white
+    functions = derivatives.functions(*angles).T
+    mixed = mixing @ (rgb[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
+    to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
+
+    scene = view.place_weights / view.place_weights.sum() * (1 - _WEIGHT_ELSEWHERE)
+    weights = np.append(scene, np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE))
+    searched, ways = len(weights), len(view.weights) + _ELSEWHERE
+    share = np.array([light.share for light in view.lights])
+    means = np.zeros((2, len(mixing)))
+    means[0, :searched], means[1, searched:] = weights, share / share.sum()
+    to_ratio = _to_ratio(matrix, mixing @ rgb) * whites[:, np.newaxis]
+    return _Places(
+        angles=angles[:, :ways],
+        weights=weights,
+        colors=np.concatenate([light.weights(wavelengths) for light in view.lights], axis=1),
+        own=np.arange(ways) * len(view.lights) + lights[:ways],
+        mixing=mixing[:searched, :ways],
+        whites=whites,
+        to_relative=np.einsum("pcx,pcf->pxcf", to_xyz, mixed.reshape(-1, 3, 3)).reshape(-1, 9),
+        to_means=np.einsum("mp,pcx->mcpx", means, to_ratio).reshape(6, -1),
+    )
+
+
+def _ways(view: SceneView) -> tuple[Array, Array, Array]:
+    """Give the ways of light to all places of `_Places`.
+
+    Returns
+    -------
+    angles, lights, mixing
+        θi, θr and Δφ, shape (3, ways); index of the light, shape (ways,); and the part of each way
+        in the light of each place, shape (places, ways).
+    """
+    count = len(view.lights)
+    instrument = np.repeat(np.array(reading.INSTRUMENT_ANGLES[VIRTUAL])[:, np.newaxis], count, 1)
+    angles = np.concatenate(
+        (view.angles, direction_grid.hemisphere(_ELSEWHERE), instrument), axis=1
+    )
+    elsewhere = np.zeros(_ELSEWHERE, int)
+    lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
+    # Beyond the view each way has a place of its own.
+    places, ways = len(view.place_weights), len(view.weights)
+    mixing = np.zeros((places + _ELSEWHERE + count, len(lights)))
+    mixing[view.places, np.arange(ways)] = view.weights / view.place_weights[view.places]
+    mixing[places:, ways:] = np.eye(_ELSEWHERE + count)
+    return angles, lights, mixing
+
+
+def _to_ratio(from_xyz: Array, light: Array) -> Array:
+    """Matrices, shape (places, 3, 3), from XYZ to the per-channel ratio to the light.
+
+    Where a light lacks a channel, to that of its luminance.
+    """
+    faint = (light < _FAINT * light.max(axis=1, keepdims=True))[..., np.newaxis]
+    luminance = np.array((0.0, 1.0, 0.0))
+    return np.where(faint, luminance, from_xyz / np.where(faint, 1, light[..., np.newaxis]))
+
+
+def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
+    light, view, azimuth = places.angles
+    spread = ladder.reflectance(model, np.minimum(albedo, 1), light, view, azimuth, sigma)
+    # The published model turns negative at grazing opposite directions; no surface does. Facets
+    # that return more light than reaches them are kept in proportion, as in `target`.
+    return np.maximum(spread * np.maximum(albedo, 1), np.minimum(albedo, 0))

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Give materials their measured spectra: solve, write the sockets, store, stamp."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from ...core.errors import MaterialError, RoughSpectraError
+from ..blender import shader_nodes, working_space
+from ..matching import solve
+from ..matching.scene_view import SceneView
+from ..matching.solution import Solution
+from ..matching.solve import Request
+from . import storage
+
+
+def assign(
+    pairs: Sequence[tuple[Any, Request]], shader: shader_nodes.Shader = "AUTO"
+) -> list[Solution]:
+    """Assign measured spectra to materials, all of them or none.
+
+    Parameters
+    ----------
+    pairs
+        Each a `bpy.types.Material` and what it is to become.
+    shader
+        Which node to set; see `nodes.find`.
+
+    Returns
+    -------
+    What was matched, in the order of `pairs`; look at each one's `warnings`.
+
+    Raises
+    ------
+    MaterialError
+        If a material cannot be written; nothing was changed then.
+    DomainError
+        If a spectrum or a setting cannot be used; nothing was changed then.
+    """
+    work = [
+        (shader_nodes.find(material, shader), storage.in_scene(material, request))
+        for material, request in pairs
+    ]
+    space, solutions = _solve(work)
+    for (place, request), solution in zip(work, solutions, strict=True):
+        node = _write(place, solution)
+        storage.store(place.material, request, shader)
+        storage.set_stamp(place.material, solution, space, node)
+    return solutions
+
+
+def renew(materials: Iterable[Any]) -> list[Solution]:
+    """Derive color and roughness again from what the materials store.
+
+    Raises
+    ------
+    MaterialError
+        If a material stores no spectrum or cannot be written; nothing was changed then.
+    DomainError
+        If a spectrum cannot be used; nothing was changed then.
+    """
+    return _renew([(material, material) for material in materials])
+
+
+def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
+    """Match materials with a spectrum to what an analysis of the scene found, all or none.
+
+    Raises
+    ------
+    MaterialError, DomainError
+        As in `renew`; nothing was changed then.
+    """
+    requests = [_stored(material, material, view) for material, view in views.items()]
+    space, solutions = _solve(requests)
+    for (place, request), solution in zip(requests, solutions, strict=True):
+        node = _write(place, solution)
+        storage.store(place.material, request, place.material.rough_spectra.shader)
+        storage.set_stamp(place.material, solution, space, node)
+    return solutions
+
+
+def renewable(
+    materials: Iterable[Any], views: Mapping[Any, SceneView] | None = None
+) -> tuple[list[Any], list[str]]:
+    """Tell the materials that can be renewed from those that can't, and why: a sentence each.
+
+    With views, those that can follow these instead of what they store.
+    """
+    able, sentences = [], []
+    for material in materials:
+        try:
+            _stored(material, material, views[material] if views else None)
+        except RoughSpectraError as error:
+            sentences.append(str(error))
+        else:
+            able.append(material)
+    return able, sentences
+
+
+def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
+    """Derive color and roughness again, unasked; what goes wrong is kept with the material.
+
+    Parameters
+    ----------
+    pairs
+        Each a material and the one that its settings come from: itself, or, while it is animated,
+        as it was evaluated.
+    """
+    try:
+        _renew(pairs)
+    except RoughSpectraError as error:
+        if len(pairs) == 1:
+            pairs[0][0].rough_spectra.error = str(error)
+            return
+        # One that fails must not hold up the others.
+        for pair in pairs:
+            follow([pair])
+
+
+def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
+    work = [_stored(material, source) for material, source in pairs]
+    space, solutions = _solve(work)
+    for (place, _), solution, (_, source) in zip(work, solutions, pairs, strict=True):
+        storage.set_stamp(place.material, solution, space, _write(place, solution), source)
+    return solutions
+
+
+def _stored(
+    material: Any, source: Any, view: SceneView | None = None
+) -> tuple[shader_nodes.Place, Request]:
+    request = storage.load(source, view)  # first: it refuses a shader that is none
+    return shader_nodes.find(material, source.rough_spectra.shader), request
+
+
+def _solve(work: Sequence[tuple[shader_nodes.Place, Request]]) -> tuple[str, list[Solution]]:
+    """Match every request; gives the name of the working space too."""
+    seen = set()
+    for place, _ in work:
+        if place.material in seen:
+            msg = f"Material {place.material.name!r} is named twice; give it one spectrum."
+            raise MaterialError(msg)
+        seen.add(place.material)
+    space = working_space.current()
+    return space.name, solve.solve([request for _, request in work], space)
+
+
+def _write(place: shader_nodes.Place, solution: Solution) -> str:
+    red, green, blue = solution.color.tolist()
+    return shader_nodes.write(place, (red, green, blue), solution.roughness)

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last measurement of a material, kept with it, and whether it is still of what is there.
+
+Reads and compares text only, without numpy or color science: cheap enough for a panel to draw.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from ..blender import shader_nodes
+from . import snapshot
+from .snapshot import Facts
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What the virtual spectrophotometer read.
+
+    Parameters
+    ----------
+    rgb
+        Reading at 45°/0° in scene-linear RGB of the working space then.
+    delta_e
+        ΔE00 from the prediction; None where the material stores no spectrum.
+    current
+        Whether the material is still as it was measured.
+    predicted
+        ΔE00 that was predicted of it then, with the target of its settings then; None where there
+        is no prediction, and in older files.
+    """
+
+    rgb: tuple[float, float, float]
+    delta_e: float | None
+    current: bool
+    predicted: float | None = None
+
+
+def fingerprint(material: Any) -> str:
+    """Digest of all that a measurement depends on and Rough Spectra knows of."""
+    return _fingerprint(snapshot.of(material))
+
+
+@lru_cache(maxsize=1024)
+def _fingerprint(found: Facts) -> str:
+    surface = found.surface
+    sockets = () if surface is None else (*surface.color, surface.roughness)
+    told = (
+        snapshot.digest(found.inputs),
+        found.working_space,
+        *(f"{value:.7f}" for value in sockets),
+        *_besides(surface),
+    )
+    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
+
+
+def _besides(surface: shader_nodes.Surface | None) -> list[str]:
+    """Tell what else shows; nothing for a plain surface, so that older notes stay valid."""
+    if surface is None:
+        return []
+    told = [*surface.linked, *surface.disturbing, *(f"{value:.7f}" for value in surface.values)]
+    return told + ["muted"] * surface.muted + ["bumped"] * surface.bumped
+
+
+def note(
+    material: Any,
+    of: str,
+    rgb: tuple[float, float, float],
+    delta_e: float | None,
+    predicted: float | None = None,
+) -> None:
+    """Keep a measurement with its material.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material` that is not linked.
+    of
+        Its `fingerprint` when the measurement began.
+    rgb, delta_e, predicted
+        As in `Measured`.
+    """
+    told = {"of": of, "rgb": rgb, "delta_e_00": delta_e, "predicted_delta_e_00": predicted}
+    material.rough_spectra.measured = json.dumps(told)
+
+
+def get(material: Any, known: Facts | None = None) -> Measured | None:
+    """Give the last measurement, or None where there is none that can be read.
+
+    `known` are the material's facts, for who has just read them.
+    """
+    found = _parsed(material.rough_spectra.measured)
+    if found is None:
+        return None
+    of, rgb, delta_e, predicted = found
+    current = of == _fingerprint(known or snapshot.of(material))
+    return Measured(rgb, delta_e, current, predicted)
+
+
+@lru_cache(maxsize=64)
+def _parsed(
+    text: str,
+) -> tuple[str, tuple[float, float, float], float | None, float | None] | None:
+    try:
+        data = json.loads(text)
+        red, green, blue = map(float, data["rgb"])
+        delta_e, predicted = (
+            None if value is None else float(value)
+            for value in (data["delta_e_00"], data.get("predicted_delta_e_00"))
+        )
+        if not all(map(math.isfinite, (red, green, blue, delta_e or 0.0, predicted or 0.0))):
+            return None
+        return str(data["of"]), (red, green, blue), delta_e, predicted
+    except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
+        return None

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edit ▸ Preferences ▸ Add-ons ▸ Rough Spectra: what new materials begin with.
+
+Only the interface asks for these; the command line says everything on the command line, so that a
+batch does the same on every machine.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, StringProperty
+
+from .properties import ILLUMINANT_ITEMS, OBSERVER_ITEMS
+
+PACKAGE = (__package__ or "").rpartition(".addon.")[0]
+"""What Blender calls the extension."""
+
+
+class Defaults(NamedTuple):
+    """What a new material begins with.
+
+    Parameters
+    ----------
+    illuminant, observer
+        Of `addon.colorimetry.tristimulus`.
+    tolerance
+        Largest ΔE00 from the reference that a model may have to be chosen.
+    library_folder
+        Where the user's samples are, or an empty string for the extension's own folder.
+    """
+
+    illuminant: str = "D65"
+    observer: int = 2
+    tolerance: float = 1.0
+    library_folder: str = ""
+
+
+class RoughSpectraPreferences(bpy.types.AddonPreferences):
+    """What new materials begin with, and where the library is."""
+
+    bl_idname = PACKAGE
+
+    illuminant: EnumProperty(
+        name="Illuminant",
+        description="Light of newly assigned materials",
+        items=ILLUMINANT_ITEMS,
+    )
+    observer: EnumProperty(
+        name="Observer", description="Observer of newly assigned materials", items=OBSERVER_ITEMS
+    )
+    tolerance: FloatProperty(
+        name="Tolerance (ΔE00)",
+        description=(
+            "Largest color difference from the reference that Auto accepts for the sake of a "
+            "simpler model, in newly assigned materials"
+        ),
+        default=1.0,
+        min=0.05,
+        soft_max=5.0,
+        max=20.0,
+        precision=2,
+    )
+    library_folder: StringProperty(
+        name="Library Folder",
+        description="Folder of your own samples; empty keeps them with Blender's extensions",
+        subtype="DIR_PATH",
+    )
+
+    def draw(self, _context: Any) -> None:
+        """Draw all of them, in the order of use."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.label(text="New Materials")
+        column.prop(self, "illuminant")
+        column.prop(self, "observer")
+        column.prop(self, "tolerance")
+        layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
+
+
+def defaults() -> Defaults:
+    """Give the user's preferences; where the extension is not enabled, those of a new user."""
+    addon = bpy.context.preferences.addons.get(PACKAGE)
+    if addon is None or addon.preferences is None:
+        return Defaults()
+    chosen = addon.preferences
+    folder = bpy.path.abspath(chosen.library_folder) if chosen.library_folder else ""
+    return Defaults(chosen.illuminant, int(chosen.observer), round(chosen.tolerance, 5), folder)
+
+
+def user_folder() -> Path:
+    """Return the folder of the user's library; it need not be there yet.
+
+    The one of the preferences, or else Blender's folder for what an extension's user makes: an
+    upgrade leaves it alone.
+    """
+    chosen = defaults().library_folder
+    if chosen:
+        return Path(chosen)
+    try:
+        return Path(bpy.utils.extension_path_user(PACKAGE, path="library"))
+    except ValueError:  # run from a clone, not installed as an extension
+        return Path(bpy.utils.user_resource("DATAFILES", path="rough_spectra/library"))
+
+
+classes = (RoughSpectraPreferences,)

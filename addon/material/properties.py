@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a material stores: the measured spectrum, the settings, and a stamp on what was derived.
+
+The spectrum is kept as JSON text, because Blender's number properties are single precision and
+would change measured values. `storage` reads and writes all of this.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+from bpy.types import Material, PropertyGroup
+
+from ...core import models
+from ...core.instruments import REGISTRY
+from . import changes
+
+SCHEMA = 1
+"""Version of what is stored; raise it with each change, and let `storage` lift older files."""
+
+# The numbers are what a .blend stores: never give one to another item, nor change it. The order is
+# that of the menus.
+KIND_ITEMS = (
+    (
+        "reading",
+        "Reading",
+        "Reflectance factor that the instrument printed for the rough surface",
+        0,
+    ),
+    ("albedo", "Albedo", "Reflectance of one facet: what the smooth material reflects", 1),
+)
+INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGISTRY.values())
+MODEL_ITEMS = (
+    ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
+    *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
+)
+SHADER_ITEMS = (
+    (
+        "AUTO",
+        "As It Is",
+        "Set the Diffuse or Principled BSDF in use; make a Diffuse BSDF if none",
+        0,
+    ),
+    ("DIFFUSE", "Diffuse BSDF", "Set a Diffuse BSDF, making one if another shader is in use", 1),
+    ("PRINCIPLED", "Principled BSDF", "Set a Principled BSDF with its specular level at 0", 2),
+)
+_TITLES = {
+    setting: {item[0]: item[1] for item in items}
+    for setting, items in (
+        *(("kind", KIND_ITEMS), ("instrument", INSTRUMENT_ITEMS)),
+        *(("model", MODEL_ITEMS), ("shader", SHADER_ITEMS)),
+    )
+}
+ILLUMINANT_ITEMS = tuple(
+    (name, name, f"CIE illuminant {name}: {what}", number)
+    for name, what, number in (
+        ("D65", "noon daylight, 6500 K", 0),
+        ("A", "incandescent lamp, 2856 K", 1),
+        ("D50", "warm daylight, 5000 K, as in print shops", 2),
+        ("D55", "daylight, 5500 K", 3),
+        ("D75", "north sky, 7500 K", 4),
+        ("E", "the same at every wavelength", 5),
+        ("F2", "cool white fluorescent lamp, 4230 K", 6),
+        ("F7", "daylight fluorescent lamp, 6500 K", 7),
+        ("F11", "fluorescent lamp of three narrow bands, 4000 K", 8),
+        ("LED-B3", "white LED with a blue chip, 4100 K", 9),
+    )
+)
+OBSERVER_ITEMS = (
+    ("2", "2°", "CIE 1931 standard observer", 0),
+    ("10", "10°", "CIE 1964 standard observer, in reports only: scene colors are always 2°", 1),
+)
+
+
+class RoughSpectraMaterial(PropertyGroup):
+    """Measured spectrum of a material, its roughness, and what was derived from them."""
+
+    schema: IntProperty(name="Schema", description="Version of the stored data", default=0)
+    sample_name: StringProperty(name="Sample", description="Name of the measured sample")
+    source: StringProperty(name="Source", description="File or citation of the spectrum")
+    kind: EnumProperty(
+        name="Kind", description="What the spectrum is", items=KIND_ITEMS, update=changes.on_setting
+    )
+    instrument: EnumProperty(
+        name="Instrument",
+        description="Geometry of the reading",
+        items=INSTRUMENT_ITEMS,
+        update=changes.on_setting,
+    )
+    spectrum: StringProperty(name="Spectrum", description="Wavelengths and values, as JSON")
+    details: StringProperty(name="Details", description="What else the file said, as JSON")
+    sigma: FloatProperty(
+        name="σ",
+        description="Roughness: standard deviation of the slope angle of the surface's facets",
+        subtype="ANGLE",
+        precision=1,
+        step=100,
+        min=0.0,
+        max=pi / 2,
+        update=changes.on_setting,
+    )
+    sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
+    illuminant: EnumProperty(
+        name="Illuminant",
+        description="Light under which the color is right",
+        items=ILLUMINANT_ITEMS,
+        update=changes.on_setting,
+    )
+    observer: EnumProperty(
+        name="Observer", description="Observer of the reports", items=OBSERVER_ITEMS
+    )
+    model: EnumProperty(
+        name="Model",
+        description="How light between facets is counted",
+        items=MODEL_ITEMS,
+        default="auto",
+        update=changes.on_setting,
+    )
+    shader: EnumProperty(
+        name="Shader", description="Node that is set", items=SHADER_ITEMS, update=changes.on_setting
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Largest color difference, ΔE00, that Auto accepts for a simpler model",
+        default=1.0,
+        min=0.05,
+        soft_max=5.0,
+        max=20.0,
+        precision=2,
+        update=changes.on_setting,
+    )
+    use_scene: BoolProperty(
+        name="Light from the Scene",
+        description="Be right under the lights and in the directions that Analyze Scene found, "
+        "instead of under the illuminant",
+        default=False,
+        update=changes.on_setting,
+    )
+    scene_view: StringProperty(name="Scene", description="What the analysis found, as JSON")
+    stamp: StringProperty(name="Stamp", description="What was derived and from what, as JSON")
+    error: StringProperty(name="Error", description="Why the color could not be derived")
+    measured: StringProperty(name="Measured", description="The last measurement, as JSON")
+
+
+classes = (RoughSpectraMaterial,)
+
+
+def title(setting: str, identifier: str) -> str:
+    """Give what the panel calls a value of a setting: "45°a:0°" for the instrument "45a:0"."""
+    return _TITLES.get(setting, {}).get(identifier, identifier)
+
+
+def register_pointer() -> None:
+    """Give every material its `rough_spectra` group."""
+    Material.rough_spectra = PointerProperty(
+        type=RoughSpectraMaterial, override={"LIBRARY_OVERRIDABLE"}
+    )
+
+
+def unregister_pointer() -> None:
+    """Take the group away; what is stored in files stays there."""
+    del Material.rough_spectra

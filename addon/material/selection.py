@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which materials a command or an operator works on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import bpy
+
+from ...core.errors import InputError, MaterialError
+from . import snapshot
+
+
+def by_name(name: str) -> Any:
+    """Give the material of that name, a local one before linked ones.
+
+    Raises
+    ------
+    MaterialError
+        If there is none.
+    """
+    material = bpy.data.materials.get((name, None)) or bpy.data.materials.get(name)
+    if material is None:
+        msg = f"There is no material {name!r} in {_file()}; check the name."
+        raise MaterialError(msg)
+    return material
+
+
+def every() -> dict[str, Any]:
+    """Give all materials of the file by their names, a local one before linked ones.
+
+    Blender looks through all of them for each name it is asked for.
+    """
+    found: dict[str, Any] = {}
+    for material in bpy.data.materials:
+        if material.library is None:
+            found[material.name] = material
+        else:
+            found.setdefault(material.name, material)
+    return found
+
+
+def of_objects(objects: Iterable[Any]) -> list[Any]:
+    """Materials in the objects' slots, each once, sorted by name."""
+    found = {slot.material for thing in objects for slot in thing.material_slots}
+    return sorted((m for m in found if m is not None), key=lambda m: (m.name, str(m.library)))
+
+
+def with_spectrum() -> list[Any]:
+    """All materials of the file that store a spectrum, sorted by name."""
+    found = [material for material in bpy.data.materials if snapshot.has_spectrum(material)]
+    return sorted(found, key=lambda m: (m.name, str(m.library)))
+
+
+def surfaces(materials: Sequence[str], objects: Sequence[str]) -> list[tuple[str, Any]]:
+    """Find what to measure: named materials and the surfaces of named objects.
+
+    Returns
+    -------
+    Pairs of object name, or an empty string, and material. With neither named: every material
+    that stores a spectrum.
+
+    Raises
+    ------
+    InputError, MaterialError
+        If a name is not there, or nothing is left to measure.
+    """
+    found = [("", by_name(name)) for name in materials]
+    for name in objects:
+        thing = bpy.data.objects.get(name)
+        if thing is None:
+            msg = f"There is no object {name!r} in {_file()}; check the name."
+            raise MaterialError(msg)
+        slots = [slot.material for slot in thing.material_slots if slot.material is not None]
+        if not slots:
+            msg = f"Object {name!r} has no material; give it one first."
+            raise MaterialError(msg)
+        found += [(name, material) for material in dict.fromkeys(slots)]
+    if not materials and not objects:
+        found = [("", material) for material in with_spectrum()]
+    if not found:
+        msg = f"No material of {_file()} has a measured spectrum; assign one first."
+        raise InputError(msg)
+    return found
+
+
+def _file() -> str:
+    return repr(bpy.data.filepath) if bpy.data.filepath else "the open file"

@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tell whether the color in a material's shader node still follows from its spectrum.
+
+Only compares what is stored, without numpy or color science: cheap enough for a panel to draw.
+What takes a material reads its `facts` and asks what takes those.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, Literal
+
+from ..blender import shader_nodes
+from . import snapshot
+from .derivation import (
+    DERIVATION,
+    Stamp,
+    parse,
+    settings,
+)
+from .properties import SCHEMA, title
+from .snapshot import Facts, Inputs, has_spectrum
+
+_SOCKET_TOLERANCE = 1e-6
+"""Sockets are single precision; a difference below this is not an edit by hand."""
+
+
+Kind = Literal["none", "fresh", "stale", "kept", "error", "linked"]
+
+
+@dataclass(frozen=True)
+class State:
+    """What the panel says of a material.
+
+    Parameters
+    ----------
+    kind
+        "none": no spectrum. "fresh": what is shown follows from it. "stale": it does not, for
+        `reasons`. "kept": edited by hand, and the user chose to keep that. "error": it could not be
+        derived, or was stored by a newer version. "linked": it belongs to another file; the first
+        reason says what to do, the others why it would be stale.
+    reasons
+        Sentences without their first capital and their full stop, most important first.
+    stamp
+        What was derived, if anything was.
+    """
+
+    kind: Kind
+    reasons: tuple[str, ...] = ()
+    stamp: Stamp | None = None
+
+
+def state(material: Any) -> State:
+    """Tell whether the color still follows from the spectrum, and if not, why."""
+    return judge(snapshot.of(material)) if has_spectrum(material) else _NONE
+
+
+@lru_cache(maxsize=1024)
+def judge(found: Facts) -> State:
+    """Tell the same from a material's facts."""
+    if not found.inputs.spectrum:
+        return _NONE
+    last = parse(found.stamp)
+    reasons = tuple(_stale_reasons(found))
+    if found.elsewhere:
+        return State("linked", (found.elsewhere, *reasons), last)
+    if found.schema > SCHEMA:
+        newer = "it was stored by a newer Rough Spectra; update the extension to work with it"
+        return State("error", (newer,), last)
+    if found.error:
+        return State("error", (found.error,), last)
+    if reasons:
+        return State("stale", reasons, last)
+    if last is not None and last.kept:
+        return State("kept", ("color or roughness was edited by hand, and is kept",), last)
+    return State("fresh", (), last)
+
+
+def stale_reasons(material: Any, working_space: str) -> list[str]:
+    """Say why the color in the shader node no longer follows from the spectrum; empty if it does.
+
+    Empty, too, where the user chose to keep edits by hand and nothing changed since.
+    """
+    return _stale_reasons(snapshot.of(material)._replace(working_space=working_space))
+
+
+def follows(material: Any) -> bool:
+    """Whether the surface shows what was derived, so that it may be derived again unasked.
+
+    Settings may have changed; edits by hand, kept or not, must not be overwritten.
+    """
+    found = snapshot.of(material)
+    stamp = parse(found.stamp)
+    return (
+        stamp is not None
+        and not stamp.kept
+        and found.schema <= SCHEMA
+        and not found.elsewhere
+        and not _changed_surface(found, stamp)
+    )
+
+
+def edited_by_hand(material: Any) -> bool:
+    """Whether renewing would overwrite what the user set in the shader node, kept or not."""
+    found = snapshot.of(material)
+    stamp, surface = parse(found.stamp), found.surface
+    if stamp is None or stamp.kept or surface is None:
+        return stamp is not None and bool(stamp.kept)
+    if surface.disturbing:
+        return True
+    # A change of the working space converted the sockets: what they held is not known. Another
+    # node holds what somebody set, unless it is the same one by another name.
+    return stamp.working_space == found.working_space and _edited(surface, stamp)
+
+
+def shown(surface: shader_nodes.Surface | None) -> str:
+    """Give all that a surface shows, as far as Rough Spectra sets it, in a text to compare."""
+    if surface is None:
+        return "no Diffuse or Principled BSDF"
+    linked = (surface.color_linked, surface.roughness_linked, surface.muted)
+    values = (*surface.color, surface.roughness)
+    return repr((surface.node, values, linked, list(surface.disturbing)))
+
+
+_NONE = State("none")
+
+
+def _stale_reasons(found: Facts) -> list[str]:
+    stamp = parse(found.stamp)
+    if stamp is None:
+        return ["nothing was derived from the spectrum yet"]
+    return [*_changed_inputs(found.inputs, stamp), *_changed_surface(found, stamp)]
+
+
+def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
+    if stamp.inputs == snapshot.digest(found):
+        return []
+    before = dict(stamp.settings)
+    now = settings(found)
+    changes = []
+    for label, value in before.items():
+        if now.get(label, value) == value:
+            continue
+        if label == "spectrum":
+            changes.append("the spectrum was replaced")
+            continue
+        what = label if label == "σ" else f"the {label}"
+        old, new = _told(label, value, now[label])
+        changes.append(f"{what} was changed from {old} to {new}")
+    return changes or ["the spectrum or a setting was changed"]
+
+
+def _told(label: str, *values: str) -> list[str]:
+    """Write two values of a setting as the panel does, with no more digits than tell them apart."""
+    if label != "σ":
+        return [title(label, value) for value in values]
+    if not all(re.fullmatch(r"-?\d+(\.\d+)?°", value) for value in values):
+        return list(values)  # no number of degrees, in a damaged stamp
+    rounded = [f"{float(value.rstrip('°')):.2f}".rstrip("0").rstrip(".") + "°" for value in values]
+    return rounded if len(set(rounded)) == len(values) else list(values)
+
+
+def _changed_surface(found: Facts, stamp: Stamp) -> list[str]:
+    surface, working_space = found.surface, found.working_space
+    if stamp.kept and stamp.working_space == working_space:
+        if stamp.kept == shown(surface):
+            return []
+        return ["color or roughness was edited by hand after earlier edits were kept"]
+    reasons = []
+    if stamp.working_space != working_space:
+        reasons.append(f"the working space changed from {stamp.working_space} to {working_space}")
+    if stamp.derivation != DERIVATION:
+        when = "a newer" if stamp.derivation > DERIVATION else "an older"
+        reasons.append(f"it was derived by {when} Rough Spectra {stamp.version}".rstrip())
+    if surface is None or surface.node != stamp.node:
+        reasons.append(f"the surface no longer comes from {stamp.node!r}")
+    elif linked := surface.linked:
+        reasons += [f"{name} comes from another node" for name in linked]
+    elif stamp.working_space == working_space and _edited(surface, stamp):
+        # A change of the working space converts sockets: whether they were edited can't be told.
+        reasons.append("color or roughness was edited by hand")
+    if surface is not None:
+        if surface.muted:
+            reasons.append(f"{surface.node!r} is muted")
+        reasons += [f"{name} is in use" for name in surface.disturbing]
+    return reasons
+
+
+def _edited(surface: shader_nodes.Surface, stamp: Stamp) -> bool:
+    if surface.color_linked or surface.roughness_linked:
+        return True
+    written, found = (*stamp.color, stamp.roughness), (*surface.color, surface.roughness)
+    # Sockets may hold NaN, which is near to nothing.
+    near = (abs(a - b) <= _SOCKET_TOLERANCE for a, b in zip(written, found, strict=True))
+    return not all(near)

@@ -1,0 +1,292 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Read and write what a material stores.
+
+The truth is the spectrum; color and roughness in the shader node are derived from it. The stamp
+says from what; `stamp` tells whether that still holds.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+from ...core.errors import InputError, MaterialError, RoughSpectraError
+from ..blender import shader_nodes, working_space
+from ..colorimetry import tristimulus
+from ..matching import scene_view
+from ..matching.scene_view import SceneView
+from ..matching.solution import Solution
+from ..matching.solve import Request
+from ..samples.sample import Sample
+from ..support.version import version
+from . import changes, snapshot
+from .derivation import DERIVATION, get_stamp, settings
+from .properties import SCHEMA
+from .snapshot import (
+    elsewhere,
+    engine_is_flat,
+    has_scene,
+    sigma,
+    tolerance,
+)
+from .state import shown
+
+_DETAILS = (
+    *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
+    *("quantity", "geometry", "aperture", "specular"),
+)
+_SENTENCES = ("notes", "altered")
+_COLORS = {"lab", "xyz"}
+_TEXTS = set(_DETAILS) - _COLORS - {"observer"}
+_MENUS = ("kind", "instrument", "illuminant", "observer", "model", "shader")
+
+_UNREADABLE = (
+    *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
+    *(RecursionError, OverflowError),  # of text nested too deep, and of numbers too large
+)
+"""What reading damaged text ends in."""
+
+
+def store(material: Any, request: Request, shader: str) -> None:
+    """Write the spectrum and all settings of a request into the material."""
+    sample, group = request.sample, material.rough_spectra
+    with changes.paused():
+        group.schema = SCHEMA
+        group.sample_name = sample.name
+        group.source = sample.source
+        group.kind = sample.kind
+        group.instrument = sample.instrument
+        # repr of a float keeps every bit of it.
+        group.spectrum = json.dumps(
+            {"wavelengths": sample.wavelengths.tolist(), "values": sample.values.tolist()}
+        )
+        group.details = json.dumps(
+            {key: getattr(sample, key) for key in _DETAILS}
+            | {key: list(getattr(sample, key)) for key in _SENTENCES}
+        )
+        group.sigma = request.sigma
+        group.sigma_source = sample.sigma_source
+        group.illuminant = request.illuminant
+        group.observer = str(request.observer)
+        group.model = request.model
+        group.tolerance = request.tolerance
+        group.shader = shader
+        if request.scene is not None:
+            group.use_scene, group.scene_view = True, request.scene.to_json()
+
+
+def load(material: Any, view: SceneView | None = None) -> Request:
+    """Read back what `store` wrote.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material`.
+    view
+        Lights and directions instead of those that are stored, which may then be damaged.
+
+    Raises
+    ------
+    MaterialError
+        If the material has no spectrum, one stored by a newer version, or anything stored that
+        cannot be used: what is given can be solved.
+    """
+    group = material.rough_spectra
+    if not group.spectrum:
+        msg = f"Material {material.name!r} has no measured spectrum; assign one first."
+        raise MaterialError(msg)
+    _refuse_newer(material)
+    _refuse_damaged(material)
+    try:
+        sample = _sample(
+            group.sample_name,
+            group.spectrum,
+            group.details,
+            group.kind,
+            group.instrument,
+            group.sigma_source,
+            group.source,
+        )
+    except _UNREADABLE as error:
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+        msg = (
+            f"Material {material.name!r}: its stored spectrum cannot be read ({reason}); assign "
+            "the sample again."
+        )
+        raise MaterialError(msg) from error
+    request = Request(
+        sample=sample,
+        sigma=sigma(group),
+        model=group.model,
+        illuminant=group.illuminant,
+        observer=int(group.observer),
+        tolerance=tolerance(group),
+        scene=view,
+        flat=view is not None and engine_is_flat(),
+    )
+    return in_scene(material, request)
+
+
+def fault(material: Any, view: SceneView | None = None) -> str:
+    """Say why what a material stores cannot be used; empty where it can, or stores nothing."""
+    if not material.rough_spectra.spectrum:
+        return ""
+    try:
+        load(material, view)
+    except MaterialError as error:
+        return str(error)
+    return ""
+
+
+@lru_cache(maxsize=256)
+def _sample(
+    name: str, spectrum: str, details: str, kind: Any, instrument: str, about_sigma: str, cited: str
+) -> Sample:
+    """Read a sample from what is stored of it; once, while a slider is dragged."""
+    bands, more = json.loads(spectrum), json.loads(details or "{}")
+    lists = ("lab", "xyz", *_SENTENCES)
+    pairs = {key: tuple(more[key]) for key in lists if more.get(key)}
+    plain = {key: more[key] for key in _DETAILS if key in more and key not in pairs}
+    for key in _TEXTS & plain.keys():
+        if not isinstance(plain[key], str):
+            raise TypeError(f"{key} is no text")
+    if not all(isinstance(text, str) for key in _SENTENCES for text in pairs.get(key, ())):
+        raise TypeError("a note is no text")
+    for key in _COLORS & pairs.keys():
+        pairs[key] = _color(pairs[key])
+    sample = Sample(
+        name=name,
+        wavelengths=bands["wavelengths"],
+        values=bands["values"],
+        kind=kind,
+        instrument=instrument,
+        sigma_source=about_sigma,
+        source=cited,
+        **(plain | pairs),
+    )
+    tristimulus.weights(sample.wavelengths)  # refuses what holds too little of a color
+    return sample
+
+
+def _color(numbers: tuple[Any, ...]) -> tuple[float, float, float]:
+    first, second, third = map(float, numbers)
+    if not all(map(math.isfinite, (first, second, third))):
+        raise ValueError("a color holds what is no number")
+    return first, second, third
+
+
+def in_scene(material: Any, request: Request) -> Request:
+    """Let a request follow the analysis of the scene that the material stores, if it is to.
+
+    Raises
+    ------
+    MaterialError
+        If what is stored cannot be read.
+    """
+    group = material.rough_spectra
+    if request.scene is not None or not has_scene(group):
+        return request
+    try:
+        view = scene_view.from_json(group.scene_view)
+    except InputError as error:
+        msg = f"Material {material.name!r}: {error}"
+        raise MaterialError(msg) from error
+    return replace(request, scene=view, flat=engine_is_flat())
+
+
+def _refuse_newer(material: Any) -> None:
+    schema = material.rough_spectra.schema
+    if schema > SCHEMA:
+        msg = (
+            f"Material {material.name!r} was stored by a newer Rough Spectra (schema {schema}); "
+            "update the extension to work with it."
+        )
+        raise MaterialError(msg)
+
+
+def _refuse_damaged(material: Any) -> None:
+    """Refuse settings that Blender's own properties would not take, as a damaged file holds them.
+
+    Blender gives an empty text for a stored number that no item of a menu has.
+    """
+    group = material.rough_spectra
+    for name in _MENUS:
+        if not getattr(group, name):
+            msg = (
+                f"Material {material.name!r}: its stored {name} is none that this version knows; "
+                "choose one again."
+            )
+            raise MaterialError(msg)
+    for label, value, lowest, highest in (
+        ("σ", snapshot.sigma_degrees(group), 0.0, 90.0),
+        ("The tolerance", tolerance(group), 0.0, math.inf),
+    ):
+        if not math.isfinite(value):
+            msg = f"{label} is not a number; set it again, or mend its driver."
+        elif not lowest <= value <= highest:
+            msg = f"{label} is {value:g}, outside {lowest:g} to {highest:g}; set it again."
+        else:
+            continue
+        raise MaterialError(f"Material {material.name!r}: {msg}")
+
+
+def set_stamp(
+    material: Any, solution: Solution, working_space: str, node: str, source: Any | None = None
+) -> None:
+    """Note what was derived and from what; `source` is the evaluated material, if it was that."""
+    inputs = snapshot.inputs((source or material).rough_spectra)
+    stamp = {
+        "inputs": snapshot.digest(inputs),
+        "settings": settings(inputs),
+        "working_space": working_space,
+        "node": node,
+        "color": solution.color.tolist(),
+        "roughness": solution.roughness,
+        "model": solution.model,
+        "model_reason": solution.model_reason,
+        "shader_reason": solution.shader_reason,
+        "delta_e_instrument": solution.delta_e_instrument,
+        "delta_e_mean": solution.delta_e_mean,
+        "delta_e_95": solution.delta_e_95,
+        "sigma_max": solution.sigma_max,
+        "warnings": list(solution.warnings),
+        "delta_e_lights": solution.delta_e_lights,
+        "scene_reason": solution.scene_reason,
+        "version": version(),
+        "derivation": DERIVATION,
+    }
+    material.rough_spectra.stamp = json.dumps(stamp)
+    material.rough_spectra.error = ""
+
+
+def keep(material: Any) -> None:
+    """Accept what the surface shows as edited by hand; the spectrum stays as it is.
+
+    Raises
+    ------
+    MaterialError
+        If nothing was derived from a spectrum yet, or the material is linked.
+    """
+    if get_stamp(material) is None:
+        msg = f"Material {material.name!r} has nothing derived from a spectrum yet; renew it."
+        raise MaterialError(msg)
+    group, place = material.rough_spectra, elsewhere(material)
+    if place:
+        msg = f"Material {material.name!r}: {place}."
+        raise MaterialError(msg)
+    _refuse_newer(material)
+    inputs = snapshot.inputs(group)
+    group.stamp = json.dumps(
+        json.loads(group.stamp)
+        | {
+            "inputs": snapshot.digest(inputs),
+            "settings": settings(inputs),
+            "working_space": working_space.working_space_name(),
+            "kept": shown(shader_nodes.surface(material)),
+        }
+    )
+    group.error = ""

@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings as data: what a bake gives, joined from its parts, and its JSON document. No Blender."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import InputError
+from ..support.version import version
+
+FORMAT = "rough-spectra-readings"
+SCHEMA = 1
+INSTRUMENT = "45a:0"
+APERTURE = "none: parallel beams on a flat sample"
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """Reading that the core computes from the stored spectrum.
+
+    Wavelengths are nanometers, values reflectance factors (1 is the perfect white diffuser), and
+    XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`.
+    """
+
+    kind: str
+    model: str
+    model_reason: str
+    sigma_degrees: float
+    illuminant: str
+    observer: int
+    wavelengths: tuple[float, ...]
+    values: tuple[float, ...]
+    xyz: Triple
+    lab: Triple
+    preview: Triple
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Reading of a Cycles render, in scene-linear RGB and, for the 2° observer, XYZ and Lab.
+
+    `spread` is the standard deviation of RGB over the sample: 0 for an even surface.
+    """
+
+    rgb: Triple
+    spread: Triple
+    illuminant: str
+    xyz: Triple
+    lab: Triple
+
+
+@dataclass(frozen=True)
+class Reading:
+    """All that is known of one material's reading.
+
+    `surface` is the object it was asked for by, if any. `delta_e_00` is None unless there are
+    both a prediction and a measurement. `shader_reason` says whether the
+    material is Lambertian or rough, and why; empty where that was not derived here. `fault` says
+    why a prediction or a measurement that was asked for is missing; else it is empty.
+    """
+
+    material: str
+    surface: str
+    sample: str
+    source: str
+    predicted: Predicted | None
+    measured: Measured | None
+    delta_e_00: float | None
+    shader_reason: str
+    warnings: tuple[str, ...]
+    fault: str = ""
+
+
+@dataclass(frozen=True)
+class Readings:
+    """A whole bake, or the part of one that a shard made.
+
+    `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
+    `version` is that of the extension that baked it.
+    """
+
+    working_space: str
+    blender: str
+    entries: tuple[Reading, ...]
+    shard: int = 1
+    shards: int = 1
+    whole: str = ""
+    version: str = field(default_factory=version)
+
+    @property
+    def largest_delta_e(self) -> float | None:
+        """Largest ΔE00, or None where nothing was both predicted and measured."""
+        known = [entry.delta_e_00 for entry in self.entries if entry.delta_e_00 is not None]
+        return max(known) if known else None
+
+    @property
+    def faults(self) -> list[str]:
+        """Why readings that were asked for are missing, a sentence or two for each material."""
+        return list(dict.fromkeys(entry.fault for entry in self.entries if entry.fault))
+
+
+def merge(parts: Iterable[Readings]) -> Readings:
+    """Join the parts that `bake --shard i/n` wrote, in the order of the unsharded bake.
+
+    Raises
+    ------
+    InputError
+        If a part is missing, stands twice, or does not belong to the others.
+    """
+    found = sorted(parts, key=lambda part: part.shard)
+    if not found:
+        msg = "There is no part to merge; name the JSON files that bake --shard wrote."
+        raise InputError(msg)
+    for part in found:
+        if part.version != version():
+            msg = (
+                f"Part {part.shard} was baked by Rough Spectra {part.version}, and this is "
+                f"{version()}; merge with the version that baked, or bake again."
+            )
+            raise InputError(msg)
+    count = found[0].shards
+    numbers = [part.shard for part in found]
+    settings = {(part.working_space, part.blender, part.shards, part.whole) for part in found}
+    if len(settings) > 1:
+        msg = (
+            "The parts come from different bakes; merge parts that one version of Blender baked "
+            "with the same options from the same .blend, with the same nodes and spectra."
+        )
+        raise InputError(msg)
+    if numbers != list(range(1, count + 1)):
+        msg = f"Parts {numbers} do not make up 1 to {count}; give each part once."
+        raise InputError(msg)
+    total = sum(len(part.entries) for part in found)
+    entries: list[Reading] = []
+    for place in range(total):
+        part, row = found[place % count], place // count
+        if row >= len(part.entries):
+            msg = f"Part {part.shard} of {count} has too few readings; bake it again."
+            raise InputError(msg)
+        entries.append(part.entries[row])
+    return Readings(found[0].working_space, found[0].blender, tuple(entries))
+
+
+def to_json(readings: Readings) -> bytes:
+    """Give the document that `from_json` reads; equal readings give equal bytes."""
+    head = {
+        "format": FORMAT,
+        "schema": SCHEMA,
+        "version": readings.version,
+        "blender": readings.blender,
+        "working_space": readings.working_space,
+        "instrument": INSTRUMENT,
+        "aperture": APERTURE,
+        "units": {
+            "values": "reflectance factor, 0..1",
+            "wavelengths": "nm",
+            "xyz": "Y = 100 for the perfect diffuser",
+            "measured": "CIE 1931 2° observer",
+        },
+        "shard": readings.shard,
+        "shards": readings.shards,
+        "whole": readings.whole,
+        "largest_delta_e_00": readings.largest_delta_e,
+        "readings": [asdict(entry) for entry in readings.entries],
+    }
+    return (json.dumps(head, indent=1, ensure_ascii=False) + "\n").encode()
+
+
+def from_json(path: Path) -> Readings:
+    """Read back what `to_json` gave.
+
+    Raises
+    ------
+    InputError
+        If the file is not such a document.
+    """
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        msg = f"{path} cannot be read ({error.strerror}); check the path."
+        raise InputError(msg) from error
+    except (ValueError, RecursionError) as error:
+        msg = f"{path} is not JSON ({error}); give a file that bake wrote."
+        raise InputError(msg) from error
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        msg = f"{path} holds no readings; give the .json file that bake wrote."
+        raise InputError(msg)
+    if document.get("schema") != SCHEMA:
+        msg = f"{path} has schema {document.get('schema')}; this version reads schema {SCHEMA}."
+        raise InputError(msg)
+    try:
+        entries = tuple(_entry(data) for data in document["readings"])
+        return Readings(
+            document["working_space"],
+            document["blender"],
+            entries,
+            int(document["shard"]),
+            int(document["shards"]),
+            str(document["whole"]),
+            str(document["version"]),
+        )
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        msg = f"{path} is damaged ({error!r}); bake it again."
+        raise InputError(msg) from error
+
+
+_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview"}
+
+
+def _entry(data: dict[str, Any]) -> Reading:
+    def whole(kind: Any, part: dict[str, Any] | None) -> Any:
+        if part is None:
+            return None
+        numbers = {key: tuple(map(float, v)) for key, v in part.items() if isinstance(v, list)}
+        if any(len(numbers[key]) != 3 for key in _TRIPLES & numbers.keys()):
+            raise ValueError("a color has three numbers")
+        if kind is Predicted and len(numbers["wavelengths"]) != len(numbers["values"]):
+            raise ValueError("there is not one value a wavelength")
+        return kind(**(part | numbers))
+
+    known = dict(data)
+    known["predicted"] = whole(Predicted, data["predicted"])
+    known["measured"] = whole(Measured, data["measured"])
+    known["warnings"] = tuple(data["warnings"])
+    return Reading(**known)

@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings as CGATS.17 text, as a real instrument's software writes them.
+
+One table a combination of wavelengths, illuminant, observer and model. Spectral columns are named
+SPECTRAL_NM380 and hold fractions, as that name means to measurement software.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...support.version import version
+from ..document import INSTRUMENT, Readings
+from .tables import nanometers
+
+
+def predicted(readings: Readings) -> bytes:
+    """Give the predicted spectra with their XYZ and Lab."""
+    groups: dict[tuple[tuple[float, ...], str, int, str], list[list[str]]] = {}
+    for number, entry in enumerate(readings.entries, 1):
+        part = entry.predicted
+        if part is None:
+            continue
+        cells = [str(number), _quoted(entry.material)]
+        cells += [f"{value:.4f}" for value in (*part.xyz, *part.lab)]
+        cells += [f"{value:.6f}" for value in part.values]
+        key = (part.wavelengths, part.illuminant, part.observer, part.model)
+        groups.setdefault(key, []).append(cells)
+    tables = [
+        _table(
+            f"predicted by the core from the stored spectrum, {model} model",
+            illuminant,
+            observer,
+            [*_COLOR_FIELDS, *(f"SPECTRAL_NM{nanometers(nm)}" for nm in wavelengths)],
+            rows,
+        )
+        for (wavelengths, illuminant, observer, model), rows in groups.items()
+    ]
+    return _file(tables)
+
+
+def measured(readings: Readings) -> bytes:
+    """Give the measured XYZ and Lab: an RGB render has no spectrum."""
+    groups: dict[str, list[list[str]]] = {}
+    for number, entry in enumerate(readings.entries, 1):
+        part = entry.measured
+        if part is None:
+            continue
+        cells = [str(number), _quoted(entry.material)]
+        cells += [f"{value:.4f}" for value in (*part.xyz, *part.lab)]
+        groups.setdefault(part.illuminant, []).append(cells)
+    quantity = f"measured in a Cycles render, Blender {readings.blender}"
+    return _file(
+        [_table(quantity, light, 2, _COLOR_FIELDS, rows) for light, rows in groups.items()]
+    )
+
+
+_COLOR_FIELDS = ("XYZ_X", "XYZ_Y", "XYZ_Z", "LAB_L", "LAB_A", "LAB_B")
+
+
+def _table(
+    quantity: str, illuminant: str, observer: int, fields: Sequence[str], rows: list[list[str]]
+) -> str:
+    names = ["SAMPLE_ID", "SAMPLE_NAME", *fields]
+    source = f"Illumination={illuminant}\tObserverAngle={observer}°\tWhiteBase=Abs\tFilter=No"
+    lines = [
+        f'ORIGINATOR\t"Rough Spectra {version()}"',
+        f'DESCRIPTOR\t"Virtual spectrophotometer, {quantity}"',
+        'INSTRUMENTATION\t"Rough Spectra virtual spectrophotometer"',
+        f'MEASUREMENT_SOURCE\t"{source}"',
+        'KEYWORD\t"MEASUREMENT_GEOMETRY"',
+        f'MEASUREMENT_GEOMETRY\t"{INSTRUMENT}"',
+        f"NUMBER_OF_FIELDS\t{len(names)}",
+        "BEGIN_DATA_FORMAT",
+        "\t".join(names),
+        "END_DATA_FORMAT",
+        f"NUMBER_OF_SETS\t{len(rows)}",
+        "BEGIN_DATA",
+        *("\t".join(row) for row in rows),
+        "END_DATA",
+    ]
+    return "\n".join(lines)
+
+
+def _file(tables: list[str]) -> bytes:
+    return ("CGATS.17\n" + "\n\n".join(tables) + "\n").encode()
+
+
+def _quoted(name: str) -> str:
+    """Quote a name; a quote inside is doubled, and white space kept to one line."""
+    text = " ".join(name.split()).replace('"', '""')
+    return f'"{text}"'

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings as OpenEXR images: a swatch a reading, six in a row.
+
+Predicted spectra follow A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral
+Images" (JCGT 10, 2021): a channel `T.400,000000nm` a band, and an RGB preview. Measured colors
+have no spectrum and go to a plain RGB image. Never load a spectral EXR as a Blender image: Blender
+crashes on 24 or more bands.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ....core.errors import OutputError
+from ....core.numerics.arrays import Array
+from ...support.openimageio import openimageio
+from ...support.version import version
+from ..document import Reading, Readings
+
+SWATCH = 16
+"""Pixels a swatch is wide and high."""
+COLUMNS = 6
+"""Swatches in a row, as on a ColorChecker."""
+
+_DATE = "1970:01:01 00:00:00"
+"""A fixed date: equal readings give equal bytes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Pixels of shape (height, width, channels), channel names, and who is where."""
+
+    pixels: Array
+    channels: tuple[str, ...]
+    layout: str
+    spectral: bool
+
+
+def predicted(readings: Readings) -> list[tuple[str, Picture]]:
+    """Give a spectral image for each wavelength grid among the readings, with its file ending."""
+    groups: dict[tuple[float, ...], list[int]] = {}
+    for index, entry in enumerate(readings.entries):
+        if entry.predicted is not None:
+            groups.setdefault(entry.predicted.wavelengths, []).append(index)
+    pictures = []
+    for number, (wavelengths, members) in enumerate(groups.items(), 1):
+        parts = [part for i in members if (part := readings.entries[i].predicted) is not None]
+        rows = np.array([(*part.preview, *part.values) for part in parts])
+        names = tuple(
+            f"T.{nm:.6f}nm".replace(".", ",").replace("T,", "T.", 1) for nm in wavelengths
+        )
+        picture = _picture(readings, members, rows, ("R", "G", "B", *names), True)
+        suffix = "" if len(groups) == 1 else f"-{number}"
+        pictures.append((f"predicted{suffix}.spectral.exr", picture))
+    return pictures
+
+
+def measured(readings: Readings) -> list[tuple[str, Picture]]:
+    """Give the image of measured colors, scene-linear RGB, with its file ending."""
+    members = [i for i, entry in enumerate(readings.entries) if entry.measured is not None]
+    if not members:
+        return []
+    parts = [part for i in members if (part := readings.entries[i].measured) is not None]
+    rows = np.array([part.rgb for part in parts])
+    return [("measured.exr", _picture(readings, members, rows, ("R", "G", "B"), False))]
+
+
+def write(picture: Picture, path: Path, shown: Path) -> None:
+    """Write half-float ZIP OpenEXR with OpenImageIO.
+
+    Raises
+    ------
+    OutputError
+        Naming `shown`, if it cannot be written.
+    """
+    oiio = openimageio()
+    height, width, count = picture.pixels.shape
+    spec = oiio.ImageSpec(width, height, count, oiio.HALF)
+    spec.channelnames = picture.channels
+    spec.attribute("compression", "zip")
+    spec.attribute("DateTime", _DATE)
+    spec.attribute("Software", f"Rough Spectra {version()}")
+    spec.attribute("comments", picture.layout)
+    if picture.spectral:
+        spec.attribute("spectralLayoutVersion", "1.0")
+    out = oiio.ImageOutput.create("openexr")
+    pixels = np.ascontiguousarray(picture.pixels, np.float32)
+    if not (out.open(str(path), spec) and out.write_image(pixels) and out.close()):
+        msg = (
+            f"{shown} cannot be written ({out.geterror()}); nothing was changed. Free the disk or "
+            "choose another place."
+        )
+        raise OutputError(msg)
+
+
+def _picture(
+    readings: Readings, members: list[int], rows: Array, channels: tuple[str, ...], spectral: bool
+) -> Picture:
+    """Lay out swatches from the top left; unused places are black."""
+    height = -(-len(members) // COLUMNS)
+    width = min(COLUMNS, len(members))
+    places = np.zeros((height * width, rows.shape[1]))
+    places[: len(members)] = rows
+    pixels = places.reshape(height, width, -1).repeat(SWATCH, axis=0).repeat(SWATCH, axis=1)
+    names = "; ".join(_caption(readings.entries[i], spectral) for i in members)
+    layout = f"swatches of {SWATCH} px, {COLUMNS} a row, from the top left: {names}"
+    return Picture(pixels, channels, layout, spectral)
+
+
+def _caption(entry: Reading, spectral: bool) -> str:
+    """Name the material, and in a spectral image the model too."""
+    if spectral and entry.predicted is not None:
+        return f"{entry.material} ({entry.predicted.model})"
+    return entry.material

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings as CSV: comment lines that say units and geometry, a header, a row a reading."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+
+from ...support.version import version
+from ..document import (
+    APERTURE,
+    INSTRUMENT,
+    Measured,
+    Predicted,
+    Readings,
+)
+
+
+def predicted(readings: Readings) -> bytes:
+    """Give the table of predicted spectra; a band that a sample lacks is left empty."""
+    rows = [(entry, entry.predicted) for entry in readings.entries if entry.predicted is not None]
+    bands = sorted({nm for _, part in rows for nm in part.wavelengths})
+    lights = {_viewing(part) for _, part in rows}
+    comments = _comments("predicted by the core from the stored spectrum", lights)
+    header = ["material", "surface", "sample", "sigma_deg", "model", "illuminant", "observer"]
+    header += ["X", "Y", "Z", "L*", "a*", "b*", *(f"{nanometers(nm)} nm" for nm in bands)]
+    lines = []
+    for entry, part in rows:
+        at = dict(zip(part.wavelengths, part.values, strict=True))
+        lines.append(
+            [
+                entry.material,
+                entry.surface,
+                entry.sample,
+                f"{part.sigma_degrees:g}",
+                part.model,
+                part.illuminant,
+                str(part.observer),
+                *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
+                *(f"{at[nm]:.6f}" if nm in at else "" for nm in bands),
+            ]
+        )
+    return _csv(comments, header, lines)
+
+
+def measured(readings: Readings) -> bytes:
+    """Give the table of measured colors, with the ΔE00 to the prediction where there is one."""
+    rows = [(entry, entry.measured) for entry in readings.entries if entry.measured is not None]
+    lights = {_viewing(part) for _, part in rows}
+    comments = _comments(f"measured in a Cycles render, Blender {readings.blender}", lights)
+    comments.append(f"rgb: scene-linear, {readings.working_space}; sd: over the sample's area")
+    header = ["material", "surface", "sample", "illuminant", "R", "G", "B", "sd R", "sd G", "sd B"]
+    header += ["X", "Y", "Z", "L*", "a*", "b*", "delta_e_00"]
+    lines = [
+        [
+            entry.material,
+            entry.surface,
+            entry.sample,
+            part.illuminant,
+            *(f"{value:.6f}" for value in (*part.rgb, *part.spread)),
+            *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
+            "" if entry.delta_e_00 is None else f"{entry.delta_e_00:.4f}",
+        ]
+        for entry, part in rows
+    ]
+    return _csv(comments, header, lines)
+
+
+def nanometers(wavelength: float) -> str:
+    """Give a wavelength with all its digits, and none after a point where they are zero.
+
+    Fewer digits would let two bands of a fine grid share a name.
+    """
+    return repr(float(wavelength)).removesuffix(".0")
+
+
+def _viewing(part: Predicted | Measured) -> str:
+    observer = part.observer if isinstance(part, Predicted) else 2
+    return f"{part.illuminant}/{observer}°"
+
+
+def _comments(quantity: str, lights: set[str]) -> list[str]:
+    return [
+        f"creator: Rough Spectra {version()}",
+        f"quantity: {quantity}",
+        "kind: reading",
+        "units: fraction (reflectance factor, 1 = perfect white diffuser); XYZ with Y = 100",
+        "wavelength_unit: nm",
+        f"illuminant/observer: {', '.join(sorted(lights)) or 'none'}",
+        f"instrument: {INSTRUMENT}",
+        f"aperture: {APERTURE}",
+    ]
+
+
+def _csv(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
+    text = io.StringIO()
+    text.writelines(f"# {comment}\n" for comment in comments)
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(header)
+    # Without quotation marks a material called "#1" would read as a comment.
+    quoting = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_ALL)
+    for cells in lines:
+        (quoting if cells[0].lstrip().startswith("#") else table).writerow(cells)
+    return text.getvalue().encode()

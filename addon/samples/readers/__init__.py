@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of measured spectra in, samples out, whatever the file's name ends with.
+
+A format is one module of this package, and nothing else has to know of it:
+
+    NAME = "Nix export"                             what messages call it
+    PRIORITY = 100                                  who is asked first; specific formats above 0
+    def sniff(document: Document) -> bool           by content; quick, and never raises
+    def read(document: Document) -> list[Sample]    raises InputError, nothing else
+    REGIONS = True                                  only where it reads `Document.region`
+
+Modules whose name begins with an underscore are help for the readers, not formats.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import os
+import pkgutil
+from typing import Protocol, cast
+
+from ....core.errors import InputError
+from ..sample import Sample
+from . import formats
+from .parts.document import Document, open_document
+
+__all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
+
+
+class Reader(Protocol):
+    """What a module of this package offers."""
+
+    NAME: str
+    PRIORITY: int
+
+    def sniff(self, document: Document) -> bool:
+        """Return whether the content looks like this format."""
+
+    def read(self, document: Document) -> list[Sample]:
+        """Return the samples of the file, in its order."""
+
+
+def read(
+    path: str | os.PathLike[str], region: tuple[int, int, int, int] | None = None
+) -> list[Sample]:
+    """Return all samples of a file, in the file's order.
+
+    Parameters
+    ----------
+    path
+        Any file; the format follows from its content.
+    region
+        Of a spectral image, the rectangle of pixels whose mean is the sample: x, y, width, height,
+        counted from the top left. None takes the whole image; other files have no regions.
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, no format recognizes it, or the one that does finds a fault.
+    """
+    document = open_document(path, region)
+    for reader in readers():
+        if reader.sniff(document):
+            if region is not None and not getattr(reader, "REGIONS", False):
+                raise document.error("", f"a {reader.NAME} has no regions; leave the region out")
+            samples = reader.read(document)
+            if not samples:
+                raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
+            return samples
+    raise _unrecognized(document)
+
+
+@functools.cache
+def readers() -> tuple[Reader, ...]:
+    """Return the format modules in the order in which they are asked."""
+    found = []
+    for module in pkgutil.iter_modules(formats.__path__):
+        found.append(importlib.import_module(f"{formats.__name__}.{module.name}"))
+    # The module's name breaks ties, so that the order never depends on the file system.
+    found.sort(key=lambda module: (-module.PRIORITY, module.__name__))
+    return tuple(cast(Reader, module) for module in found)
+
+
+def _unrecognized(document: Document) -> InputError:
+    fault = f"it is not text ({document.fault}) and " if document.fault else ""
+    return document.error(
+        "",
+        f"{fault}no format recognizes it; export the reflectance as a table with wavelengths "
+        "(CSV), as CGATS or as CxF3",
+    )

@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Libraries: many samples in one JSON file, each on a line of its own.
+
+An object with ``format`` ("rough-spectra-library"), ``schema`` (1) and ``samples``: an array of
+objects with the fields of `Sample`, of which ``name``, ``kind``, ``wavelengths`` (nm) and
+``values`` (fractions) are needed. A sample's ``id`` tells it from the others of the file. Other
+fields may stand beside them, and stay there when the library is written again.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import math
+import re
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .....core.errors import InputError
+from .....core.instruments import REGISTRY
+from ...sample import KINDS, Sample, check_spectrum
+from ..parts.document import Document, quote
+
+NAME = "Rough Spectra library"
+PRIORITY = 100
+
+FORMAT = "rough-spectra-library"
+SCHEMA = 1
+
+_CHARACTERS_A_BRACKET = 12
+"""A file with more brackets than one in so many characters is no library: a sample has three in a
+hundred. Small objects take up to 25 times their text in memory."""
+
+_STRING = re.compile(r'"[^"\\]*+(?:\\.[^"\\]*+)*+\\?(?:"|\Z)', re.DOTALL)
+"""A string of JSON, or one that is not closed; never looks at a character twice."""
+
+
+def sniff(document: Document) -> bool:
+    """Return whether the head is of a JSON object that names this format."""
+    head = document.json_head
+    return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
+
+
+def read(document: Document) -> list[Sample]:
+    """Return the samples of a library.
+
+    Raises
+    ------
+    InputError
+        See `parse` and `samples`.
+    """
+    return samples(document, parse(document))
+
+
+def parse(document: Document) -> dict[str, Any]:
+    """Return the whole object of a library file, with its samples as objects.
+
+    Raises
+    ------
+    InputError
+        The file is no JSON, no library, or of a newer schema.
+    """
+    text = document.json_text
+    if _brackets(text) > (most := 8 + len(text) // _CHARACTERS_A_BRACKET) and (
+        _brackets(_STRING.sub("", text)) > most  # names may have as many as they like
+    ):
+        raise document.error("", f"it is no {NAME}: it has more brackets than samples have")
+    try:
+        fields = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise document.error(
+            f"line {error.lineno}", f"the JSON is broken ({error.msg}); correct it"
+        ) from None
+    except (ValueError, RecursionError):
+        # An integer of thousands of digits, or thousands of brackets inside each other.
+        raise document.error("", "the JSON is too deep or has a number too long") from None
+    if not isinstance(fields, dict) or fields.get("format") != FORMAT:
+        raise document.error("", f"it is no {NAME}; its 'format' must be {FORMAT!r}")
+    schema = fields.get("schema")
+    if type(schema) is not int or schema < 1:
+        raise document.error("field 'schema'", f"it must be {SCHEMA}")
+    if schema > SCHEMA:
+        raise document.error(
+            "field 'schema'",
+            f"it is {schema}, of a newer Rough Spectra than this; update the extension to use it",
+        )
+    found = fields.get("samples")
+    if not isinstance(found, list) or not all(isinstance(record, dict) for record in found):
+        raise document.error("field 'samples'", "it must be an array of objects, one a sample")
+    return fields
+
+
+def samples(document: Document, fields: dict[str, Any]) -> list[Sample]:
+    """Return the samples of what `parse` gave.
+
+    Raises
+    ------
+    InputError
+        A field is missing or of another type than it should be, or a spectrum is none.
+    """
+    grids: dict[tuple[float, ...], np.ndarray] = {}
+    return [
+        _sample(document, f"sample {number}", record, grids)
+        for number, record in enumerate(fields["samples"], start=1)
+    ]
+
+
+def record(sample: Sample) -> dict[str, Any]:
+    """Return the object that `samples` makes the same sample of, to the last bit."""
+    found: dict[str, Any] = {}
+    for field in _FIELDS:
+        value = getattr(sample, field.name)
+        if value != field.default:
+            found[field.name] = list(value) if isinstance(value, tuple) else value
+    found["wavelengths"] = _wavelengths(sample.wavelengths.tobytes())
+    found["values"] = sample.values.tolist()
+    return found
+
+
+@functools.lru_cache(maxsize=16)
+def _wavelengths(data: bytes) -> list[float]:
+    """Return whole nanometers without ".0": the same numbers, and a line a third shorter."""
+    return [int(nm) if nm.is_integer() else nm for nm in np.frombuffer(data).tolist()]
+
+
+def _sample(
+    document: Document,
+    place: str,
+    fields: dict[str, Any],
+    grids: dict[tuple[float, ...], np.ndarray],
+) -> Sample:
+    name = fields.get("name")
+    if isinstance(name, str):
+        place = f"{place} {quote(name)}"
+    given: dict[str, Any] = {}
+    for field in _FIELDS:
+        if field.name not in fields:
+            if field.default is dataclasses.MISSING:
+                raise document.error(place, f"the field {field.name!r} is missing; add it")
+            continue
+        value = fields[field.name]
+        holds, demand = _TYPES[str(field.type)]
+        if not holds(value):
+            raise document.error(place, f"the field {field.name!r} must be {demand}")
+        given[field.name] = tuple(value) if isinstance(value, list) else value
+    if given.get("instrument", "45a:0") not in REGISTRY:
+        raise document.error(place, f"'instrument' must be one of {', '.join(REGISTRY)}")
+    numbers = {key: fields.get(key) for key in ("wavelengths", "values")}
+    for key, found in numbers.items():
+        if not isinstance(found, list) or not set(map(type, found)) <= {int, float}:
+            raise document.error(place, f"the field {key!r} must be an array of numbers")
+    try:
+        grid = tuple(numbers["wavelengths"] or ())
+        nm = grids.get(grid)
+        if nm is None:
+            nm = grids[grid] = np.array(grid, dtype=np.float64)
+            nm.flags.writeable = False
+        values = np.array(numbers["values"], dtype=np.float64)
+    except OverflowError:
+        raise document.error(place, "it has a number too long; correct it") from None
+    try:
+        return Sample(wavelengths=nm, values=values, **given)
+    except InputError:
+        # The sample names the file it came from, which is not the one to mend.
+        check_spectrum(nm, values, f"{document.path}, {place}")
+        raise
+
+
+def _brackets(text: str) -> int:
+    return text.count("{") + text.count("[")
+
+
+def _is_number(value: Any) -> bool:
+    if type(value) is int:
+        return abs(value) <= sys.float_info.max
+    return type(value) is float and math.isfinite(value)
+
+
+def _is_triple(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 3 and all(map(_is_number, value))
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(text, str) for text in value)
+
+
+_TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "str": (lambda value: isinstance(value, str), "a text"),
+    "Kind": (lambda value: value in KINDS, "'reading' or 'albedo'"),
+    "float | None": (lambda value: value is None or _is_number(value), "a number or null"),
+    "int | None": (lambda value: value is None or type(value) is int, "a whole number or null"),
+    "tuple[float, float, float] | None": (
+        lambda value: value is None or _is_triple(value),
+        "three numbers or null",
+    ),
+    "tuple[str, ...]": (_are_texts, "an array of texts"),
+}
+"""By the annotation of a field of `Sample`: what a value must be."""
+
+_FIELDS = [
+    field for field in dataclasses.fields(Sample) if field.name not in ("wavelengths", "values")
+]

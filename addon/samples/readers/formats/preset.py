@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets: one material a JSON file, whose fields `_preset_fields` lists."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from ...sample import Sample, check_spectrum
+from ..parts.document import Document
+from ..parts.preset_fields import FORMAT, faults
+
+NAME = "Rough Spectra preset"
+PRIORITY = 100
+
+_OPTIONAL = (
+    *("quantity", "geometry", "aperture", "specular", "device", "condition"),
+    *("illuminant", "observer", "lab", "xyz", "notes", "altered"),
+)
+
+
+def sniff(document: Document) -> bool:
+    """Return whether the head is of a JSON object that names this format."""
+    head = document.json_head
+    return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
+
+
+def read(document: Document) -> list[Sample]:
+    """Return the one sample of a preset.
+
+    Raises
+    ------
+    InputError
+        The file is not JSON, is of a newer schema, or a field is missing or has another type than
+        it should; the message names the field.
+    """
+    fields = fields_of(document)
+    for field, sentence in faults(fields):
+        raise document.error(f"field '{field}'", sentence)
+    return [sample_of(document, fields)]
+
+
+def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
+    """Make the sample of fields that have no fault.
+
+    Raises
+    ------
+    InputError
+        The spectrum cannot be one (`check_spectrum`).
+    """
+    wavelengths, values = check_spectrum(
+        fields["wavelengths"],
+        fields["values"],
+        f"{document.path}, fields 'wavelengths' and 'values'",
+        lambda band: f"number {band + 1}",
+    )
+    sigma = fields["sigma_degrees"]
+    optional: dict[str, Any] = {
+        name: tuple(fields[name]) if isinstance(fields[name], list) else fields[name]
+        for name in _OPTIONAL
+        if name in fields
+    }
+    return Sample(
+        name=fields["name"],
+        wavelengths=wavelengths,
+        values=values,
+        kind=fields["kind"],
+        instrument=fields["instrument"],
+        sigma_degrees=None if sigma is None else float(sigma),
+        sigma_source=fields["sigma_source"],
+        source=fields["source"],
+        license=fields["license"],
+        **optional,
+    )
+
+
+def fields_of(document: Document) -> dict[str, Any]:
+    """Return the fields of a preset, right or wrong.
+
+    Raises
+    ------
+    InputError
+        The file is not JSON, or no object.
+    """
+    try:
+        fields = json.loads(document.json_text)
+    except json.JSONDecodeError as error:
+        raise document.error(
+            f"line {error.lineno}", f"the JSON is broken ({error.msg}); correct it"
+        ) from None
+    except (ValueError, RecursionError):
+        # An integer of thousands of digits, or thousands of brackets inside each other.
+        raise document.error("", "the JSON is too deep or has a number too long") from None
+    if not isinstance(fields, dict):
+        raise document.error("line 1", "the JSON is not an object; begin it with '{'")
+    return fields

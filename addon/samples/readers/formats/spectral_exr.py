@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spectral images in OpenEXR: the mean of a region, or of the whole image.
+
+Channels ``T.400,000000nm`` hold reflectance. Channels ``S0.400,000000nm`` hold emitted radiance,
+``S1`` to ``S3`` its polarization, and ``T.380,000000nm.420,000000nm`` what light of one wavelength
+becomes at another; these are refused.
+
+Source: A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral Images" (JCGT 10,
+2021).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...sample import Sample, check_spectrum
+from ..parts import (
+    band_order,
+    exr_header,
+    exr_pixels,
+    geometry_words,
+)
+from ..parts.document import Document, open_document, quote
+from ..parts.exr_image import Image
+
+NAME = "spectral OpenEXR image"
+PRIORITY = 100
+REGIONS = True
+
+UNEVEN = 0.02
+"""Standard deviation over the pixels above which a mean stands for no single color."""
+
+_SPEED_OF_LIGHT = 299_792_458.0  # m/s
+_NUMBER = r"(\d{1,12}(?:,\d{0,12})?(?:[eE][+-]?\d{1,2})?)"
+_UNIT = r"([YZEPTGMkhdcmunp]|da)?(m|Hz)"
+_CHANNEL = re.compile(rf"(?:(.*)\.)?(S[0-3]|T)\.{_NUMBER}{_UNIT}(?:\.({_NUMBER}{_UNIT}))?")
+_PREFIXES = dict(zip("YZEPTGMkhdcmunp", (24, 21, 18, 15, 12, 9, 6, 3, 2, -1, -2, -3, -6, -9, -12),
+                     strict=True)) | {"da": 1, "": 0}  # fmt: skip
+
+
+def sniff(document: Document) -> bool:
+    """Return whether this is an OpenEXR image; one without spectra is refused below."""
+    return document.data.startswith(exr_header.MAGIC)
+
+
+def region_mean(path: str | os.PathLike[str], x: int, y: int, width: int, height: int) -> Sample:
+    """Return the mean spectrum of a rectangle of pixels.
+
+    Parameters
+    ----------
+    path
+        A spectral image.
+    x, y
+        The rectangle's first pixel, counted from 0 at the top left of the data window.
+    width, height
+        Its size in pixels.
+
+    Raises
+    ------
+    InputError
+        As `read`; or the rectangle is not within the image.
+    """
+    return read(open_document(path, (x, y, width, height)))[0]
+
+
+def read(document: Document) -> list[Sample]:
+    """Return one sample, the mean over the document's region or over the whole image.
+
+    Raises
+    ------
+    InputError
+        The image cannot be read (`_exr.open_image`), it has no channels of reflectance, the region
+        is not within it, or the mean is no spectrum (`check_spectrum`).
+    """
+    image = exr_header.open_image(document)
+    bands, skipped = _reflective(document, image)
+    region = _region(document, image)
+    mean, deviation = _mean(image, list(bands), region)
+    nm = np.array(list(bands.values()))
+    order, _ = band_order.in_order(nm)  # channels stand in the order of their names
+    names = [image.channels[index].name for index in bands]
+    wavelengths, values = check_spectrum(
+        nm[order],
+        mean[order],
+        str(document.path),
+        lambda band: f"channel {quote(names[order[band]])}",
+    )
+    x, y, width, height = region
+    notes = []
+    if deviation > UNEVEN:
+        notes.append(
+            f"The pixels differ by a standard deviation of up to {deviation:.2f}; read a region of "
+            "one color if that is not meant."
+        )
+    if skipped:
+        notes.append("The image also holds emitted light, which was not read.")
+    instrument, note = geometry_words.instrument_of("")
+    return [
+        Sample(
+            name=document.path.stem.removesuffix(".spectral") or document.path.stem,
+            wavelengths=wavelengths,
+            values=values,
+            kind="reading",
+            quantity="reflectance",
+            instrument=instrument,
+            source=str(document.path),
+            position=f"pixels {x}, {y} to {x + width - 1}, {y + height - 1}",
+            notes=(*notes, note),
+            altered=(f"Mean of {width * height} pixels.",),
+        )
+    ]
+
+
+def _reflective(document: Document, image: Image) -> tuple[dict[int, float], bool]:
+    """Return the wavelength in nm by channel, and whether others hold emitted light."""
+    bands: dict[int, float] = {}
+    layers = set()
+    emits = False
+    for index, channel in enumerate(image.channels):
+        match = _CHANNEL.fullmatch(channel.name)
+        if not match:
+            continue
+        if match[6]:
+            raise document.not_reflectance(
+                f"channel {quote(channel.name)}",
+                "bispectral (of a fluorescent surface, by the light's wavelength and by its own)",
+            )
+        if match[2] != "T":
+            emits = True
+            continue
+        if channel.form.kind == "u":
+            raise document.error(
+                f"channel {quote(channel.name)}", "its pixels are whole numbers; save it as floats"
+            )
+        layers.add(match[1])
+        bands[index] = _nanometers(match[3], match[4], match[5])
+    if not bands and emits:
+        raise document.not_reflectance("", "radiance (an image of light, channels S0)")
+    if not bands:
+        found = ", ".join(channel.name for channel in image.channels[:4])
+        raise document.error(
+            "",
+            f"the image has no channels such as 'T.400,000000nm' but {quote(found)}; save its "
+            "spectra with it",
+        )
+    if len(layers) > 1:
+        raise document.error("", f"{len(layers)} layers hold spectra; save one of them alone")
+    return bands, emits
+
+
+def _nanometers(number: str, prefix: str | None, unit: str) -> float:
+    value = float(number.replace(",", ".")) * 10.0 ** _PREFIXES[prefix or ""]
+    if unit == "Hz":
+        value = _SPEED_OF_LIGHT / value if value else np.inf
+    return round(value * 1e9, 9)
+
+
+def _region(document: Document, image: Image) -> tuple[int, int, int, int]:
+    x, y, width, height = region = document.region or (0, 0, image.width, image.height)
+    inside = 0 <= x < x + width <= image.width and 0 <= y < y + height <= image.height
+    if not inside:
+        raise document.error(
+            f"region {x}, {y}, {width} x {height}",
+            f"it is not within the image of {image.width} x {image.height} pixels; choose one that "
+            "is",
+        )
+    return region
+
+
+def _mean(
+    image: Image, channels: list[int], region: tuple[int, int, int, int]
+) -> tuple[NDArray[np.float64], float]:
+    """Return the mean of each channel, and the largest standard deviation of any.
+
+    A few lines at a time: unpacked, an image is a hundred times its file.
+    """
+    x, y, width, height = region
+    total = np.zeros(len(image.channels))
+    squares = np.zeros(len(image.channels))
+    with np.errstate(over="ignore", invalid="ignore"):  # not finite: `check_spectrum` names it
+        for first, block in exr_pixels.blocks(image, y, height):
+            pixels = block[:, :, x : x + width].astype(np.float64)
+            which = slice(first, first + pixels.shape[1])
+            total[which] += pixels.sum(axis=(0, 2))
+            squares[which] += np.square(pixels, out=pixels).sum(axis=(0, 2))
+        mean = total[channels] / (width * height)
+        variance = squares[channels] / (width * height) - mean * mean
+    return mean, float(np.sqrt(max(np.nanmax(variance, initial=0.0), 0.0)))

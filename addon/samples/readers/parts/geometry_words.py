@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What files say about an instrument's geometry, as one of the instruments that are computed.
+
+Light and view may change places: readings of the models obey Helmholtz reciprocity, so 8°:di reads
+what di:8° reads. A geometry that is not among them gets the nearest one and a sentence about it.
+"""
+
+from __future__ import annotations
+
+import re
+
+from .....core.instruments import HEMISPHERE, REGISTRY, Instrument
+from .document import quote
+
+ASSUMED = "45a:0"
+"""Where a file says nothing: the geometry of most portable instruments, and of ISO 13655."""
+
+_OTHER = "is not among the instruments"
+_LONGEST = 200  # characters of a description that are looked at
+_NUMBER = r"([-+]?\d+(?:[.,]\d+)?)"
+_RING = r"(annular|a|circumferential|c|ring|directional|x)?"
+_BETWEEN = r"\s*[:/]\s*"
+_PAIR = re.compile(rf"(?<![\w.]){_NUMBER}\s*{_RING}{_BETWEEN}{_NUMBER}\s*{_RING}(?![\w./])")
+_ASPECULAR = re.compile(rf"\bas\s*{_NUMBER}|{_NUMBER}\s*as\s*{_NUMBER}|aspecular\D*?{_NUMBER}")
+_DIFFUSE = r"(?:d|diffuse|h|hemispherical)\s*(i|e)?"
+_SPHERE = re.compile(
+    rf"(?<![\w.]){_DIFFUSE}{_BETWEEN}{_NUMBER}(?![\w.])|"
+    rf"(?<![\w.]){_NUMBER}{_BETWEEN}{_DIFFUSE}(?![a-z0-9])|\bd(i|e)?({_NUMBER[1:-1]})(?![\w.])"
+)
+_INCIDENCE = re.compile(rf"\bi\w*\s*[=:]?\s*{_NUMBER}\W{{1,5}}e\w*\s*[=:]?\s*{_NUMBER}")
+_DIFFUSE_BOTH = re.compile(r"(?<!\w)(?:d|diffuse)\s*[:/]\s*(?:d|diffuse)(?!\w)")
+_HEMISPHERE = re.compile(r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b")
+_ONE_DIRECTION = re.compile(r"direction\w*\W*hemi|hemi\w*\W*direction|\bdhr\b")
+_RING_WORD = re.compile(r"annul|circumferen|\bring\b")
+_SIDE_WORD = re.compile(r"\bdirectional\b|unidirectional|\bone[- ]sided?\b")
+
+_INCLUDED = re.compile(
+    r"\b(?:sci|spin|rspin|spi|i\+e)\b|specular\W*(?:component\W*)?(?:is\W*)?incl|incl\w*\W*specular"
+)
+_EXCLUDED = re.compile(
+    r"\b(?:sce|spex|rspex|spe)\b|specular\W*(?:component\W*)?(?:is\W*)?excl|excl\w*\W*specular"
+)
+
+
+def instrument_of(text: str, specular: str = "") -> tuple[str, str]:
+    """Return the instrument to compute with, and a note where it is not what the file says.
+
+    Parameters
+    ----------
+    text
+        The geometry in the words of the file, such as ``"45/0"``, ``"0°:45°a"``, ``"D/8 SCI"``.
+    specular
+        ``"SCI"`` or ``"SCE"`` where the file says so elsewhere; see `specular_of`.
+
+    Returns
+    -------
+    tuple
+        A name of `core.instruments.REGISTRY`, and one sentence or an empty string.
+    """
+    stated = " ".join(text[:_LONGEST].split())
+    if not stated:
+        return ASSUMED, f"The file does not say the geometry; {_title(ASSUMED)} is assumed."
+    if stated in REGISTRY:
+        return stated, ""
+    plain = _plain(stated)
+    found = _multi_angle(plain) or _sphere(plain, specular) or _two_angles(plain)
+    if not found:
+        return ASSUMED, f"The geometry {quote(stated)} is not known; {_title(ASSUMED)} is assumed."
+    name, why = found
+    note = f"The geometry {quote(stated)} {why}; it is computed as {_title(name)}." if why else ""
+    return name, note
+
+
+def specular_of(text: str) -> str:
+    """Return ``"SCI"``, ``"SCE"``, or nothing where the words do not say which it is.
+
+    Makers' words count: SPIN and SPEX, specular included and excluded, and CIE's di and de.
+    """
+    plain = _plain(text[:_LONGEST])
+    included, excluded = bool(_INCLUDED.search(plain)), bool(_EXCLUDED.search(plain))
+    if not included and not excluded:
+        sphere = _SPHERE.search(plain)
+        letter = (sphere[1] or sphere[4] or sphere[5]) if sphere else ""
+        included, excluded = letter == "i", letter == "e"
+    if included == excluded:
+        return ""  # nothing said, or a list of both
+    return "SCI" if included else "SCE"
+
+
+def _plain(text: str) -> str:
+    """Return lower-case text without degree signs."""
+    # µ-style look-alikes of the degree sign are as common as the sign itself.
+    lower = re.sub(r"[°º˚]|\bdeg(?:rees?)?\b\.?|(?<=\d)deg(?:rees?)?\b", "", text.lower())
+    # "45\0" and "45-0": the hyphen only between two numbers, where it cannot be a sign.
+    lower = re.sub(r"(?<=\d)\s*\\\s*(?=[\dd])|(?<=d)\s*\\\s*(?=\d)", ":", lower)
+    return re.sub(r"(?<=\b45)\s*-\s*(?=0\b)|(?<=\b0)\s*-\s*(?=45\b)", ":", lower)
+
+
+def _title(name: str) -> str:
+    return REGISTRY[name].title.split(",")[0]
+
+
+def _value(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+def _multi_angle(plain: str) -> tuple[str, str] | None:
+    match = _ASPECULAR.search(plain)
+    if not match:
+        return None
+    light = _value(match[2]) if match[2] else 45.0
+    angle = _value(next(text for text in (match[1], match[3], match[4]) if text))
+    known = {i.aspecular: i for i in REGISTRY.values() if i.aspecular is not None}
+    nearest = min(known, key=lambda aspecular: abs(aspecular - angle))
+    exact = nearest == angle and light == known[nearest].light.tilt
+    return known[nearest].name, "" if exact else _OTHER
+
+
+def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
+    match = _SPHERE.search(plain)
+    both = _DIFFUSE_BOTH.search(plain)
+    if not (match or both or (_HEMISPHERE.search(plain) and not _PAIR.search(plain))):
+        return None
+    says = specular or specular_of(plain)
+    angle = _value(match[2] or match[3] or match[6]) if match else _angle_alone(plain)
+    whole = bool(_ONE_DIRECTION.search(plain)) or (match is not None and "h" in match[0])
+    # A detector at 0° looks at its own opening, which is a gloss trap (ISO 2469 has one too).
+    trapped = says == "SCE" or (angle == 0.0 and says != "SCI")
+    nearest = _nearest_sphere(angle, trapped and not both)
+    if both or (angle is not None and angle != nearest.view.tilt):
+        return nearest.name, _OTHER
+    if angle is None:
+        return nearest.name, "does not name an angle"
+    if not says and not whole and angle != 0.0:
+        return nearest.name, "does not say whether specular light is included"
+    return nearest.name, ""
+
+
+def _nearest_sphere(angle: float | None, trapped: bool) -> Instrument:
+    """Return the sphere, with a gloss trap or without, whose detector looks from nearest by."""
+    spheres = [
+        instrument
+        for instrument in REGISTRY.values()
+        if instrument.light == HEMISPHERE and bool(instrument.trap) == trapped
+    ]
+    if angle is None:
+        return spheres[0]
+    return min(spheres, key=lambda instrument: abs(instrument.view.tilt - angle))
+
+
+def _angle_alone(plain: str) -> float | None:
+    """Return the angle of words such as "directional-hemispherical, 8°"; None unless it is one."""
+    found = re.findall(rf"(?<![\w.]){_NUMBER}(?![\w.])", plain)
+    return _value(found[0]) if len(found) == 1 else None
+
+
+def _two_angles(plain: str) -> tuple[str, str] | None:
+    match = _PAIR.search(plain)
+    words = match or _INCIDENCE.search(plain)
+    if not words:
+        return None
+    light, view = abs(_value(words[1])), abs(_value(words[3 if match else 2]))
+    if max(light, view) >= 90.0:
+        return None  # a ratio
+    ring = (match[2] or match[4] or "")[:1] if match else "x"
+    if not ring:
+        ring = "x" if _SIDE_WORD.search(plain) and not _RING_WORD.search(plain) else "a"
+    name = _of_angles(light, view, one_sided=ring in ("x", "d"))
+    return (name, "") if name else (ASSUMED, _OTHER)
+
+
+def _of_angles(light: float, view: float, one_sided: bool) -> str | None:
+    """Return the ideal instrument of two angles, one of them the normal.
+
+    Of the same sides if there is one, and in the same order: else what reads the same.
+    """
+    fits = [
+        instrument
+        for instrument in REGISTRY.values()
+        if instrument.aspecular is None
+        and instrument.light.half_angle == instrument.view.half_angle == 0.0
+        and {instrument.light.tilt, instrument.view.tilt} == {light, view}
+        and 0.0 in (light, view)
+    ]
+
+    def rank(instrument: Instrument) -> tuple[bool, bool]:
+        ring = instrument.light.all_around or instrument.view.all_around
+        return ring == one_sided, instrument.light.tilt != light
+
+    return min(fits, key=rank).name if fits else None
+
+
+def geometry_of_device(model: str) -> str:
+    """Return the geometry that makers state for a device, or an empty string."""
+    plain = model[:_LONGEST].lower()
+    return next((geometry for pattern, geometry in _DEVICES if pattern.search(plain)), "")
+
+
+_DEVICES = (
+    (
+        # Not all of a maker's: Konica Minolta's CM-2500c is 45/0, its CM-512m3 has many angles.
+        re.compile(r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:26d|36d|[67]00d|2[356]00d|3[67]\d0)"),
+        "d/8",
+    ),
+    (
+        re.compile(
+            r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"
+            r"color ?munki|\bdtp-?(?:20|22|41|70)\b|\bexact\b|\bfd-?[579]\b|myiro|"
+            r"spectro ?(?:lfp|pad)"
+        ),
+        "45/0",
+    ),
+)

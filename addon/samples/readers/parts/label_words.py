@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What column names and comments of a plain table say: wavelengths, units, quantities."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from ...sample import Kind
+from .document import Document, quote
+from .tables import lines
+
+T = TypeVar("T")
+
+NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0}
+
+_BAND = re.compile(
+    # What stands before: R400, %R400, nm400, SPECTRAL_NM_400, X400 (as R names columns), R[400].
+    r"%?\s*(?:r|refl(?:ectance)?|spec(?:tral)?(?:[ _]?nm)?|nm|wl|w|wavelength|λ|x)?\s*%?"
+    r"[ _.\[(-]{0,2}(\d{1,5}(?:[.,]\d{1,17})?)"
+    r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
+    re.IGNORECASE,
+)
+_LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a name stands before
+# ArgyllCMS' family of names is percent, as CGATS readers know.
+_SPEC = re.compile(r"spec_\d", re.IGNORECASE)
+_UNIT = re.compile(
+    r"[\[(]?(?:nm|[µμu]m|nanomet\w+|micromet\w+|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
+    r"(?: ?(?:r|refl\w*|t|transm\w*|abs\w*))?[\])]?",
+    re.IGNORECASE,
+)
+_WAVELENGTH = re.compile(r"(?:wave[ _-]?lengths?|wl|lambda|λ|nm)(?![a-z])", re.IGNORECASE)
+_MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\b", re.IGNORECASE)
+# "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
+_PERCENT = re.compile(r"(?<!\d)(?<!\d )(?:%|\bpercent\b|\bpct\b)", re.IGNORECASE)
+_ABOUT_VALUES = re.compile(r"reflectance|values?\b|units?\b|scale\b|spectr", re.IGNORECASE)
+_OPTICAL = re.compile(r"optical constants|refractive ind", re.IGNORECASE)
+_KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
+
+_UNITS = {
+    **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),
+    **dict.fromkeys(("percent", "%", "pct"), 100.0),
+}
+_KINDS: dict[str, Kind] = {"reading": "reading", "albedo": "albedo"}
+_WAVELENGTH_UNITS = {
+    **dict.fromkeys(("nm", "nanometer", "nanometers", "nanometre", "nanometres"), "nm"),
+    **dict.fromkeys(("um", "µm", "μm", "micron", "microns", "micrometer", "micrometers"), "µm"),
+}
+
+
+@dataclass
+class Comments:
+    """What the comment lines state; `scale` is None where they say nothing of percent."""
+
+    kind: Kind = "reading"
+    scale: float | None = None
+    wavelength_unit: str = ""
+    texts: dict[str, str] = field(default_factory=dict)
+
+
+def band(label: str) -> float | None:
+    """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states.
+
+    As it stands, or in nanometers where the name itself says micrometers.
+    """
+    match = _BAND.fullmatch(label.strip()[:40])
+    if not match:
+        return None
+    found = float(match[1].replace(",", "."))
+    # Rounded as in `delimited`: 0.57 µm is 570 nm.
+    return round(found * 1000.0, 9) if (match[2] or "nm").lower() != "nm" else found
+
+
+def bands_of(cells: list[str], least: float) -> list[float]:
+    """Return the wavelengths that a row of column names states, none unless it can be one.
+
+    Bare numbers also stand in rows of data: two of them, or some here and there, name no bands.
+
+    Parameters
+    ----------
+    cells
+        The row.
+    least
+        The smallest wavelength in nanometers that counts.
+    """
+    at = [i for i, cell in enumerate(cells) if (band(cell) or 0.0) >= least]
+    bare = at and all(cells[i].strip()[:1].isdigit() and cells[i][-1:].isdigit() for i in at)
+    if bare and at != list(range(len(cells))):
+        together = at[-1] - at[0] + 1 == len(at)
+        if not together or (len(at) < _LEAST_BARE and at[0] > 1):
+            return []
+    return [band(cells[i]) or 0.0 for i in at]
+
+
+def is_unit_row(cells: list[str]) -> bool:
+    """Return whether a row under the names of columns holds their units."""
+    stated = [cell for cell in cells if cell.strip()]
+    return bool(stated) and all(_UNIT.fullmatch(cell.strip()[:40]) for cell in stated)
+
+
+def percent_of_values(text: str) -> bool:
+    """Return whether a line about a table says that its values are percent.
+
+    A name or a citation may well hold a percent sign, so only talk about the values counts.
+    """
+    pair = _KEY.fullmatch(text)
+    return says_percent(text) and bool(_ABOUT_VALUES.search(pair[1] if pair else text))
+
+
+def is_wavelength(label: str) -> bool:
+    """Return whether a column is named as the one with the wavelengths."""
+    return bool(_WAVELENGTH.match(label.strip()))
+
+
+def unit_of_wavelengths(label: str) -> str:
+    """Return the unit that the wavelength column's name states, or an empty string."""
+    if _MICROMETERS.search(label):
+        return "µm"
+    return "nm" if re.search(r"\bnm\b|nanomet", label, re.IGNORECASE) else ""
+
+
+def says_percent(label: str) -> bool:
+    """Return whether a column name states that its values are percent."""
+    if band(label) is not None:
+        return "%" in label or bool(_SPEC.match(label))
+    return bool(_PERCENT.search(label))
+
+
+def comments(document: Document) -> Comments:
+    """Return what the lines that begin with ``#`` state.
+
+    Raises
+    ------
+    InputError
+        A key that is honored has a value that is not known.
+    """
+    found = Comments()
+    if "#" not in document.text:
+        return found
+    stated = False
+    for number, line in enumerate(lines(document), start=1):
+        text = line.strip()
+        if not text.startswith("#"):
+            continue
+        text = text.lstrip("#")
+        pair = _KEY.fullmatch(text)
+        key = pair[1].lower().replace(" ", "_") if pair else ""
+        value = pair[2] if pair else ""
+        if key == "units":
+            found.scale = _one_of(document, number, key, value, _UNITS)
+            stated = True
+        elif key == "wavelength_unit":
+            found.wavelength_unit = _one_of(document, number, key, value, _WAVELENGTH_UNITS)
+        elif key == "kind":
+            found.kind = _one_of(document, number, key, value, _KINDS)
+        elif key in ("instrument", "source", "license", "device", "condition"):
+            if value:
+                found.texts[key] = value
+        elif not stated and percent_of_values(text):
+            found.scale = 100.0
+        elif _OPTICAL.search(text):
+            raise document.not_reflectance(f"line {number}", "refractive indices of a material")
+    return found
+
+
+def _one_of(document: Document, line: int, key: str, value: str, known: dict[str, T]) -> T:
+    # What follows the first word explains it: "fraction (1 = perfect white diffuser)".
+    word = re.split(r"[\s(;,]", value.lower(), maxsplit=1)[0]
+    try:
+        return known[word]
+    except KeyError:
+        raise document.error(
+            f"line {line}",
+            f"{key} is {quote(value)}; make it one of: {', '.join(known)}",
+        ) from None

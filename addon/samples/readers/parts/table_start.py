@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a table begins below the lines that instruments and spreadsheets put above it."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from typing import Any
+
+from . import (
+    label_words,
+    series,
+    statements,
+    tables,
+)
+from .document import Document
+from .tables import DELIMITERS, SPACES
+
+_SEARCHED = 400  # lines; the longest preamble known has about 90
+_ROWS_BETWEEN = 8  # between the names of columns and the first numbers
+_ENOUGH = 64  # fields of a row
+_LONGEST = 4096  # characters of a line that decide what it is
+LEAST_BAND = 100.0
+"""Names of columns in nanometers start here: samples are called 1, 2, 3 more often than 100."""
+
+_PAIR = re.compile(r"[^:=]{1,60}[:=]")
+_VALUES_KEY = re.compile(
+    r"units?\b|y[ -]?(?:axis|units?)|ordinate|measure\w* (?:type|quantity)", re.I
+)
+
+
+def find_start(document: Document) -> int:
+    """Return how many lines stand above the table.
+
+    The table begins with a line that names bands or wavelengths, else with the line above the first
+    rows of numbers, else with the first line.
+    """
+    content = [
+        (i, line)
+        for i, line in enumerate(itertools.islice(tables.lines(document), _SEARCHED))
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if content and content[0][0] == 0 and tables.announced(content[0][1]):
+        del content[0]
+    for k, (i, line) in enumerate(content):
+        following = content[k + 1][1] if k + 1 < len(content) else ""
+        if _names_bands(line, following, first=k == 0) or (
+            _names_wavelengths(line) and _numbers_follow(content[k + 1 : k + 1 + _ROWS_BETWEEN])
+        ):
+            return i
+        mark = _numbers_by(line)
+        if mark and (not following.strip() or _numbers_by(following)):
+            return content[_header(content, k, mark)][0]
+    return content[0][0] if content else 0
+
+
+def above(document: Document, start: int, said: label_words.Comments) -> dict[str, Any]:
+    """Return what the lines above the table say of its samples, and note units in `said`.
+
+    Raises
+    ------
+    InputError
+        One of them says that the values are another quantity.
+    """
+    found: dict[str, Any] = {}
+    for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
+        text = line[:_LONGEST].strip().strip("\t;,").strip()
+        if not text or text.startswith("#") or (number == 1 and tables.announced(line)):
+            continue
+        key, value = _key_and_value(text)
+        for field, content in statements.stated(key, value).items():
+            found.setdefault(field, content)
+        if _VALUES_KEY.match(key):
+            other = series.other_quantity(value)
+            if other and not _header_says_reflectance(document, start):
+                raise document.not_reflectance(f"line {number}", other)
+            if said.scale is None and "%" in value:
+                said.scale = 100.0
+        if said.scale is None and label_words.percent_of_values(text):
+            said.scale = 100.0
+    return found
+
+
+def _header_says_reflectance(document: Document, start: int) -> bool:
+    """Return whether a column is reflectance, whatever unit the raw columns beside it have."""
+    header = next(itertools.islice(tables.lines(document), start, None), "")
+    return series.says_reflectance(header[:_LONGEST])
+
+
+def _key_and_value(text: str) -> tuple[str, str]:
+    pair = _PAIR.match(text)
+    if pair:
+        return pair[0][:-1].strip(' "'), text[pair.end() :].strip("\t;, ")
+    for mark in DELIMITERS:
+        key, found, value = text.partition(mark)
+        if found and mark != SPACES:
+            return key.strip(' "'), value.strip("\t;, ")
+    return "", text
+
+
+def _cells(line: str, mark: str, longest: int | None = _LONGEST) -> list[str]:
+    line = line[:longest]
+    cells = line.split() if mark == SPACES else line.split(mark)
+    cells = [cell.strip().strip('"').strip() for cell in cells]
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _names_wavelengths(line: str) -> bool:
+    return any(
+        len(cells) > 1 and any(map(label_words.is_wavelength, cells[:3]))
+        for cells in (_cells(line, mark) for mark in (*DELIMITERS, "|"))
+    )
+
+
+def _names_bands(line: str, following: str, *, first: bool) -> bool:
+    for mark in DELIMITERS:
+        cells = _cells(line, mark)
+        found = label_words.bands_of(cells, LEAST_BAND)
+        if len(found) < 2 or (not first and _is_number(cells[0])):
+            continue
+        plain = all(_is_number(cell) for cell in cells[1:])
+        ordered = found == sorted(set(found)) or found == sorted(set(found), reverse=True)
+        # Two numbers may be a date: the row below has to have as many fields.
+        fits = first and len(_cells(following, mark)) in (len(cells), len(cells) + 1)
+        if ordered and (len(found) > 2 or fits or not plain):
+            return True
+    return False
+
+
+def _numbers_follow(content: list[tuple[int, str]]) -> bool:
+    """Return whether a row of numbers comes next, or after units and what is said of samples."""
+    for _, line in content:
+        rows = [cells for mark in DELIMITERS if (cells := _cells(line, mark))]
+        if any(_is_number(cells[0]) for cells in rows):
+            return True
+        if not any(label_words.is_unit_row(cells) or _is_keyed(cells) for cells in rows):
+            return False
+    return False
+
+
+def _is_keyed(cells: list[str]) -> bool:
+    return bool(cells) and statements.field_of(cells[0]) not in ("", "name")
+
+
+def _numbers_by(line: str) -> str:
+    """Return the delimiter by which a line is a row of numbers, or nothing."""
+    for mark in DELIMITERS:
+        cells = _cells(line, mark)
+        if len(cells) > 1 and _is_number(cells[0]):
+            del cells[_ENOUGH:]
+            rest = [cell for cell in cells[1:] if not tables.is_missing(cell)]
+            if rest and all(map(_is_number, rest)):
+                return mark
+    return ""
+
+
+def _header(content: list[tuple[int, str]], k: int, mark: str) -> int:
+    """Return which line begins the table whose first row of numbers is line `k`."""
+    if k == 0:
+        return 0
+    above = k - 1
+    while above and (
+        label_words.is_unit_row(cells := _cells(content[above][1], mark)) or _is_keyed(cells)
+    ):
+        above -= 1
+    line = content[above][1]
+    if _PAIR.match(line):
+        return k
+    columns, names = len(_cells(content[k][1], mark, None)), len(_cells(line, mark, None))
+    return above if names == columns or (mark == SPACES and names > 1) else k
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return "_" not in cell

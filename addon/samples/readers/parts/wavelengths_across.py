@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables with one sample a row: the names of the columns are the bands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...sample import Sample
+from . import (
+    label_words,
+    series,
+    statements,
+    tables,
+)
+from .document import Document, plain, quote
+from .scale import nanometers, scale
+from .table_start import LEAST_BAND
+from .tables import Row
+
+_NAME_COLUMN = re.compile(
+    r"(?:(?:sample|data)[ _-]?)?(?:name|label)|user color name|sample", re.IGNORECASE
+)
+_ID_COLUMN = re.compile(r"(?:sample[ _-]?)?(?:id|index|no\.?|number)", re.IGNORECASE)
+_NAMED = 8  # how many of the columns not read a note names
+
+
+def read(
+    document: Document,
+    said: label_words.Comments,
+    fields: dict[str, Any],
+    header: list[str],
+    line: int,
+    table: Iterator[Row],
+) -> list[Sample]:
+    """Return one sample a row.
+
+    Parameters
+    ----------
+    document
+        The file.
+    said, fields
+        What comments and the lines above the table say.
+    header, line
+        The names of the columns, and their line.
+    table
+        The rows below.
+    """
+    bands = [i for i, label in enumerate(header) if (label_words.band(label) or 0) >= LEAST_BAND]
+    inside = set(bands)
+    others = [i for i in range(len(header)) if i not in inside]
+    name = next((i for i in others if _NAME_COLUMN.fullmatch(header[i])), None)
+    if name is None:
+        name = next((i for i in others if _ID_COLUMN.fullmatch(header[i])), None)
+    keyed = [i for i in others if i != name and statements.field_of(header[i])]
+    color, light = statements.color_columns(header)
+    if name is None:
+        name = min(set(others) - {*keyed, *color}, default=None)
+    first = "" if 0 in bands or statements.field_of(header[0]) else header[0]
+    other = series.other_quantity(first)
+    if other:
+        raise document.not_reflectance(f"line {line}, column {quote(header[0])}", other)
+    texts = [*([] if name is None else [name]), *keyed, *color]
+    unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]
+    block = tables.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
+    tables.check_count(document, len(block.lines))
+    nm = np.array([label_words.band(header[i]) for i in bands], dtype=np.float64)
+    stated = [header[0]] if 0 not in bands else []
+    if label_words.unit_of_wavelengths(header[bands[0]]) == "":
+        nm = nanometers(document, said, nm, stated)
+    # Of the other columns' names only the corner's is about the values below.
+    values = block.values
+    values /= scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
+    nm.flags.writeable = values.flags.writeable = False  # so that no sample copies them
+    samples = []
+    for i, row in enumerate(block.lines):
+        cells = block.texts[i] if texts else []
+        own = {**fields, **light} if color else dict(fields)
+        named = 0 if name is None else 1
+        for key, text in zip(keyed, cells[named:], strict=False):
+            own.update(statements.stated(header[key], text))
+        lab = _lab(document, row, header, color, cells[named + len(keyed) :])
+        if lab:
+            own["lab"] = lab
+        found = series.bands(
+            nm,
+            values[i],
+            f"{document.path}, line {row}",
+            lambda band: f"column {quote(header[bands[band]])}",
+        )
+        alone = document.path.stem if len(block.lines) == 1 else f"{document.path.stem} {i + 1}"
+        samples.append(
+            statements.make(
+                document,
+                said,
+                own,
+                found,
+                name=(cells[0] if name is not None else "") or alone,
+                position=f"line {row}",
+                notes=not_read(unread),
+            )
+        )
+    return samples
+
+
+def not_read(labels: list[str]) -> tuple[str, ...]:
+    """Return the note that names columns left out, if there are any."""
+    if not labels:
+        return ()
+    more = f" and {len(labels) - _NAMED} more" if len(labels) > _NAMED else ""
+    return (f"Columns not read: {plain(', '.join(labels[:_NAMED]))}{more}.",)
+
+
+def _lab(
+    document: Document, line: int, header: list[str], columns: list[int], cells: list[str]
+) -> tuple[float, float, float] | None:
+    """Return the file's own color, or None where the row has none."""
+    if not columns or any(map(tables.is_missing, cells)):
+        return None
+    places = [f"line {line}, column {quote(header[column])}" for column in columns]
+    lightness, a, b = (
+        series.number(document, place, cell) for place, cell in zip(places, cells, strict=True)
+    )
+    return lightness, a, b

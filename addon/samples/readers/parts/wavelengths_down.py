@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables with one sample a column: the wavelengths run down."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...sample import Sample
+from . import (
+    label_words,
+    series,
+    shapes,
+    statements,
+    tables,
+)
+from .document import OTHER_QUANTITIES, Document, quote
+from .scale import nanometers, scale
+from .tables import EXPECTED, Row
+from .wavelengths_across import not_read
+
+# A single column with such a name says what is in it, not which sample it is.
+_QUANTITY = re.compile(
+    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|values?|r|y|spectrum)?"
+    r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
+    re.IGNORECASE,
+)
+_NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
+# What stands beside a spectrum and is none.
+_ASIDE = re.compile(
+    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?",
+    re.IGNORECASE,
+)
+# Names of columns that say what they are only together; their marks and brackets do not count.
+_TOGETHER = {
+    frozenset("xyz"): "color matching functions",
+    frozenset("rgb"): "sensitivities of a camera",
+    frozenset("lms"): "sensitivities of the eye",
+    frozenset("nk"): "refractive indices of a material",
+}
+_PRIMARIES = {"red", "green", "blue"}  # three samples, or what a camera sees
+_MARKS = re.compile(r"[^a-z]|bar|lambda|cie|_?\d+", re.IGNORECASE)
+# Not A and C alone, nor F2: samples are called so.
+_ILLUMINANT = re.compile(
+    r"(?:cie|iso)?[ _-]*(?:D(?:50|55|60|65|75)|iso[ _-]?7589|std[ _-]?illum.*)", re.IGNORECASE
+)
+# What spectrometers' software saves beside a reflectance that it calls so.
+_RAW = re.compile(r"dark|ref(?:erence)?|white(?: ref\w*)?|sample|raw|target", re.IGNORECASE)
+
+
+def read(
+    document: Document,
+    said: label_words.Comments,
+    fields: dict[str, Any],
+    header: list[str],
+    table: Iterator[Row],
+) -> list[Sample]:
+    """Return one sample a column.
+
+    Parameters
+    ----------
+    document
+        The file.
+    said, fields
+        What comments and the lines above the table say.
+    header
+        The names of the columns.
+    table
+        The rows below.
+    """
+    if len(header) < 2:
+        raise document.error(
+            "line 1", f"there is only one column; wavelengths need values beside them: {EXPECTED}"
+        )
+    labels = [label or f"column {i}" for i, label in enumerate(header, start=1)]
+    axis = next((i for i, label in enumerate(header) if label_words.is_wavelength(label)), 0)
+    units, own, table = _rows_above_numbers(header, axis, table)
+    columns, unread = _columns(document, header, labels, units, axis)
+    _refuse_others(document, [header[i] for i in columns])
+    block = tables.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
+    nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]])
+    values = block.values[:, 1:].T
+    if len(columns) == 3 and shapes.are_of_the_eye(nm, values):
+        raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
+    if {header[i].lower() for i in columns} == _PRIMARIES and shapes.all_vanish(values):
+        raise document.not_reflectance("", _TOGETHER[frozenset("rgb")])
+    samples = []
+    for i, column in enumerate(columns):
+        label = header[column]
+        if not label and np.isnan(values[i]).all():
+            continue  # an empty column without a name
+        place = f"column {quote(label)}" if label else labels[column]
+        percent = scale(document, said, place, [label, units[column]])
+        found = series.bands(
+            nm,
+            values[i] / percent,
+            f"{document.path}, {place}",
+            lambda band: f"line {block.lines[band]}",
+        )
+        known = {**fields, **own.get(column, {})}
+        generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
+        alone = known.get("name") or document.path.stem
+        samples.append(
+            statements.make(
+                document,
+                said,
+                known,
+                found,
+                name=alone if generic else label or f"{document.path.stem} {column}",
+                position=place,
+                notes=not_read(unread),
+            )
+        )
+    return samples
+
+
+def _refuse_others(document: Document, names: list[str]) -> None:
+    """Refuse a table whose columns together, or whose file's name alone, name another quantity."""
+    together = _TOGETHER.get(frozenset(_MARKS.sub("", name).lower() for name in names), "")
+    if not together and names[0] and all(map(_ILLUMINANT.fullmatch, names)):
+        together = "emission (the spectrum of a light source)"
+    if together:
+        quoted = ", ".join(map(quote, names))
+        raise document.error(
+            f"columns {quoted}",
+            f"columns of these names hold {together}, not reflectance; if they are samples, give "
+            "them longer names",
+        )
+    if any(name and not _NEUTRAL.fullmatch(name) for name in names):
+        return
+    other = series.other_quantity_of_name(document.path.stem)
+    if _ILLUMINANT.fullmatch(document.path.stem):
+        other = "emission"
+    if other:
+        what = OTHER_QUANTITIES.get(other, other)
+        raise document.error(
+            "",
+            f"only the file's name says what the values are, and by it they are {what}, not "
+            "reflectance; if they are, call their column 'reflectance'",
+        )
+
+
+def _columns(
+    document: Document, header: list[str], labels: list[str], units: list[str], axis: int
+) -> tuple[list[int], list[str]]:
+    """Return the columns with reflectance, and the names of those that are left out.
+
+    Raises
+    ------
+    InputError
+        There is none of the former.
+    """
+    rest = [i for i in range(len(header)) if i != axis]
+    others = {i: series.other_quantity(header[i]) or series.other_quantity(units[i]) for i in rest}
+    named = any(series.says_reflectance(header[i]) for i in rest)
+    aside = {
+        i
+        for i in rest
+        if len(rest) > 1 and (_ASIDE.fullmatch(header[i]) or (named and _RAW.fullmatch(header[i])))
+    }
+    found = [i for i in rest if not others[i] and i not in aside]
+    if not found:
+        column = next((i for i in rest if others[i]), rest[0])
+        raise document.not_reflectance(
+            f"column {quote(labels[column])}", others[column] or "of another kind"
+        )
+    left = sorted(set(rest) - set(found))
+    return found, [labels[i] for i in left if header[i] or others[i]]
+
+
+def _rows_above_numbers(
+    header: list[str], axis: int, table: Iterator[Row]
+) -> tuple[list[str], dict[int, dict[str, Any]], Iterator[Row]]:
+    """Return the units of the columns, what rows say of each, and the rows of numbers."""
+    units = [""] * len(header)
+    own: dict[int, dict[str, Any]] = {}
+    for row in table:
+        cells = [cell.strip() for cell in row.fields[: len(header)]]
+        key = cells[axis] if axis < len(cells) else ""
+        if label_words.is_unit_row(cells) and not any(map(str.isdigit, "".join(cells))):
+            units[: len(cells)] = cells
+        elif statements.field_of(key):
+            for i, cell in enumerate(cells):
+                own.setdefault(i, {}).update(statements.stated(key, cell) if i != axis else {})
+        else:
+            return units, own, itertools.chain([row], table)
+    return units, own, iter(())

@@ -1,0 +1,310 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One measured spectrum, as every reader returns it.
+
+A `Sample` that exists is valid: its wavelengths increase, its values are finite and could be
+reflectance. Whatever breaks that is refused here in one sentence that names the file, the place and
+the remedy, so that no later code has to ask again. What a surface cannot do but an instrument can
+print, such as a little noise below 0, is kept as measured; `judgement` names it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.errors import InputError
+from ...core.instruments import REGISTRY
+
+Kind = Literal["reading", "albedo"]
+KINDS: tuple[str, ...] = get_args(Kind)
+
+# Wavelengths below are taken for micrometers, not for nanometers: reflectance is not measured in
+# the extreme ultraviolet, and in micrometers these are the visible and the infrared.
+SHORTEST_NM = 20.0
+LONGEST_NM = 1e6  # 1 mm: the far end of the infrared
+
+VISIBLE_NM = (380.0, 780.0)
+"""Where the limits below hold. Outside, detectors end in noise of any size, which no color sees."""
+DEEPEST_NOISE = -0.05
+"""A reading below this is not noise around black."""
+BRIGHTEST = 4.0
+"""A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """One spectrum with everything its file says about it.
+
+    Parameters
+    ----------
+    name
+        What the user calls the sample.
+    wavelengths
+        Nanometers, increasing, shape ``(bands,)``, at least two; kept as a read-only float64 array.
+    values
+        Fractions as measured, shape ``(bands,)``; kept as a read-only float64 array. Within the
+        visible range between `DEEPEST_NOISE` and `BRIGHTEST`; see `reflectance` for computing.
+    kind
+        ``"reading"`` for the reflectance factor at the instrument's geometry, ``"albedo"`` for the
+        reflectance of one facet.
+    quantity
+        What the file calls it, such as ``"reflectance factor"``, ``"radiance factor"`` or
+        ``"directional-hemispherical reflectance"``. Never a transmittance, an absorbance or an
+        emission: readers refuse those.
+    instrument
+        Geometry that the reading is computed with, one of `core.instruments.REGISTRY`; the nearest
+        one where the file's own is not among them, and a note says so.
+    geometry
+        Geometry in the words of the file.
+    aperture
+        In the words of the file, with its unit.
+    specular
+        ``"SCI"`` or ``"SCE"`` where a sphere's file says whether specular light is in the reading.
+    sigma_degrees
+        Roughness, or None where the file does not say.
+    sigma_source
+        Where the roughness comes from.
+    source
+        Citation, or the path of the file.
+    license
+        Terms of the data, an SPDX identifier where there is one.
+    position
+        Place in the file, such as ``"line 5"``.
+    device
+        The instrument's model.
+    condition
+        Measurement condition of ISO 13655, ``"M0"`` to ``"M3"``.
+    illuminant, observer
+        Of the file's own colorimetry; the observer is 2 or 10 (degrees).
+    lab
+        The file's own CIE L*, a*, b*.
+    xyz
+        The file's own tristimulus values, scaled so that the perfect white diffuser has Y = 1.
+    notes
+        Sentences that the reader wants the user to see.
+    altered
+        Sentences that say what is not as the file has it, such as ``"Two scans were averaged."``.
+
+    Raises
+    ------
+    InputError
+        The spectrum cannot be used (see `check_spectrum`), or a field holds what no file of ours
+        could keep.
+    """
+
+    name: str
+    wavelengths: NDArray[np.float64]
+    values: NDArray[np.float64]
+    kind: Kind
+    quantity: str = "reflectance factor"
+    instrument: str = "45a:0"
+    geometry: str = ""
+    aperture: str = ""
+    specular: str = ""
+    sigma_degrees: float | None = None
+    sigma_source: str = ""
+    source: str = ""
+    license: str = ""
+    position: str = ""
+    device: str = ""
+    condition: str = ""
+    illuminant: str = ""
+    observer: int | None = None
+    lab: tuple[float, float, float] | None = None
+    xyz: tuple[float, float, float] | None = None
+    notes: tuple[str, ...] = ()
+    altered: tuple[str, ...] = ()
+
+    @property
+    def reflectance(self) -> NDArray[np.float64]:
+        """The values to compute with, shape (bands,): noise below 0 counts as 0.
+
+        An albedo above 1 counts as 1. `judgement` says so of every sample that it happens to.
+        """
+        return np.clip(self.values, 0.0, 1.0 if self.kind == "albedo" else None)
+
+    def __post_init__(self) -> None:
+        where = ", ".join(part for part in (self.source or self.name, self.position) if part)
+        if self.kind not in KINDS:
+            raise InputError(f"{where}: kind is {self.kind!r}; make it 'reading' or 'albedo'.")
+        if self.instrument not in REGISTRY:
+            raise InputError(
+                f"{where}: the instrument {self.instrument!r} is not known; make it one of: "
+                f"{', '.join(REGISTRY)}."
+            )
+        wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
+        object.__setattr__(self, "wavelengths", wavelengths)
+        object.__setattr__(self, "values", values)
+        self._check_statements(where)
+
+    def _check_statements(self, where: str) -> None:
+        """Turn numbers into Python's own and sequences into tuples, as they are read back."""
+        if not set(map(type, _texts_of(self))) <= {str}:
+            for name in _TEXTS:
+                if not isinstance(getattr(self, name), str):
+                    raise InputError(f"{where}: the field {name!r} is no text; make it one.")
+        for name in ("notes", "altered"):
+            if getattr(self, name) != ():
+                object.__setattr__(self, name, _sentences(where, name, getattr(self, name)))
+        for name in ("lab", "xyz"):
+            given = getattr(self, name)
+            if given is not None:
+                object.__setattr__(self, name, _finite(where, name, given, 3))
+        if self.sigma_degrees is not None:
+            [sigma] = _finite(where, "sigma_degrees", (self.sigma_degrees,), 1)
+            object.__setattr__(self, "sigma_degrees", sigma)
+        if self.observer is not None:
+            [observer] = _finite(where, "observer", (self.observer,), 1)
+            if not observer.is_integer():
+                raise InputError(f"{where}: the observer is {observer:g}; make it 2 or 10.")
+            object.__setattr__(self, "observer", int(observer))
+
+
+_TEXTS = (
+    *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
+    *("license", "position", "device", "condition", "illuminant"),
+)
+_texts_of = attrgetter(*_TEXTS)
+
+
+def check_spectrum(
+    wavelengths: ArrayLike,
+    values: ArrayLike,
+    where: str,
+    place: Callable[[int], str] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the spectrum as read-only float64 arrays, or say why it cannot be one.
+
+    Parameters
+    ----------
+    wavelengths
+        Nanometers, shape ``(bands,)``.
+    values
+        Fractions, shape ``(bands,)``.
+    where
+        File and place, as the sentence begins.
+    place
+        Names the place of band `i` in the file, such as ``"line 7"``; the default counts bands.
+
+    Raises
+    ------
+    InputError
+        Fewer than two bands; a wavelength or a value that is NaN or infinite; wavelengths that
+        decrease, repeat or cannot be nanometers; a visible value below `DEEPEST_NOISE` or above
+        `BRIGHTEST`.
+    """
+    place = place or (lambda band: f"band {band + 1}")
+    nm = _read_only(wavelengths)
+    fractions = _read_only(values)
+    if nm.ndim != 1 or nm.shape != fractions.shape:
+        raise InputError(
+            f"{where}: {nm.size} wavelengths stand against {fractions.size} values; "
+            "give one value a wavelength."
+        )
+    if nm.size < 2:
+        count = "only one band" if nm.size else "no band"
+        raise InputError(f"{where}: the spectrum has {count}; export at least two wavelengths.")
+    # Comparisons are written so that NaN fails them; the order check covers NaN between the ends.
+    if not (nm[0] >= SHORTEST_NM and nm[-1] <= LONGEST_NM and (nm[1:] > nm[:-1]).all()):
+        raise InputError(f"{where}: {_fault_of_wavelengths(nm, place)}.")
+    if not (fractions.min() >= 0.0 and fractions.max() <= 1.0):
+        fault = _fault_of_values(nm, fractions, place)
+        if fault:
+            raise InputError(f"{where}: {fault}.")
+    return nm, fractions
+
+
+def _finite(where: str, name: str, given: Sequence[float], count: int) -> tuple[float, ...]:
+    try:
+        numbers = tuple(map(float, given))
+    except (TypeError, ValueError, OverflowError):
+        numbers = ()
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        what = "a number" if count == 1 else f"{count} numbers"
+        raise InputError(f"{where}: the field {name!r} must be {what}; correct it or leave it out.")
+    return numbers
+
+
+def _sentences(where: str, name: str, given: Sequence[str]) -> tuple[str, ...]:
+    if isinstance(given, str) or not all(isinstance(sentence, str) for sentence in given):
+        raise InputError(f"{where}: the field {name!r} must be a sequence of texts; make it one.")
+    return tuple(given)
+
+
+def _read_only(numbers: ArrayLike) -> NDArray[np.float64]:
+    array = np.asarray(numbers, dtype=np.float64)
+    if array.flags.writeable:
+        array = array.copy()
+        array.flags.writeable = False
+    return array
+
+
+def _fault_of_wavelengths(nm: NDArray[np.float64], place: Callable[[int], str]) -> str:
+    bad = np.flatnonzero(~np.isfinite(nm))
+    if bad.size:
+        band = int(bad[0])
+        return (
+            f"the wavelength at {place(band)} is {_number(nm[band])}; "
+            "give each band its wavelength in nm"
+        )
+    steps = np.flatnonzero(nm[1:] <= nm[:-1])
+    if steps.size:
+        band = int(steps[0])
+        first, second = _number(nm[band]), _number(nm[band + 1])
+        if nm[band] == nm[band + 1]:
+            return (
+                f"the wavelength {first} nm stands twice, at {place(band)} and at "
+                f"{place(band + 1)}; keep one of the two"
+            )
+        return (
+            f"the wavelength {second} nm at {place(band + 1)} follows {first} nm at {place(band)}; "
+            "sort the bands by increasing wavelength"
+        )
+    if nm[-1] < SHORTEST_NM and nm[0] > 0.0:
+        return (
+            f"the wavelengths, {_number(nm[0])} to {_number(nm[-1])}, look like micrometers; "
+            "give them in nanometers, or state the unit µm where the format has a place for it"
+        )
+    band = 0 if nm[0] < SHORTEST_NM else nm.size - 1
+    return (
+        f"{_number(nm[band])} at {place(band)} cannot be a wavelength in nm; "
+        "give wavelengths in nanometers"
+    )
+
+
+def _fault_of_values(
+    nm: NDArray[np.float64], fractions: NDArray[np.float64], place: Callable[[int], str]
+) -> str:
+    """Say what makes the values no reflectance, or nothing."""
+
+    def at(band: int) -> str:
+        return f"the value at {_number(nm[band])} nm, {place(band)}, is {_number(fractions[band])}"
+
+    bad = np.flatnonzero(~np.isfinite(fractions))
+    if bad.size:
+        return f"{at(int(bad[0]))}; measure again or leave the sample out"
+    visible = (nm >= VISIBLE_NM[0]) & (nm <= VISIBLE_NM[1])
+    bad = np.flatnonzero(visible & (fractions < DEEPEST_NOISE))
+    if bad.size:
+        return (
+            f"{at(int(bad[0]))}, more below 0 than noise can be; reflectance starts at 0, so "
+            "correct it or measure again"
+        )
+    bad = np.flatnonzero(visible & (fractions > BRIGHTEST))
+    if bad.size:
+        return (
+            f"{at(int(bad[0]))}, more than {BRIGHTEST:g} times white; if the values are percent, "
+            "let the column name or the file's unit option say so, and otherwise correct it"
+        )
+    return ""
+
+
+def _number(value: float) -> str:
+    return f"{float(value):.12g}".replace("nan", "NaN").replace("inf", "infinite")

@@ -1,0 +1,21 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instruments: from where they light a surface and from where they look at it.
+
+geometries   one record an instrument; needs no numpy
+quadrature   directions and weights of each
+curves       what each model says of an instrument, over σ
+"""
+
+from .geometries import (
+    APERTURE,
+    HEMISPHERE,
+    NORMAL,
+    REGISTRY,
+    TRAP,
+    Beam,
+    Instrument,
+    find,
+)
+
+__all__ = ["APERTURE", "HEMISPHERE", "NORMAL", "REGISTRY", "TRAP", "Beam", "Instrument", "find"]
