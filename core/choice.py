@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from .limits import TOLERANCE
+
 SHADERS = ("lambert", "rough")
 """Blender's materials: the Diffuse BSDF with roughness 0 and with the matched one."""
 
@@ -43,7 +45,7 @@ class Choice:
 def choose_shader(
     errors_lambert: npt.ArrayLike,
     errors_rough: npt.ArrayLike,
-    tolerance: float = 1.0,
+    tolerance: float = TOLERANCE,
 ) -> Choice:
     """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
 

@@ -18,6 +18,7 @@ from . import models
 from .choice import SHADERS, Choice, cheapest, choose_shader
 from .color.color_difference import delta_e, xyz_to_lab
 from .errors import DomainError
+from .limits import TOLERANCE
 from .models.surface_colors import Surface
 from .numerics.arrays import Array, spectrum
 from .vcavity import tabulated
@@ -83,7 +84,7 @@ def choose_model(
     sigma: npt.ArrayLike,
     geometries: Sequence[npt.ArrayLike],
     lights: Sequence[npt.ArrayLike],
-    tolerance: npt.ArrayLike = 1.0,
+    tolerance: npt.ArrayLike = TOLERANCE,
 ) -> list[Choice]:
     """Choose for each material the cheapest rung that is good enough in its scene.
 

@@ -9,13 +9,11 @@ from dataclasses import dataclass, replace
 from math import radians
 from pathlib import Path
 
+from ...core import limits
 from ...core.errors import InputError
 from ..samples import presets, readers
 from ..samples.sample import Sample
 from . import catalogs
-
-STEEPEST = 90.0
-"""Degrees; σ has to stay below."""
 
 CHOSEN = "Chosen for the asset library, not measured."
 
@@ -138,8 +136,7 @@ def assets(
         Nothing was chosen, σ is out of range, or a sample without σ has to keep its own.
     """
     for degrees in sigma_degrees:
-        if not 0 <= degrees < STEEPEST:
-            msg = f"σ is {degrees:g}°; give 0 or more, and less than {STEEPEST:g}."
+        if msg := limits.sigma_fault(degrees):
             raise InputError(msg)
     made: list[Asset] = []
     taken: set[str] = set()

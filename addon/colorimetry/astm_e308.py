@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...core.limits import E308_NM
 from ...core.numerics.arrays import Array
 from ..support.colour_science import colour
 
@@ -22,8 +23,6 @@ ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3"
 OBSERVERS = (2, 10)
 """CIE 1931 (2°) and CIE 1964 (10°)."""
 
-VISIBLE_NM = (360.0, 780.0)
-"""ASTM E308's range."""
 TABLED_STEPS = (5, 10)
 """Nanometers. At 20 nm the first and last weights follow another rule."""
 FILE = Path(__file__).with_name("e308_weights.npy")
@@ -45,7 +44,7 @@ def weights(wavelengths: Array, illuminant: str, observer: int) -> Array:
         One of `ILLUMINANTS` and of `OBSERVERS`.
     """
     matrix = np.zeros((wavelengths.size, 3))
-    visible = (wavelengths >= VISIBLE_NM[0]) & (wavelengths <= VISIBLE_NM[1])
+    visible = (wavelengths >= E308_NM[0]) & (wavelengths <= E308_NM[1])
     seen = wavelengths[visible]
     step = round(float(wavelengths[1] - wavelengths[0]))
     if step in TABLED_STEPS:
@@ -79,7 +78,7 @@ def integration(wavelengths: Array, illuminant: str, observer: int) -> Array:
 
 def whole(step: int) -> Array:
     """Bands of the whole visible range, nanometers."""
-    return np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 1, step)
+    return np.arange(E308_NM[0], E308_NM[1] + 1, step)
 
 
 def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
@@ -87,7 +86,7 @@ def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
     start = sum(whole(finer).size for finer in TABLED_STEPS if finer < step)
     lights = _file()[OBSERVERS.index(observer), ILLUMINANTS.index(illuminant)]
     full = lights[start : start + whole(step).size]
-    first = round((float(seen[0]) - VISIBLE_NM[0]) / step)
+    first = round((float(seen[0]) - E308_NM[0]) / step)
     end = first + seen.size
     found = full[first:end].copy()
     found[0] += full[:first].sum(axis=0)

@@ -16,11 +16,12 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from ...core.limits import E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
 from ..support.colour_science import colour
 
-GRID = np.arange(360.0, 781.0, 5.0)
+GRID = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
 """Nanometers at which spectra of lights are held."""
 
 NEAR_WHITE = 0.01
@@ -32,7 +33,7 @@ DAYLIGHT_FROM = 5000.0
 
 _SECOND_RADIATION = 1.438776877e7
 """Planck's second constant, nm·K (CODATA 2018)."""
-_FINE = np.arange(360.0, 781.0)
+_FINE = np.arange(E308_NM[0], E308_NM[1] + 1)
 _TEMPERATURES = 1e6 / np.linspace(1e6 / 25000, 1e6 / 1500, 1200)
 """Kelvin, even in mired, where eyes see even steps."""
 _STEPS, _NEWTON_STEPS, _LARGEST_STEP = 12, 12, 3.0

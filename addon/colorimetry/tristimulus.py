@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from ...core.color import color_difference
 from ...core.errors import DomainError
+from ...core.limits import COLOR_NM, E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
 from . import astm_e308
@@ -24,7 +25,6 @@ from . import astm_e308
 ILLUMINANTS = astm_e308.ILLUMINANTS
 OBSERVERS = astm_e308.OBSERVERS
 
-_VISIBLE = astm_e308.VISIBLE_NM
 _E308_STEPS = (5, 10, 20)
 """Intervals in nanometers for which ASTM E308 gives weights; at 1 nm it is the plain sum."""
 _LARGEST_HELD_SHARE = 0.1
@@ -67,7 +67,7 @@ def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int
     if held > _LARGEST_HELD_SHARE:
         msg = (
             f"The bands from {measured[0]:g} to {measured[-1]:g} nm leave {held:.0%} of the color "
-            "unmeasured; a color needs about 400 to 700 nm."
+            f"unmeasured; a color needs about {COLOR_NM[0]:g} to {COLOR_NM[1]:g} nm."
         )
         raise DomainError(msg)
     return _weights(bands, illuminant, observer)
@@ -76,14 +76,15 @@ def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int
 @lru_cache(maxsize=32)
 def white(illuminant: str = "D65", observer: int = 2) -> Array:
     """XYZ of the perfect white diffuser, Y = 1, from the 5 nm weights. Shape (3,), read-only."""
-    found = np.asarray(weights(np.arange(360.0, 781.0, 5.0), illuminant, observer).sum(axis=0))
+    full = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
+    found = np.asarray(weights(full, illuminant, observer).sum(axis=0))
     found.setflags(write=False)
     return found
 
 
 def held_share(wavelengths: npt.ArrayLike, illuminant: str = "D65", observer: int = 2) -> float:
     """Tell how much of X, Y or Z, whichever is largest, lies outside the measured range."""
-    full = np.arange(_VISIBLE[0], _VISIBLE[1] + 1, 5.0)
+    full = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
     share = _weights(tuple(full.tolist()), _known_illuminant(illuminant), observer)
     outside = ~wavelength_grid.covered(wavelengths, full)
     # The nearest full band stands for half a step beyond the last measured one.
@@ -125,7 +126,7 @@ def _weights_of_grid(measured: Array, illuminant: str, observer: int) -> Array:
     close = np.allclose(measured, nominal, rtol=0, atol=1e-3)
     if step is not None and close and _is_e308_step(step) and nominal[0] % round(step) == 0:
         return astm_e308.weights(nominal, illuminant, observer)
-    fine = np.arange(_VISIBLE[0], _VISIBLE[1] + 1)
+    fine = np.arange(E308_NM[0], E308_NM[1] + 1)
     units = np.eye(measured.size)
     to_fine = wavelength_grid.resample(units, measured, fine, method="cubic", ends="hold")
     return np.asarray(to_fine @ astm_e308.integration(fine, illuminant, observer))

@@ -14,6 +14,7 @@ from typing import Any, cast
 
 import bpy
 
+from ...core import limits
 from ...core.errors import InputError, MaterialError
 from ..matching.request import Request
 from ..material import preferences, selection
@@ -221,8 +222,8 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> R
 
 
 def _request(row: Row, degrees: float, options: argparse.Namespace) -> Request:
-    if not 0 <= degrees <= 90:
-        msg = f"Material {row.material!r}: σ is {degrees:g}°; give 0 to 90 degrees."
+    if fault := limits.sigma_fault(degrees):
+        msg = f"Material {row.material!r}: {fault}"
         raise InputError(msg)
     sample = row.sample if options.kind is None else replace(row.sample, kind=options.kind)
     return Request(

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from ...core.errors import DomainError
+from ...core.limits import TOLERANCE
 from ..samples.sample import Sample
 from .scene_view import SceneView
 
@@ -16,9 +17,6 @@ VIRTUAL = "45a:0"
 
 AUTO = "auto"
 """Model of a request that leaves the choice to `target.choose`."""
-
-TOLERANCE = 1.0
-"""Largest ΔE00 from the reference that a model may have to be chosen."""
 
 
 @dataclass(frozen=True)

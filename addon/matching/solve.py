@@ -25,7 +25,6 @@ from ..samples import quality
 from . import scene_match, surface_spectra
 from .request import (
     AUTO,
-    TOLERANCE,
     VIRTUAL,
     Request,
 )
@@ -40,7 +39,6 @@ __all__ = [
     "AUTO",
     "CHOICE_GEOMETRIES",
     "MATCH_GEOMETRIES",
-    "TOLERANCE",
     "VIRTUAL",
     "Request",
     "choose",

@@ -10,14 +10,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...core import instruments, reading
+from ...core import instruments, limits, reading
 from ...core.errors import DomainError
 from ...core.numerics.arrays import Array
 from ..samples.sample import Sample
 from .request import VIRTUAL, Request
-
-_LARGEST = 90.0
-"""Degrees: σ goes no further."""
 
 
 def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
@@ -144,5 +141,5 @@ def naming(sample: Sample) -> Iterator[None]:
 
 @lru_cache(maxsize=64)
 def _white(model: str, instrument: str) -> tuple[Array, Array]:
-    degrees = np.linspace(0, _LARGEST, 361)
+    degrees = np.linspace(0, limits.LARGEST_SIGMA_DEGREES, 361)
     return degrees, reading.white_reading(np.radians(degrees), model, instrument)

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import bpy
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 
+from ...core.limits import TOLERANCE, TOLERANCES
 from .properties import ILLUMINANT_ITEMS, OBSERVER_ITEMS
 
 PACKAGE = (__package__ or "").rpartition(".addon.")[0]
@@ -35,7 +36,7 @@ class Defaults(NamedTuple):
 
     illuminant: str = "D65"
     observer: int = 2
-    tolerance: float = 1.0
+    tolerance: float = TOLERANCE
     library_folder: str = ""
 
 
@@ -58,10 +59,10 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
             "Largest color difference from the reference that Auto accepts for the sake of a "
             "simpler model, in newly assigned materials"
         ),
-        default=1.0,
-        min=0.05,
+        default=TOLERANCE,
+        min=TOLERANCES[0],
         soft_max=5.0,
-        max=20.0,
+        max=TOLERANCES[1],
         precision=2,
     )
     library_folder: StringProperty(

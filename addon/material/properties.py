@@ -8,8 +8,6 @@ would change measured values. `storage` reads and writes all of this.
 
 from __future__ import annotations
 
-from math import pi
-
 from bpy.props import (
     BoolProperty,
     EnumProperty,
@@ -20,7 +18,7 @@ from bpy.props import (
 )
 from bpy.types import Material, PropertyGroup
 
-from ...core import models
+from ...core import limits, models
 from ...core.instruments import REGISTRY
 from . import changes
 
@@ -105,7 +103,7 @@ class RoughSpectraMaterial(PropertyGroup):
         precision=1,
         step=100,
         min=0.0,
-        max=pi / 2,
+        max=limits.LARGEST_SIGMA,
         update=changes.on_setting,
     )
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
@@ -131,10 +129,10 @@ class RoughSpectraMaterial(PropertyGroup):
     tolerance: FloatProperty(
         name="Tolerance",
         description="Largest color difference, ΔE00, that Auto accepts for a simpler model",
-        default=1.0,
-        min=0.05,
+        default=limits.TOLERANCE,
+        min=limits.TOLERANCES[0],
         soft_max=5.0,
-        max=20.0,
+        max=limits.TOLERANCES[1],
         precision=2,
         update=changes.on_setting,
     )

@@ -19,8 +19,8 @@ import bpy
 from ..blender import shader_nodes
 from ..blender.working_space import working_space_name
 
-_USUAL_TOLERANCE = 1.0
-"""ΔE00; that of all materials before it could be set."""
+_FIRST_TOLERANCE = 1.0
+"""ΔE00; that of all materials before it could be set: it must never change."""
 
 _FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
@@ -175,7 +175,7 @@ def digest(found: Inputs) -> str:
     )
     if found.scene_view:
         told += (found.scene_view, engine_words(found.flat))
-    if found.tolerance != _USUAL_TOLERANCE:
+    if found.tolerance != _FIRST_TOLERANCE:
         told += (f"{found.tolerance}",)  # so that older stamps stay valid
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
 

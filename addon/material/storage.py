@@ -14,6 +14,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+from ...core import limits
 from ...core.errors import InputError, MaterialError, RoughSpectraError
 from ..blender import shader_nodes, working_space
 from ..colorimetry import tristimulus
@@ -222,7 +223,7 @@ def _refuse_damaged(material: Any) -> None:
             )
             raise MaterialError(msg)
     for label, value, lowest, highest in (
-        ("σ", snapshot.sigma_degrees(group), 0.0, 90.0),
+        ("σ", snapshot.sigma_degrees(group), 0.0, limits.LARGEST_SIGMA_DEGREES),
         ("The tolerance", tolerance(group), 0.0, math.inf),
     ):
         if not math.isfinite(value):

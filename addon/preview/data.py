@@ -20,7 +20,7 @@ from ..matching.request import VIRTUAL, Request
 from ..material import settled
 from ..material.snapshot import Facts
 from .drawing.raster import Color
-from .figures import LIGHT_ANGLE, STEEPEST, VISIBLE_NM
+from .figures import LIGHT_ANGLE, SHOWN_NM, STEEPEST
 
 VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
 """Degrees in the plane of incidence, negative on the side of the light."""
@@ -42,7 +42,7 @@ _OUTSIDE = 0.002
 """How far display-encoded values may leave 0 to 1 before a color counts as outside of the gamut:
 half of what the screen resolves."""
 
-_GRID = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 1, 5.0)
+_GRID = np.arange(SHOWN_NM[0], SHOWN_NM[1] + 1, 5.0)
 _LEAST_WEIGHT = 0.02
 """Share of a channel's largest weight from where on its bar begins."""
 
@@ -196,7 +196,7 @@ def _spans(key: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
     """First and last wavelength where blue, green and red weigh most."""
     space = WorkingSpace("", matrix_of(key))
     weights = space.rgb_weights(_GRID, illuminant)
-    fine = np.arange(VISIBLE_NM[0], VISIBLE_NM[1] + 0.5)
+    fine = np.arange(SHOWN_NM[0], SHOWN_NM[1] + 0.5)
     shares = np.stack([np.interp(fine, _GRID, weights[:, i]) for i in range(3)])
     found = []
     for channel in (2, 1, 0):

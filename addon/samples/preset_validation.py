@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...core.errors import InputError
+from ...core.limits import COLOR_NM
 from . import quality
 from .readers import open_document
 from .readers.formats import preset
 from .readers.parts import preset_fields
-
-COVERED_NM = (400.0, 700.0)
-"""What the spectrum of a preset has to cover: without it the color is a guess."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +49,10 @@ def validate(path: Path) -> Verdict:
     except InputError as error:
         return Verdict((*faults, str(error)), ())
     first, last = sample.wavelengths[0], sample.wavelengths[-1]
-    if first > COVERED_NM[0] or last < COVERED_NM[1]:
+    if first > COLOR_NM[0] or last < COLOR_NM[1]:
         sentence = (
-            f"it covers {first:g} to {last:g} nm, but a color needs {COVERED_NM[0]:g} to "
-            f"{COVERED_NM[1]:g} nm; measure the whole range"
+            f"it covers {first:g} to {last:g} nm, but a color needs {COLOR_NM[0]:g} to "
+            f"{COLOR_NM[1]:g} nm; measure the whole range"
         )
         faults.append(str(document.error("field 'wavelengths'", sentence)))
     remarks = () if faults else quality.judge_each([sample])[0]

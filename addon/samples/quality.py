@@ -18,9 +18,10 @@ import numpy.typing as npt
 
 from ...core.color import color_difference
 from ...core.errors import DomainError
+from ...core.limits import COLOR_NM, EYE_NM
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
-from .sample import VISIBLE_NM, Sample
+from .sample import Sample
 
 DISAGREEMENT = 0.5
 """ΔE00 above which a file contradicts itself: fifty times what rounding and interpolation do."""
@@ -28,9 +29,6 @@ DISAGREEMENT = 0.5
 UV_EFFECT = 0.01
 """Difference between M0, M1 and M2 above which it is fluorescence and not repeatability, which is
 a tenth of it."""
-
-COLOR_NM = (400.0, 700.0)
-"""The range that a color needs."""
 
 WIDEST_STEP = 20.0
 """Nanometers; the widest step for which ASTM E308 has weights."""
@@ -166,7 +164,7 @@ def _beyond_white(nm: Array, values: Array, is_albedo: npt.NDArray[np.bool_]) ->
             f"has an albedo of {values[i, peak]:.6g} at {nm[peak]:g} nm, and no facet returns "
             "more light than reaches it; it is kept, and counts as 1 in computing.",
         )
-    seen = _within(nm, VISIBLE_NM)
+    seen = _within(nm, EYE_NM)
     if not seen.any():
         return
     peaks = np.where(seen, values, -np.inf).argmax(axis=1)
@@ -197,7 +195,7 @@ def _saturation(nm: Array, values: Array) -> _Found:
     A smooth curve p - kx² whose values are rounded to a last digit q can be level over three bands
     while k ≤ q, and then falls by at most 4 q beside them. Only a steeper edge is a cut.
     """
-    seen = np.flatnonzero(_within(nm, VISIBLE_NM))
+    seen = np.flatnonzero(_within(nm, EYE_NM))
     top = values[:, seen].max(axis=1, initial=-np.inf)
     for i in np.flatnonzero(top >= 1):
         level = values[i, seen] == top[i]
@@ -253,7 +251,9 @@ def _range(nm: Array) -> Iterator[str]:
     if nm[0] <= COLOR_NM[0] + _END_TOLERANCE and nm[-1] >= COLOR_NM[1] - _END_TOLERANCE:
         return
     held = tristimulus.held_share(nm)
-    covers = f"covers {nm[0]:g} to {nm[-1]:g} nm and not all of 400 to 700 nm"
+    covers = (
+        f"covers {nm[0]:g} to {nm[-1]:g} nm and not all of {COLOR_NM[0]:g} to {COLOR_NM[1]:g} nm"
+    )
     if held > _LEFT_OUT:
         yield (
             f"{covers}, which leaves {held:.0%} of its color unmeasured: no material can be made "
@@ -288,7 +288,7 @@ def _plain_name(sample: Sample) -> str:
 def _largest_difference(one: Sample, two: Sample) -> tuple[float, float]:
     """Wavelength and size of the largest difference in the visible range that both cover."""
     nm = one.wavelengths
-    seen = _within(nm, VISIBLE_NM) & _within(nm, (two.wavelengths[0], two.wavelengths[-1]))
+    seen = _within(nm, EYE_NM) & _within(nm, (two.wavelengths[0], two.wavelengths[-1]))
     if not seen.any():
         return 0.0, 0.0
     other = np.interp(nm[seen], two.wavelengths, two.values)

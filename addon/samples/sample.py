@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import InputError
 from ...core.instruments import REGISTRY
+from ...core.limits import EYE_NM
 
 Kind = Literal["reading", "albedo"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -30,10 +31,9 @@ KINDS: tuple[str, ...] = get_args(Kind)
 SHORTEST_NM = 20.0
 LONGEST_NM = 1e6  # 1 mm: the far end of the infrared
 
-VISIBLE_NM = (380.0, 780.0)
-"""Where the limits below hold. Outside, detectors end in noise of any size, which no color sees."""
 DEEPEST_NOISE = -0.05
-"""A reading below this is not noise around black."""
+"""A reading below this is not noise around black. It holds where the eye sees, as do the limits
+below: outside, detectors end in noise of any size, which no color sees."""
 BRIGHTEST = 4.0
 """A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3."""
 
@@ -290,7 +290,7 @@ def _fault_of_values(
     bad = np.flatnonzero(~np.isfinite(fractions))
     if bad.size:
         return f"{at(int(bad[0]))}; measure again or leave the sample out"
-    visible = (nm >= VISIBLE_NM[0]) & (nm <= VISIBLE_NM[1])
+    visible = (nm >= EYE_NM[0]) & (nm <= EYE_NM[1])
     bad = np.flatnonzero(visible & (fractions < DEEPEST_NOISE))
     if bad.size:
         return (

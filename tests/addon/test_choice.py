@@ -13,7 +13,7 @@ from rough_spectra.addon.instrument import bake
 from rough_spectra.addon.matching import solve
 from rough_spectra.addon.material import derivation, derive
 from rough_spectra.addon.samples import presets
-from rough_spectra.core import ladder
+from rough_spectra.core import ladder, limits
 
 
 def assigned(degrees, model=solve.AUTO):
@@ -37,7 +37,7 @@ def test_smooth_material_is_lambertian_and_rough_one_is_matched():
     _, smooth = assigned(1)
     assert smooth.roughness == 0
     assert smooth.shader_reason.startswith("lambert")
-    assert smooth.delta_e_mean == smooth.delta_e_lambert < solve.TOLERANCE
+    assert smooth.delta_e_mean == smooth.delta_e_lambert < limits.TOLERANCE
     _, rough = assigned(45)
     assert rough.roughness > 0.3
     assert rough.delta_e_mean < rough.delta_e_lambert / 2

@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -88,7 +89,7 @@ def imports(root: Path) -> list[Import]:
     modules = files(root)
     found: list[Import] = []
     for module, path in modules.items():
-        tree = ast.parse((root / path).read_text(encoding="utf-8"))
+        tree = _parsed((root / path).read_text(encoding="utf-8"))
         package = module if path.endswith("__init__.py") else module.rpartition(".")[0]
         aliases: dict[str, str] = {}
         for node in ast.walk(tree):
@@ -109,6 +110,12 @@ def imports(root: Path) -> list[Import]:
                 if source is not None:
                     found.append(Import(path, node.lineno, source, node.attr))
     return found
+
+
+@lru_cache(maxsize=1024)
+def _parsed(text: str) -> ast.Module:
+    """Parse once what a broken copy and the house have in common."""
+    return ast.parse(text)
 
 
 def _base(node: ast.ImportFrom, package: str) -> str:

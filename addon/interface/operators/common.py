@@ -15,6 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
 from ....core.errors import MaterialError, RoughSpectraError
+from ....core.limits import LARGEST_SIGMA
 from ...material.properties import SHADER_ITEMS
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ class AssignOptions:
         precision=1,
         step=100,
         min=0.0,
-        max=1.5707963,
+        max=LARGEST_SIGMA,
     )
     shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
     scope: EnumProperty(name="For", description="Materials that get it", items=SCOPE_ITEMS)

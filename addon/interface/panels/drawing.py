@@ -8,6 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
+from ....core import limits
 from ...material import derivation, last_measurement, settled
 from ...preview import icons
 from ..operators import common
@@ -18,7 +19,6 @@ from .redraw import current
 _SWATCH_UNITS = 5.0
 _LABELS = 0.4
 """Share of the width that Blender gives to the names of properties."""
-_LARGEST_SIGMA = 90.0
 _NARROWEST = 200.0
 """Pixels at UI scale 1 that numbers need beside the swatches; else they go below."""
 
@@ -72,7 +72,7 @@ def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:
     split = layout.split(factor=_LABELS)
     split.label(text="")
     words = iface_("Fits up to {degrees}°").format(degrees=f"{last.sigma_max:.1f}")
-    split.progress(text=words, factor=last.sigma_max / _LARGEST_SIGMA, type="BAR")
+    split.progress(text=words, factor=last.sigma_max / limits.LARGEST_SIGMA_DEGREES, type="BAR")
 
 
 def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:

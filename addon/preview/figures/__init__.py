@@ -16,15 +16,14 @@ from .angles import (
     angles_polar,
     polar_place,
 )
-from .sigma_range import LARGEST_SIGMA, sigma_range
-from .spectrum import VISIBLE_NM, spectrum, spectrum_axes
+from .sigma_range import sigma_range
+from .spectrum import SHOWN_NM, spectrum, spectrum_axes
 from .swatches import swatch, swatch_pair, swatches
 
 __all__ = [
-    "LARGEST_SIGMA",
     "LIGHT_ANGLE",
+    "SHOWN_NM",
     "STEEPEST",
-    "VISIBLE_NM",
     "angles",
     "angles_axes",
     "angles_polar",

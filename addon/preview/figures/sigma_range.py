@@ -8,13 +8,12 @@ from functools import lru_cache
 
 import numpy as np
 
+from ....core.limits import LARGEST_SIGMA_DEGREES as MOST
 from ....core.numerics.arrays import Array
 from ..drawing import raster, text
 from ..drawing.looks import Look, readable
 from . import plot
 from .plot import Size
-
-LARGEST_SIGMA = 90.0
 
 
 def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look) -> None:
@@ -29,7 +28,7 @@ def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look
         Degrees; None where every σ fits.
     """
     size = canvas.shape[1], canvas.shape[0]
-    limit = LARGEST_SIGMA if sigma_max is None else min(max(sigma_max, 0.0), LARGEST_SIGMA)
+    limit = MOST if sigma_max is None else min(max(sigma_max, 0.0), MOST)
     canvas[:] = _range_ground(limit, size, look)
     _, top, _, bottom = _range_box(_limit_said(limit), size, look)
     fits = sigma <= limit + 1e-6
@@ -40,7 +39,7 @@ def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look
 
 
 def _limit_said(limit: float) -> str:
-    return f"fits up to {limit:.1f}°" if limit < LARGEST_SIGMA else "every σ fits"
+    return f"fits up to {limit:.1f}°" if limit < MOST else "every σ fits"
 
 
 def _range_box(said: str, size: Size, look: Look) -> tuple[int, int, int, int]:
@@ -55,7 +54,7 @@ def _range_box(said: str, size: Size, look: Look) -> tuple[int, int, int, int]:
 def _range_place(degrees: float, size: Size, look: Look) -> float:
     """Place a σ along the bar."""
     left, _, right, _ = _range_box("", size, look)
-    return left + (right - left) * min(max(degrees, 0.0), LARGEST_SIGMA) / LARGEST_SIGMA
+    return left + (right - left) * min(max(degrees, 0.0), MOST) / MOST
 
 
 @lru_cache(maxsize=16)
@@ -65,7 +64,7 @@ def _range_ground(limit: float, size: Size, look: Look) -> Array:
     box = left, top, right, bottom = _range_box(said, size, look)
     end = _range_place(limit, size, look)
     raster.rectangle(canvas, box, look.grid)
-    if limit < LARGEST_SIGMA:
+    if limit < MOST:
         _hatch(canvas, (int(end), top, right, bottom), look)
     raster.rectangle(canvas, (left, top, end, bottom), look.target)
     if bottom + 1 < size[1]:

@@ -18,7 +18,7 @@ from ..drawing.looks import Look
 from . import plot
 from .plot import Axes, Key, Size
 
-VISIBLE_NM = (380.0, 730.0)
+SHOWN_NM = (380.0, 730.0)
 """Wavelengths shown; the eye sees next to nothing beyond."""
 _NM_TICKS = (400, 500, 600, 700)
 _BAND = 5.0
@@ -28,7 +28,7 @@ _BAND = 5.0
 def spectrum_axes(size: Size, look: Look, peak: float) -> Axes:
     """Where `spectrum` draws."""
     below = math.ceil((_BAND + 5) * look.scale + text.height(look.font))
-    return plot.axes_of(size, look, VISIBLE_NM, plot.ceiling(peak), below)
+    return plot.axes_of(size, look, SHOWN_NM, plot.ceiling(peak), below)
 
 
 def spectrum(
@@ -54,7 +54,7 @@ def spectrum(
     -------
     The curves, which are not drawn yet.
     """
-    shown = (wavelengths > VISIBLE_NM[0] - 50) & (wavelengths < VISIBLE_NM[1] + 50)
+    shown = (wavelengths > SHOWN_NM[0] - 50) & (wavelengths < SHOWN_NM[1] + 50)
     peak = max(*(float(c[shown].max(initial=0)) for c in (albedo, reading)), *(b[2] for b in bars))
     size = canvas.shape[1], canvas.shape[0]
     axes = spectrum_axes(size, look, peak)

@@ -15,13 +15,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from .....core.instruments import REGISTRY
+from .....core.limits import LARGEST_SIGMA_DEGREES
 from ...sample import KINDS
 from .document import quote
 
 FORMAT = "rough-spectra-preset"
 SCHEMA = 1
 
-_SIGMA_LIMIT = 90.0  # degrees: a facet cannot be steeper on average than a wall
 _ID = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*/[a-z0-9]+(-[a-z0-9]+)*")
 
 
@@ -101,7 +101,7 @@ def _numbers(count: int | None = None, required: bool = False) -> Rule:
 
 
 def _is_sigma(value: Any) -> bool:
-    return value is None or (is_number(value) and 0 <= value <= _SIGMA_LIMIT)
+    return value is None or (is_number(value) and 0 <= value <= LARGEST_SIGMA_DEGREES)
 
 
 def _is_texts(value: Any) -> bool:
@@ -137,7 +137,9 @@ RULES: dict[str, Rule] = {
     "kind": _rule(lambda value: value in KINDS, "must be 'reading' or 'albedo'", required=True),
     "instrument": _choice(tuple(REGISTRY), required=True),
     "sigma_degrees": _rule(
-        _is_sigma, f"must be a number from 0 to {_SIGMA_LIMIT:.0f}, or null if nobody knows", True
+        _is_sigma,
+        f"must be a number from 0 to {LARGEST_SIGMA_DEGREES:.0f}, or null if nobody knows",
+        True,
     ),
     "sigma_source": _text(required=True),
     "quantity": _text(),

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Limits and defaults that formulas, files and the interface share; each is stated here alone.
+
+Blender reads this at its start: nothing here may import numpy.
+"""
+
+import math
+
+LARGEST_SIGMA_DEGREES = 90.0
+"""Largest roughness σ, degrees, that forms, files and menus take: the formulas go no further."""
+
+LARGEST_SIGMA = math.radians(LARGEST_SIGMA_DEGREES)
+"""The same in radians."""
+
+TOLERANCE = 1.0
+"""Largest color difference from the reference, ΔE00, that a simpler model may have, unless the user
+sets another."""
+
+TOLERANCES = (0.05, 20.0)
+"""Smallest and largest tolerance that can be set, ΔE00."""
+
+E308_NM = (360.0, 780.0)
+"""First and last wavelength of the weights of ASTM E308."""
+
+EYE_NM = (380.0, 780.0)
+"""Wavelengths that the eye sees, as the CIE tabulates its daylight."""
+
+COLOR_NM = (400.0, 700.0)
+"""Wavelengths that have to be measured: without them the color of a sample is a guess."""
+
+
+def sigma_fault(degrees: float) -> str:
+    """Say what is wrong with a roughness σ in degrees, as the end of a sentence; empty if nothing.
+
+    Examples
+    --------
+    >>> sigma_fault(30.0)
+    ''
+    >>> sigma_fault(95.0)
+    'σ is 95°; give 0 to 90 degrees.'
+    """
+    if 0 <= degrees <= LARGEST_SIGMA_DEGREES:
+        return ""
+    return f"σ is {degrees:g}°; give 0 to {LARGEST_SIGMA_DEGREES:g} degrees."
