@@ -345,4 +345,9 @@ def report(folder: Path, done: int, total: int) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[-1]))
+    try:
+        main(Path(sys.argv[-1]))
+    finally:
+        # Were drivers with Python in them still there when Python has ended, the bpy module of
+        # 4.5 would wait for it for ever.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
