@@ -179,7 +179,7 @@ def test_a_name_that_no_json_can_keep_is_refused_and_nothing_changed(tmp_path):
 def test_a_collection_larger_than_what_is_read_is_refused(tmp_path, monkeypatch):
     library.add([sample("a")], "mine", tmp_path)
     before = files(tmp_path)
-    monkeypatch.setattr(library_files, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(library_files, "LARGEST", 1000)
     with pytest.raises(InputError, match="add them to another collection"):
         library.add([sample("b", 0.5)], "mine", tmp_path)
     assert files(tmp_path) == before
