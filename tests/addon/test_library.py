@@ -514,7 +514,6 @@ import numpy as np
 from rough_spectra.addon.samples import library
 from rough_spectra.addon.support import atomic_files as outputs
 from rough_spectra.addon.samples.sample import Sample
-from rough_spectra.core import color_difference
 NM = np.arange(400.0, 701.0, 10.0)
 folder = Path({str(folder)!r})
 def add(name, level):
