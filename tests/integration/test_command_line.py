@@ -81,7 +81,9 @@ def test_dev_py_runs_a_verb_and_passes_its_exit_status_on(environment, tmp_path)
 
     done = dev("merge", "none.json", "--output", "x")
     assert done.returncode == 2
-    assert done.stderr.splitlines()[-1].startswith("rough_spectra merge: none.json cannot be read")
+    assert done.stderr.splitlines()[-1].startswith(
+        "rough_spectra merge: none.json: there is no such file"
+    )
     assert dev("bake", "--help").returncode == 0
 
 
