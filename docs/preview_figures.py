@@ -46,7 +46,7 @@ def numbers(name, degrees, model, green=None):
     import numpy as np
     from rough_spectra.addon.blender import working_space
     from rough_spectra.addon.matching import solve
-    from rough_spectra.addon.preview import data
+    from rough_spectra.addon.preview.figures import data
     from rough_spectra.addon.samples import readers
 
     [sample] = readers.read(PRESETS / f"{name}.json")

@@ -195,10 +195,9 @@ def dragging(material: Any, model: str, what: str = "", scales: Sequence[int] = 
         pictures(material, scale)
 
         def drag(sigma: float) -> None:
-            material.rough_spectra.sigma = sigma
             for picture in icons._pictures.values():
                 picture.drawn = time.monotonic()
-            icons.refresh(material)
+            material.rough_spectra.sigma = sigma
 
         times = [timed(partial(drag, 0.1 + 1.3 * i / STEPS)) for i in range(STEPS)]
         row(f"drag σ, {what}{model}, scale {scale}", times[1:])

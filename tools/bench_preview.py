@@ -38,9 +38,10 @@ def main() -> None:
     from rough_spectra.addon.blender import shader_nodes, working_space
     from rough_spectra.addon.matching import solve
     from rough_spectra.addon.material import changes, derive, snapshot
-    from rough_spectra.addon.preview import data, icons, theme
+    from rough_spectra.addon.preview import icons, theme
+    from rough_spectra.addon.preview.data import collect
     from rough_spectra.addon.preview.drawing import looks
-    from rough_spectra.addon.preview.figures import compose
+    from rough_spectra.addon.preview.figures import compose, data
     from rough_spectra.addon.samples import readers
 
     material = bpy.data.materials.new("Bench")
@@ -55,14 +56,14 @@ def main() -> None:
         with changes.paused():
             material.rough_spectra.sigma = sigma
         shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = sigma / 2
-        return data.collect(material, space)
+        return collect(material, space)
 
     preview = icons._previews().new("bench")
     seen = theme.current(bpy.context.preferences)
     print(
         f"Blender {bpy.app.version_string}, numpy {np.__version__}, {REPEATS} runs: least (median)"
     )
-    row("numbers of all figures", lambda: data.collect(material, space))
+    row("numbers of all figures", lambda: collect(material, space))
     for model in ("two-bounce", "reference"):
         request = solve.Request(sample, 0.5, model=model)
         color = np.array((0.1, 0.3, 0.1))

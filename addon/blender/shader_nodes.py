@@ -201,6 +201,15 @@ def surface(material: Any) -> Surface | None:
     )
 
 
+def written(before: Surface, color: Sequence[float], roughness: float) -> Surface:
+    """Give what a surface shows after `write` set the node that it comes from.
+
+    `before` is what it showed, with nothing in use that `write` would set to 0.
+    """
+    red, green, blue, rough = array("f", (*color, roughness))  # sockets are single precision
+    return before._replace(color=(red, green, blue), roughness=rough)
+
+
 def comparable(value: float) -> float:
     """Give NaN as `math.nan` itself: no other is equal to itself in a tuple."""
     return math.nan if math.isnan(value) else value
@@ -449,14 +458,11 @@ def _make(place: Place) -> Any:
     else:
         node = tree.nodes.new(place.make)
         x, y = output.location
-        node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
-    node = tree.nodes.new(place.make)
-    x, y = output.location
-    at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
-    locations = array("f", bytes(8 * len(tree.nodes)))
-    tree.nodes.foreach_get("location", locations)
-    locations[-2:] = array("f", at)  # the newest comes last
-    tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
+        at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
+        locations = array("f", bytes(8 * len(tree.nodes)))
+        tree.nodes.foreach_get("location", locations)
+        locations[-2:] = array("f", at)  # the newest comes last
+        tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
     if before is not None:
         before[_SET_ASIDE] = before.name

@@ -10,15 +10,58 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..support.events import Event
+
+if TYPE_CHECKING:
+    from ..colorimetry.rgb_space import WorkingSpace
+    from ..matching.request import Request
+    from ..matching.solution import Solution
+    from .snapshot import Facts
+
+
+class Solved(NamedTuple):
+    """What a setting led to.
+
+    Parameters
+    ----------
+    request
+        With a settled model.
+    solution
+        What was written for it.
+    space
+        The working space that its color is in.
+    """
+
+    request: Request
+    solution: Solution
+    space: WorkingSpace
+
+
+class Derived(NamedTuple):
+    """A material that followed a setting, for whoever would else load and solve it again.
+
+    Parameters
+    ----------
+    material
+        The `bpy.types.Material`.
+    known
+        Its facts as they are now.
+    solved
+        None where nothing could be derived; the material then says why.
+    """
+
+    material: Any
+    known: Facts
+    solved: Solved | None
+
 
 setting_changed = Event()
 """Announced with the material, one with a spectrum, whose setting was changed."""
 
 derived = Event()
-"""Announced with the material whose color and roughness followed a setting at once."""
+"""Announced, as `Derived`, when a setting was followed at once."""
 
 _pauses: list[None] = []
 

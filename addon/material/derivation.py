@@ -7,6 +7,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections import OrderedDict
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -16,6 +17,9 @@ from .snapshot import Inputs
 DERIVATION = 1
 """Raise when the same spectrum and settings come to give another color, beyond rounding; materials
 derived before are then stale."""
+
+_KEPT = 2048
+"""Stamps whose texts need no reading; one has about 2 kB."""
 
 
 class Stamp(NamedTuple):
@@ -124,9 +128,42 @@ _TEXTS = (
 )
 
 
-@lru_cache(maxsize=2048)
+def to_text(stamp: Stamp) -> str:
+    """Write a stamp as it is stored; `parse` then knows the text without reading it."""
+    data = stamp._asdict() | {"settings": dict(stamp.settings)}
+    text = json.dumps(data)
+    if all(map(math.isfinite, _numbers(stamp))):  # else nobody could read it
+        _keep(text, stamp)
+    return text
+
+
 def parse(text: str) -> Stamp | None:
     """Read a stored stamp; None where it cannot be read."""
+    if text in _known:
+        _known.move_to_end(text)
+    else:
+        _keep(text, _read(text))
+    return _known[text]
+
+
+_known: OrderedDict[str, Stamp | None] = OrderedDict()
+"""Stamps by their texts, those used last: who drags a slider writes one a step, and reads it."""
+
+
+def _numbers(stamp: Stamp) -> list[float]:
+    found = [*stamp.color, *(getattr(stamp, name) for name in _NUMBERS)]
+    found += [apart for _, apart in stamp.delta_e_lights]
+    return found if stamp.sigma_max is None else [*found, stamp.sigma_max]
+
+
+def _keep(text: str, stamp: Stamp | None) -> None:
+    _known[text] = stamp
+    _known.move_to_end(text)
+    if len(_known) > _KEPT:
+        _known.popitem(last=False)
+
+
+def _read(text: str) -> Stamp | None:
     try:
         data = json.loads(text)
         # What a newer version noted besides is left out; it raises `SCHEMA` where that matters.

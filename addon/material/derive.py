@@ -5,15 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ...core.errors import MaterialError, RoughSpectraError
 from ..blender import shader_nodes, working_space
+from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import storage
+from . import snapshot, storage
+from .changes import Derived, Solved
+from .snapshot import Facts
 
 
 def assign(
@@ -47,7 +51,8 @@ def assign(
     for (place, request), solution in zip(work, solutions, strict=True):
         node = _write(place, solution)
         storage.store(place.material, request, shader)
-        storage.set_stamp(place.material, solution, space, node)
+        inputs = snapshot.inputs(place.material.rough_spectra)
+        storage.set_stamp(place.material, solution, space.name, node, inputs)
     return solutions
 
 
@@ -77,7 +82,8 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
     for (place, request), solution in zip(requests, solutions, strict=True):
         node = _write(place, solution)
         storage.store(place.material, request, place.material.rough_spectra.shader)
-        storage.set_stamp(place.material, solution, space, node)
+        inputs = snapshot.inputs(place.material.rough_spectra)
+        storage.set_stamp(place.material, solution, space.name, node, inputs)
     return solutions
 
 
@@ -119,11 +125,39 @@ def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
             follow([pair])
 
 
+def follow_setting(material: Any, known: Facts) -> Derived:
+    """Do the same for one material whose setting was changed, and give what was found.
+
+    Parameters
+    ----------
+    material
+        A `bpy.types.Material` that follows: see `state.follows`.
+    known
+        Its facts since the change.
+    """
+    try:
+        place, request = _stored(material, material)
+        space, [solution] = _solve([(place, request)])
+    except RoughSpectraError as error:
+        material.rough_spectra.error = str(error)
+        return Derived(material, snapshot.of(material), None)
+    node = _write(place, solution)
+    text = storage.set_stamp(material, solution, space.name, node, known.inputs)
+    if place.make or known.surface is None:
+        known = snapshot.of(material)
+    else:
+        surface = shader_nodes.written(known.surface, solution.color, solution.roughness)
+        known = known._replace(stamp=text, error="", surface=surface)
+    request = replace(request, model=solution.model)
+    return Derived(material, known, Solved(request, solution, space))
+
+
 def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
     work = [_stored(material, source) for material, source in pairs]
     space, solutions = _solve(work)
     for (place, _), solution, (_, source) in zip(work, solutions, pairs, strict=True):
-        storage.set_stamp(place.material, solution, space, _write(place, solution), source)
+        inputs = snapshot.inputs(source.rough_spectra)
+        storage.set_stamp(place.material, solution, space.name, _write(place, solution), inputs)
     return solutions
 
 
@@ -134,8 +168,10 @@ def _stored(
     return shader_nodes.find(material, source.rough_spectra.shader), request
 
 
-def _solve(work: Sequence[tuple[shader_nodes.Place, Request]]) -> tuple[str, list[Solution]]:
-    """Match every request; gives the name of the working space too."""
+def _solve(
+    work: Sequence[tuple[shader_nodes.Place, Request]],
+) -> tuple[WorkingSpace, list[Solution]]:
+    """Match every request; gives the working space too."""
     seen = set()
     for place, _ in work:
         if place.material in seen:
@@ -143,7 +179,7 @@ def _solve(work: Sequence[tuple[shader_nodes.Place, Request]]) -> tuple[str, lis
             raise MaterialError(msg)
         seen.add(place.material)
     space = working_space.current()
-    return space.name, solve.solve([request for _, request in work], space)
+    return space, solve.solve([request for _, request in work], space)
 
 
 def _write(place: shader_nodes.Place, solution: Solution) -> str:

@@ -22,14 +22,15 @@ _PATH = "rough_spectra."
 
 def _on_setting(material: Any) -> None:
     """Derive color and roughness again after a setting was changed."""
-    from . import state
+    from . import snapshot, state
 
-    if state.follows(material):
+    known = snapshot.of(material)
+    if state.follows(known):
         from . import derive
 
         with changes.paused():
-            derive.follow([(material, material)])
-        changes.derived.announce(material)
+            done = derive.follow_setting(material, known)
+        changes.derived.announce(done)
 
 
 def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
@@ -54,7 +55,7 @@ def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
         last = derivation.get_stamp(material)
         if last is None or last.inputs == derivation.inputs_digest(evaluated.rough_spectra):
             continue
-        if state.follows(material):
+        if state.follows(snapshot.of(material)):
             found.append((material, evaluated))
     return found
 

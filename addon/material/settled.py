@@ -190,9 +190,19 @@ def differences(
     told = numbers(found, flat)
     if told is not None:
         return told
+    return predicted(of(material, found).request, shader(material, found), space, flat)
+
+
+def predicted(
+    request: Request, shown: tuple[Array, float], space: WorkingSpace, flat: bool
+) -> Differences:
+    """Compare color and roughness with the target of a request with a settled model.
+
+    Other parameters as in `differences`.
+    """
     from ..matching import assess, surface_spectra
 
-    request, (color, roughness) = of(material, found).request, shader(material, found)
+    color, roughness = shown
     [read], [albedo] = surface_spectra.readings_and_albedos([request])
     what = color, 0.0 if flat else roughness
     return assess.differences(request, (read, albedo), what, space)

@@ -87,12 +87,11 @@ def stale_reasons(material: Any, working_space: str) -> list[str]:
     return _stale_reasons(snapshot.of(material)._replace(working_space=working_space))
 
 
-def follows(material: Any) -> bool:
+def follows(found: Facts) -> bool:
     """Whether the surface shows what was derived, so that it may be derived again unasked.
 
     Settings may have changed; edits by hand, kept or not, must not be overwritten.
     """
-    found = snapshot.of(material)
     stamp = parse(found.stamp)
     return (
         stamp is not None

@@ -25,9 +25,10 @@ from ..matching.solve import Request
 from ..samples.sample import Sample
 from ..support.version import version
 from . import changes, snapshot
-from .derivation import DERIVATION, get_stamp, settings
+from .derivation import DERIVATION, Stamp, get_stamp, settings, to_text
 from .properties import SCHEMA
 from .snapshot import (
+    Inputs,
     elsewhere,
     engine_is_flat,
     has_scene,
@@ -236,32 +237,35 @@ def _refuse_damaged(material: Any) -> None:
 
 
 def set_stamp(
-    material: Any, solution: Solution, working_space: str, node: str, source: Any | None = None
-) -> None:
-    """Note what was derived and from what; `source` is the evaluated material, if it was that."""
-    inputs = snapshot.inputs((source or material).rough_spectra)
-    stamp = {
-        "inputs": snapshot.digest(inputs),
-        "settings": settings(inputs),
-        "working_space": working_space,
-        "node": node,
-        "color": solution.color.tolist(),
-        "roughness": solution.roughness,
-        "model": solution.model,
-        "model_reason": solution.model_reason,
-        "shader_reason": solution.shader_reason,
-        "delta_e_instrument": solution.delta_e_instrument,
-        "delta_e_mean": solution.delta_e_mean,
-        "delta_e_95": solution.delta_e_95,
-        "sigma_max": solution.sigma_max,
-        "warnings": list(solution.warnings),
-        "delta_e_lights": solution.delta_e_lights,
-        "scene_reason": solution.scene_reason,
-        "version": version(),
-        "derivation": DERIVATION,
-    }
-    material.rough_spectra.stamp = json.dumps(stamp)
+    material: Any, solution: Solution, working_space: str, node: str, inputs: Inputs
+) -> str:
+    """Note what was derived and from which spectrum and settings; gives the text of the stamp."""
+    red, green, blue = solution.color.tolist()
+    text = to_text(
+        Stamp(
+            inputs=snapshot.digest(inputs),
+            settings=tuple(settings(inputs).items()),
+            working_space=working_space,
+            node=node,
+            color=(red, green, blue),
+            roughness=solution.roughness,
+            model=solution.model,
+            model_reason=solution.model_reason,
+            shader_reason=solution.shader_reason,
+            delta_e_instrument=solution.delta_e_instrument,
+            delta_e_mean=solution.delta_e_mean,
+            delta_e_95=solution.delta_e_95,
+            sigma_max=solution.sigma_max,
+            warnings=solution.warnings,
+            delta_e_lights=solution.delta_e_lights,
+            scene_reason=solution.scene_reason,
+            version=version(),
+            derivation=DERIVATION,
+        )
+    )
+    material.rough_spectra.stamp = text
     material.rough_spectra.error = ""
+    return text
 
 
 def keep(material: Any) -> None:
@@ -272,7 +276,8 @@ def keep(material: Any) -> None:
     MaterialError
         If nothing was derived from a spectrum yet, or the material is linked.
     """
-    if get_stamp(material) is None:
+    last = get_stamp(material)
+    if last is None:
         msg = f"Material {material.name!r} has nothing derived from a spectrum yet; renew it."
         raise MaterialError(msg)
     group, place = material.rough_spectra, elsewhere(material)
@@ -281,13 +286,12 @@ def keep(material: Any) -> None:
         raise MaterialError(msg)
     _refuse_newer(material)
     inputs = snapshot.inputs(group)
-    group.stamp = json.dumps(
-        json.loads(group.stamp)
-        | {
-            "inputs": snapshot.digest(inputs),
-            "settings": settings(inputs),
-            "working_space": working_space.working_space_name(),
-            "kept": shown(shader_nodes.surface(material)),
-        }
+    group.stamp = to_text(
+        last._replace(
+            inputs=snapshot.digest(inputs),
+            settings=tuple(settings(inputs).items()),
+            working_space=working_space.working_space_name(),
+            kept=shown(shader_nodes.surface(material)),
+        )
     )
     group.error = ""

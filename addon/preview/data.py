@@ -1,95 +1,22 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the figures of a material show: the target from its spectrum, Blender from its node."""
+"""What the pictures of a material show, read from it or taken from who has just derived it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from ...core import cycles, reading
-from ...core.numerics.arrays import Array
-from ..colorimetry import srgb, tristimulus
-from ..colorimetry.rgb_space import WorkingSpace, matrix_of
-from ..matching import scene_match, surface_spectra
-from ..matching.assess import in_directions, under_main_light
-from ..matching.request import VIRTUAL, Request
+from ..colorimetry.rgb_space import WorkingSpace
 from ..material import settled
+from ..material.changes import Derived, Solved
 from ..material.snapshot import Facts
-from .drawing.raster import Color
-from .figures import LIGHT_ANGLE, SHOWN_NM, STEEPEST
+from .figures import data
+from .figures.data import Data
 
-VIEW_ANGLES = np.linspace(-STEEPEST, STEEPEST, 65)
-"""Degrees in the plane of incidence, negative on the side of the light."""
-
-_VIEW = np.radians(np.abs(VIEW_ANGLES))
-_DIRECTIONS = (
-    np.full(_VIEW.shape, np.radians(LIGHT_ANGLE)),
-    _VIEW,
-    np.where(VIEW_ANGLES < 0, 0.0, np.pi),
-)
-"""Polar angles of light and view, and the azimuth between them, radians."""
-_ALL_DIRECTIONS = tuple(
-    np.append(angles, at)
-    for angles, at in zip(_DIRECTIONS, reading.INSTRUMENT_ANGLES[VIRTUAL], strict=True)
-)
-"""The instrument's comes last."""
-
-_OUTSIDE = 0.002
-"""How far display-encoded values may leave 0 to 1 before a color counts as outside of the gamut:
-half of what the screen resolves."""
-
-_GRID = np.arange(SHOWN_NM[0], SHOWN_NM[1] + 1, 5.0)
-_LEAST_WEIGHT = 0.02
-"""Share of a channel's largest weight from where on its bar begins."""
-
-
-@dataclass(frozen=True, eq=False)
-class Patch:
-    """A color as the screen shows it: display-encoded sRGB, and whether that had to be clipped."""
-
-    color: Color
-    outside: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Data:
-    """Numbers of all figures of one material.
-
-    Parameters
-    ----------
-    target, blender
-        Colors of the reading: wanted, and in Blender.
-    wavelengths, albedo, reading
-        Nanometers and fractions, shape (bands,); the reading is the virtual instrument's.
-    bars
-        First and last wavelength, and value, of Blender's blue, green and red.
-    view
-        `VIEW_ANGLES`.
-    target_curve, blender_curve, lambert
-        Luminance factors there, shape (angles,), and the Lambertian one.
-    sigma, sigma_max
-        Degrees; None where every σ fits the reading.
-    engine
-        What draws for Blender.
-    """
-
-    target: Patch
-    blender: Patch
-    wavelengths: Array
-    albedo: Array
-    reading: Array
-    bars: tuple[tuple[float, float, float], ...]
-    view: Array
-    target_curve: Array
-    blender_curve: Array
-    lambert: float
-    sigma: float
-    sigma_max: float | None
-    engine: str
+if TYPE_CHECKING:
+    from ...core.numerics.arrays import Array
+    from ..matching.assess import Differences
+    from ..matching.request import Request
 
 
 def collect(
@@ -115,97 +42,25 @@ def collect(
     DomainError
         If the spectrum does not cover the visible range.
     """
-    color, roughness = settled.shader(material, known)
-    request = settled.of(material, known).request
-    rough, engine = (0.0, "Eevee") if flat else (roughness, "Cycles")
-    return of_request(request, color, rough, space, engine)
+    shader = settled.shader(material, known)
+    return _shown(settled.of(material, known).request, shader, space, flat)
 
 
-def of_request(
-    request: Request, color: Array, roughness: float, space: WorkingSpace, engine: str = "Cycles"
-) -> Data:
-    """Compute the same from a request with a settled model, and what the shader node shows."""
-    sample, light = request.sample, request.illuminant
-    bands = sample.wavelengths
-    weights = space.rgb_weights(bands, light)
-    luminance = tristimulus.weights(bands, light)[:, 1]
-    seen, rho = spectra_of(request)
-    shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
-    shown, at_instrument = shown[:-1], shown[-1]
-    target, blender = seen @ weights, at_instrument
-    curve = space.to_xyz(shown, light)[:, 1]
-    if request.scene is not None:
-        main = request.scene.lights[0]
-        target, blender = under_main_light(request.scene, seen, bands, blender, space)
-        luminance = main.weights(bands)[:, 1]
-        curve = scene_match.to_xyz(shown, main, space)[:, 1]
-    return Data(
-        target=patch(target, space),
-        blender=patch(blender, space),
-        wavelengths=bands,
-        albedo=rho,
-        reading=seen,
-        bars=rgb_bars(at_instrument, space, light),
-        view=VIEW_ANGLES,
-        target_curve=np.maximum(in_directions(request, rho, _DIRECTIONS) @ luminance, 0),
-        blender_curve=curve,
-        lambert=float(seen @ luminance),
-        sigma=float(np.degrees(request.sigma)),
-        sigma_max=surface_spectra.sigma_max(request),
-        engine=engine,
-    )
+def of_derived(done: Derived, solved: Solved) -> tuple[Data, Differences]:
+    """Give the same of a material that was just derived, and its ΔE00, without reading it again.
 
-
-def patch(rgb: Array, space: WorkingSpace) -> Patch:
-    """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
-    linear = _to_screen(space.key) @ rgb
-    encoded = srgb.encode(linear)
-    shown = np.clip(encoded, 0, 1)
-    red, green, blue = shown.tolist()
-    return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
-
-
-@lru_cache(maxsize=16)
-def _to_screen(key: bytes) -> Array:
-    """Matrix from scene-linear RGB to linear sRGB."""
-    return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
-
-
-def rgb_bars(
-    rgb: Array, space: WorkingSpace, illuminant: str
-) -> tuple[tuple[float, float, float], ...]:
-    """Place the three numbers of a color over wavelength.
-
-    Each stands over the wavelengths that its channel weighs more than the other two. No spectrum
-    belongs to three numbers; for a gray one all three have its reflectance.
+    `settled.differences` would tell the same ΔE00.
     """
-    spans = _spans(space.key, illuminant)
-    return tuple(
-        (start, end, float(value)) for (start, end), value in zip(spans, rgb[::-1], strict=True)
-    )
+    request, solution, space = solved
+    flat = done.known.flat
+    shader = settled.shader(done.material, done.known)
+    apart = solution.delta_e_instrument, solution.delta_e_mean, solution.delta_e_95
+    if flat and request.scene is None:  # what was matched is for an engine that knows roughness
+        apart = settled.predicted(request, shader, space, flat)
+    return _shown(request, shader, space, flat), apart
 
 
-def spectra_of(request: Request) -> tuple[Array, Array]:
-    """Give reading at the virtual instrument and albedo, each (bands,), as `target` matches."""
-    [seen], [rho] = surface_spectra.readings_and_albedos([request])
-    return seen, rho
-
-
-@lru_cache(maxsize=16)
-def _spans(key: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
-    """First and last wavelength where blue, green and red weigh most."""
-    space = WorkingSpace("", matrix_of(key))
-    weights = space.rgb_weights(_GRID, illuminant)
-    fine = np.arange(SHOWN_NM[0], SHOWN_NM[1] + 0.5)
-    shares = np.stack([np.interp(fine, _GRID, weights[:, i]) for i in range(3)])
-    found = []
-    for channel in (2, 1, 0):
-        own = shares[channel]
-        ahead = (np.argmax(shares, axis=0) == channel) & (own > _LEAST_WEIGHT * own.max())
-        peak = int(np.argmax(own))
-        before = np.flatnonzero(~ahead[:peak])
-        after = np.flatnonzero(~ahead[peak:])
-        start = fine[before[-1] + 1] if before.size else fine[0]
-        end = fine[peak + after[0] - 1] if after.size else fine[-1]
-        found.append((float(start), float(end)))
-    return tuple(found)
+def _shown(request: Request, shader: tuple[Array, float], space: WorkingSpace, flat: bool) -> Data:
+    color, roughness = shader
+    rough, engine = (0.0, "Eevee") if flat else (roughness, "Cycles")
+    return data.of_request(request, color, rough, space, engine)

@@ -3,9 +3,9 @@
 """Pictures of materials as icons that a panel draws with `layout.template_icon`.
 
 A panel asks for an icon and gets at once what there is: drawing never computes. What is missing or
-out of date is made in a timer, right after drawing, and the editors are drawn again. Whoever
-changes a material while the user watches, such as a slider, calls `refresh` to have it in the same
-redraw.
+out of date is made in a timer, right after drawing, and the editors are drawn again. What follows
+a slider is announced (`changes.derived`), and pictured in the same redraw; whoever else changes a
+material while the user watches calls `refresh`.
 
 Blender draws such an icon in a square: `template_icon(icon, scale=units)` takes as many widget
 heights, less a border of 0.3, and scales the picture into the rest, letterboxed. A picture of
@@ -152,15 +152,27 @@ def differences(uid: int, basis: Basis) -> tuple[float, float, float] | None:
 
 def refresh(material: Any) -> None:
     """Make the visible pictures of a material again, now; not to be called while drawing."""
+    wishes = _visible(material)
+    if wishes:
+        _make(material, wishes)
+        redraw()
+
+
+def _on_derived(done: changes.Derived) -> None:
+    """Make the visible pictures of a material that followed a setting, of what was found then."""
+    wishes = _visible(done.material)
+    if wishes:
+        _make(done.material, wishes, done)
+        redraw()
+
+
+def _visible(material: Any) -> list[_Wish]:
     uid, now = material.session_uid, time.monotonic()
-    wishes = [
+    return [
         wish
         for wish, picture in _pictures.items()
         if wish.material == uid and now - picture.drawn < _WATCHED
     ]
-    if wishes:
-        _make(material, wishes)
-        redraw()
 
 
 def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
@@ -204,7 +216,7 @@ def clear() -> None:
     if _collection is not None:
         previews.remove(_collection)
         _collection = None
-        changes.derived.unsubscribe(refresh)
+        changes.derived.unsubscribe(_on_derived)
         events.unregistering.unsubscribe(clear)
 
 
@@ -213,7 +225,7 @@ def _previews() -> Any:
     if _collection is None:
         _collection = previews.new()
         # From the first picture on: before, there is nothing to draw anew, nor to forget.
-        changes.derived.subscribe(refresh)
+        changes.derived.subscribe(_on_derived)
         events.unregistering.subscribe(clear)
     return _collection
 
@@ -236,18 +248,23 @@ def _work() -> float | None:
     return None
 
 
-def _make(material: Any, wishes: Sequence[_Wish]) -> None:
+def _make(material: Any, wishes: Sequence[_Wish], done: changes.Derived | None = None) -> None:
+    """Make pictures of a material, of what was derived from it just before or of what it stores."""
     from ..blender import working_space
     from ..material import settled
     from . import data
     from .figures import compose
 
-    found, look = snapshot.of(material), theme.current(bpy.context.preferences)
+    found = snapshot.of(material) if done is None else done.known
+    look = theme.current(bpy.context.preferences)
     basis = (found, look)
     try:
-        space = working_space.current()
-        shown = data.collect(material, space, found.flat, found)
-        apart = settled.differences(material, space, found.flat, found)
+        if done is not None and done.solved is not None:
+            shown, apart = data.of_derived(done, done.solved)
+        else:
+            space = working_space.current()
+            shown = data.collect(material, space, found.flat, found)
+            apart = settled.differences(material, space, found.flat, found)
     except RoughSpectraError:
         # The panel says what is wrong with the material; there is nothing to picture.
         for wish in wishes:

@@ -10,14 +10,15 @@ from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import perceptibility
 from rough_spectra.addon.matching import solve, surface_spectra
 from rough_spectra.addon.material import derive
-from rough_spectra.addon.preview import data, figures
+from rough_spectra.addon.preview import figures
+from rough_spectra.addon.preview.data import collect
 from rough_spectra.addon.preview.drawing import (
     lines,
     looks,
     raster,
     text,
 )
-from rough_spectra.addon.preview.figures import compose, plot
+from rough_spectra.addon.preview.figures import compose, data, plot
 from rough_spectra.core import reading
 from rough_spectra.core.color import color_difference
 
@@ -233,7 +234,7 @@ def test_data_of_a_material_is_what_the_solver_matched(make_material, green):
     request = solve.Request(sample, np.radians(28))
     [solution] = derive.assign([(material, request)])
     space = working_space.current()
-    found = data.collect(material, space)
+    found = collect(material, space)
     settled = replace(request, model=solution.model)
     np.testing.assert_allclose(found.reading, solve.target_reading(settled))
     np.testing.assert_allclose(
@@ -255,7 +256,7 @@ def test_a_hand_edited_node_shows_as_it_is(make_material, green):
     node = next(n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse")
     node.inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
     node.inputs["Roughness"].default_value = 0
-    found = data.collect(material, working_space.current())
+    found = collect(material, working_space.current())
     # Half of the light of a linear space, encoded by sRGB's curve.
     np.testing.assert_allclose(found.blender.color, 1.055 * 0.5 ** (1 / 2.4) - 0.055, atol=1e-4)
     assert found.target.color != found.blender.color

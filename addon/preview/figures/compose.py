@@ -13,9 +13,9 @@ from .. import figures
 from ..drawing import lines
 
 if TYPE_CHECKING:
-    from ..data import Data
     from ..drawing.lines import Line
     from ..drawing.looks import Look
+    from .data import Data
 
 _STRIP = 28.0
 """Height of the range of σ in a sheet, at scale 1."""
