@@ -288,7 +288,14 @@ def _ladder() -> dict[str, Method]:
 
         label = "Lambert" if model == "lambert" else model
         timed = 64 if model == "reference" else None
-        return Method(label, RUNG, angles, ring, about[model], timed=timed)
+        return Method(
+            label,
+            RUNG,
+            angles,
+            ring,
+            about.get(model) or models.find(model).description,
+            timed=timed,
+        )
 
     return {model: rung(model) for model in models.NAMES}
 

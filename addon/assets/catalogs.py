@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...core.errors import InputError
+from ..support import user_files
 
 FILE_NAME = "blender_assets.cats.txt"
 ROOT = "Rough Spectra"
@@ -93,8 +94,9 @@ def merge(path: Path, titles: Iterable[str]) -> Merged:
 def _read(path: Path) -> str:
     if not path.exists():
         return _HEAD
+    data = user_files.read(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = data.decode()
     except UnicodeDecodeError as error:
         msg = f"{path}: it is not UTF-8 text ({error.reason}); repair it, or choose another folder."
         raise InputError(msg) from error

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import os
 from functools import lru_cache
-from pathlib import Path
+
+from ...core.errors import InputError
+from ..support import user_files
 
 _ROLE = "aces_interchange"
 """With this role Blender knows a space's XYZ. Without it takes scene linear for Rec.709."""
@@ -19,8 +21,8 @@ def warning() -> str:
     if not path:
         return ""
     try:
-        text = Path(path).read_text(encoding="utf-8", errors="replace")
-    except OSError:
+        text = user_files.read(path).decode(errors="replace")
+    except InputError:
         return ""
     if _ROLE in text:
         return ""

@@ -218,7 +218,7 @@ def write(place: Place, color: tuple[float, float, float], roughness: float) -> 
     return str(node.name)
 
 
-def _set_sockets(node: Any, values: dict[str, Sequence[float]]) -> None:
+def _set_sockets(node: Any, values: Mapping[str, Sequence[float]]) -> None:
     """Set the first numbers of sockets; all others of the node stay as they are, to the bit.
 
     To each `default_value` that is set Blender looks through all node trees of the file: 0.1 ms

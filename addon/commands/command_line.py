@@ -49,7 +49,9 @@ def main(arguments: Sequence[str]) -> int:
         status = _run(arguments, told)
         sys.stdout.flush()
     except SystemExit as stop:  # argparse printed help or the fault
-        status = stop.code if isinstance(stop.code, int) else _UNUSABLE if stop.code else 0
+        status = stop.code if isinstance(stop.code, int) else 0
+        if isinstance(stop.code, str):
+            status = told.failed(_UNUSABLE, stop.code)
         with contextlib.suppress(BrokenPipeError):
             sys.stdout.flush()
     except KeyboardInterrupt:
@@ -71,9 +73,12 @@ class _Told:
 
     def failed(self, status: int, sentence: str) -> int:
         """Print one line, and give the status back."""
+        from ..support.shown_text import tell
+
         name = f"{NAME} {self.verb}".rstrip()
         with contextlib.suppress(OSError, ValueError):  # closed: there is nobody to tell
-            print(f"{name}: {sentence}", file=sys.stderr, flush=True)
+            tell(f"{name}: {sentence}")
+            sys.stderr.flush()
         return status
 
     def unexpected(self, error: Exception) -> int:

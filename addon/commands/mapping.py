@@ -8,6 +8,7 @@ import argparse
 import csv
 import json
 import math
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -20,6 +21,7 @@ from .. import api
 from ..material import preferences, selection
 from ..samples import library, readers
 from ..samples.sample import KINDS, Kind, Sample
+from ..support import user_files
 
 _FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
 
@@ -107,9 +109,10 @@ def read_mapping(path: Path) -> list[Row]:
     InputError
         Naming file, row and remedy.
     """
+    data = user_files.read(path)
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
         msg = f"{path} cannot be read ({error}); give a CSV or JSON file in UTF-8."
         raise InputError(msg) from error
     is_json = text.lstrip()[:1] in ("[", "{")
@@ -167,7 +170,8 @@ def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    # Not `splitlines`, which would break names at U+0085 and the like.
+    lines = [line for line in re.split("\r\n|[\r\n]", text) if not line.startswith("#")]
     header = lines[0] if lines else ""
     delimiter = max(",;\t", key=header.count)
     table = csv.reader(lines, delimiter=delimiter)

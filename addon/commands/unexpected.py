@@ -26,8 +26,7 @@ def sentence(error: BaseException, doing: str, with_file: bool = True) -> str:
         Whether to write the traceback to a file among the temporary ones, which the sentence names.
     """
     what = " ".join(f"{type(error).__name__}: {error}".split())
-    told = f"Rough Spectra {version()} itself failed ({what.rstrip('.: ')}); nothing is wrong with "
-    told += f"your command. Please report it to {_where()}"
+    told = f"Rough Spectra {version()} itself failed ({what}); please report it to {_where()}"
     path = _write(error, doing) if with_file else None
     return f"{told}, with {path}." if path else f"{told}."
 

@@ -15,7 +15,7 @@ a bake in parts gives what a bake in one go gives. Three things see to that:
 - Every number that a place goes through is exact in single precision. Pixels and samples have
   binary fractions for widths, and the samples lie in the quarter of a larger picture where all
   pixels' coordinates are rounded alike (`FIRST_PIXEL`); see `round_alike` too.
-- Every pixel gets the same random numbers.
+- Rays go where `passes` says, and every pixel gets the same random numbers for all else.
 - No sample lights another, or is a light that Cycles might pick in place of a sun.
 
 What asks for its place in the world is alone in its picture; see `asks_place`. A view from aside
@@ -215,7 +215,7 @@ def build(materials: list[Any]) -> tuple[Any, Any]:
     settings.image_settings.color_mode = "RGBA"
     settings.image_settings.color_depth = "32"
     cycles = scene.cycles
-    cycles.device, cycles.samples = "CPU", 1  # the first ray goes through a pixel's middle
+    cycles.device, cycles.samples = "CPU", 1  # the first ray meets a pixel's middle, to 1/2048
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     # Pixels usually get random numbers of their own; at a distance of 0 all get the same ones.
@@ -345,4 +345,9 @@ def report(folder: Path, done: int, total: int) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[-1]))
+    try:
+        main(Path(sys.argv[-1]))
+    finally:
+        # Were drivers with Python in them still there when Python has ended, the bpy module of
+        # 4.5 would wait for it for ever.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import InputError
+from ..support import user_files
 from ..support.version import version
 
 FORMAT = "rough-spectra-readings"
@@ -170,7 +171,8 @@ def to_json(readings: Readings) -> bytes:
         "largest_delta_e_00": readings.largest_delta_e,
         "readings": [asdict(entry) for entry in readings.entries],
     }
-    return (json.dumps(head, indent=1, ensure_ascii=False) + "\n").encode()
+    text = json.dumps(head, indent=1, ensure_ascii=False) + "\n"
+    return text.encode(errors="backslashreplace")  # half a surrogate pair, as JSON escapes it
 
 
 def from_json(path: Path) -> Readings:
@@ -181,11 +183,9 @@ def from_json(path: Path) -> Readings:
     InputError
         If the file is not such a document.
     """
+    data = user_files.read(path)
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        msg = f"{path} cannot be read ({error.strerror}); check the path."
-        raise InputError(msg) from error
+        document = json.loads(data.decode())
     except (ValueError, RecursionError) as error:
         msg = f"{path} is not JSON ({error}); give a file that bake wrote."
         raise InputError(msg) from error

@@ -20,10 +20,10 @@ from typing import Any
 from ...core.errors import InputError
 from ..support import atomic_files, journal
 from ..support.file_lock import locked
+from ..support.user_files import LARGEST
 from . import presets
 from .readers import Document, open_document
 from .readers.formats import library
-from .readers.parts.document import LARGEST_FILE, quote
 from .sample import Sample
 
 _LONGEST = 80  # characters of a collection's name or an id
@@ -343,10 +343,10 @@ def _checked(path: Path, fields: dict[str, Any]) -> bytes:
         A sample cannot be kept; nothing was written.
     """
     data = _to_bytes(fields)
-    if len(data) > LARGEST_FILE:
+    if len(data) > LARGEST:
         msg = (
             f"{path}: with these samples it would have {len(data) / 2**20:.0f} MB, more than the "
-            f"{LARGEST_FILE // 2**20} MB that are read; add them to another collection."
+            f"{LARGEST // 2**20} MB that are read; add them to another collection."
         )
         raise InputError(msg)
     document = Document(path, data)
@@ -355,8 +355,8 @@ def _checked(path: Path, fields: dict[str, Any]) -> bytes:
     for wanted, found in zip(fields["samples"], read["samples"], strict=True):
         # Fields of others may hold NaN, which is not equal to itself.
         if wanted != found and _dump(wanted) != _dump(found):
-            name = quote(str(wanted.get("name")))
-            msg = f"{path}: the sample {name} does not read back as it is; give it a plain name."
+            name = str(wanted.get("name"))[:_LONGEST]
+            msg = f"{path}: the sample {name!r} does not read back as it is; give it a plain name."
             raise InputError(msg)
     return data
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import IO
 
 from ...core.errors import OutputError
+from .user_files import is_regular
 
 NAME = ".lock"
 """Stays in the folder: if the last user deleted it, the next two could lock different files."""
@@ -41,7 +42,11 @@ def locked(folder: Path, wait: float = _WAIT) -> Iterator[None]:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        handle = (folder / NAME).open("ab")
+        lock = folder / NAME
+        if lock.exists() and not is_regular(lock):
+            msg = f"{lock} is no regular file; remove it, or choose another folder."
+            raise OutputError(msg)
+        handle = lock.open("ab")
     except OSError as error:
         msg = f"{folder} cannot be written ({error.strerror or error}); choose another folder."
         raise OutputError(msg) from error

@@ -87,6 +87,8 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
     of = quadrature.of(instrument)
     # One direction without an axis, because numpy 1.26 computes those in another precision.
     angles = of.angles or (of.theta_i, of.theta_r, of.delta_phi)
-    found = directions(*(np.asarray(angle, dtype) for angle in angles))
-    tilt, spread = (np.asarray((of.weights * each).sum(), dtype) for each in found)
-    return tilt, spread
+    tilt, spread = directions(*(np.asarray(angle, dtype) for angle in angles))
+    if of.angles is not None:
+        return tilt, spread
+    mean_tilt, mean_spread = (of.weights @ each for each in (tilt, spread))
+    return np.asarray(mean_tilt, dtype), np.asarray(mean_spread, dtype)

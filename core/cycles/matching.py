@@ -143,7 +143,7 @@ def match(
             return np.asarray(delta_e(perceive(seen), goal).mean(axis=-1))
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
-    return color_for_reading(r, roughness, instrument), roughness
+    return _color(r, lobe(roughness, *read_at)), roughness
 
 
 def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> Array:

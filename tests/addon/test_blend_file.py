@@ -22,7 +22,7 @@ sys.path.insert(0, {str(TESTS)!r})
 import conftest
 import bpy
 from pathlib import Path
-from rough_spectra.addon import blend_file
+from rough_spectra.addon.blender import blend_file
 from rough_spectra.core.errors import OutputError
 
 folder = Path(sys.argv[1])

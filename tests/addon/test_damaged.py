@@ -19,6 +19,7 @@ from rough_spectra.addon.material import (
     derivation,
     derive,
     last_measurement,
+    settled,
     snapshot,
     state,
     storage,
@@ -201,7 +202,7 @@ def test_no_stored_text_raises_but_what_names_the_material(data, extension):
     last_measurement.get(material)
     style = sentences.Style(Plain(), "", "", "")
     sentences.reasons(found, style)
-    sentences.difference(found, state.numbers(found), style)
+    sentences.difference(found, settled.numbers(found, found.flat), style)
     sentences.source(group.source, group.details, group.sigma_source, style)
     sentences.scene(found, "Scene", style)
     state.follows(material)

@@ -24,7 +24,9 @@ import conftest
 from argparse import Namespace
 from pathlib import Path
 import numpy as np
-from rough_spectra.addon import journal, library, outputs, readings_document, writers
+from rough_spectra.addon.readings import document as readings_document, writers
+from rough_spectra.addon.samples import library
+from rough_spectra.addon.support import atomic_files as outputs, journal
 from rough_spectra.addon.readings.document import Measured, Predicted, Reading, Readings
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.commands.verbs import merge

@@ -179,7 +179,7 @@ def test_a_name_that_no_json_can_keep_is_refused_and_nothing_changed(tmp_path):
 def test_a_collection_larger_than_what_is_read_is_refused(tmp_path, monkeypatch):
     library.add([sample("a")], "mine", tmp_path)
     before = files(tmp_path)
-    monkeypatch.setattr(library_files, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(library_files, "LARGEST", 1000)
     with pytest.raises(InputError, match="add them to another collection"):
         library.add([sample("b", 0.5)], "mine", tmp_path)
     assert files(tmp_path) == before
@@ -514,7 +514,6 @@ import numpy as np
 from rough_spectra.addon.samples import library
 from rough_spectra.addon.support import atomic_files as outputs
 from rough_spectra.addon.samples.sample import Sample
-from rough_spectra.core import color_difference
 NM = np.arange(400.0, 701.0, 10.0)
 folder = Path({str(folder)!r})
 def add(name, level):

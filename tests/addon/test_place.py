@@ -71,7 +71,10 @@ def test_readings_do_not_depend_on_place_or_neighbors(materials):
 
 
 def test_the_whole_square_is_measured_and_nothing_beyond_it(make_material):
-    """A ramp over UV and Generated coordinates reads their mean over 0 to 1."""
+    """A ramp over UV and Generated coordinates reads their mean over 0 to 1.
+
+    Cycles misses the middle of a pixel by 1/2048 of its width, which is a quarter of the square.
+    """
     ramps = []
     for coordinate in ("UV", "Generated"):
         ramps.append(make_material(coordinate))
@@ -80,6 +83,6 @@ def test_the_whole_square_is_measured_and_nothing_beyond_it(make_material):
         source = tree.nodes.new("ShaderNodeTexCoord").outputs[coordinate]
         tree.links.new(source, shader.inputs["Color"])
     mean, spread = np.moveaxis(measure(ramps)[0], 1, 0)
-    np.testing.assert_allclose(mean[:, :2], 0.5, atol=1e-6)
+    np.testing.assert_allclose(mean[:, :2], 0.5, atol=1.5e-4)
     # Pixels are means over a quarter of the square: 1/8, 3/8, 5/8, 7/8.
-    np.testing.assert_allclose(spread[:, :2], np.std([1, 3, 5, 7]) / 8, atol=1e-6)
+    np.testing.assert_allclose(spread[:, :2], np.std([1, 3, 5, 7]) / 8, atol=1.5e-4)

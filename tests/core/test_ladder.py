@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The five models behind one name, and the choice among them against the solver."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -222,3 +224,10 @@ def test_shader(lambert, rough, model, words):
     assert choice.model == model
     assert words in choice.reason
     assert list(choice.errors) == ["lambert", "rough"]
+
+
+def test_the_manual_has_a_row_for_every_rung_in_their_order():
+    page = Path(__file__).resolve().parents[2] / "docs" / "ladder.md"
+    table = page.read_text("utf-8").split("## The rungs")[1].split("## How")[0]
+    rows = [line.split("|")[1].strip() for line in table.splitlines() if line.startswith("| ")]
+    assert tuple(rows[1:]) == models.NAMES

@@ -22,8 +22,8 @@ MODEL_LINE = """\
 MODEL_FILE = '''\
 """The model "almost": the reference under another name."""
 
-from .model_reference import from_albedo, to_albedo
-from .vcavity import reflectance
+from ..vcavity import reflectance
+from .reference import from_albedo, to_albedo
 
 __all__ = ["from_albedo", "reflectance", "to_albedo"]
 '''
@@ -44,8 +44,11 @@ USE = """
     extension.register()
     import numpy as np
     from pathlib import Path
-    from rough_spectra.addon import command_line, properties, readers, storage
-    from rough_spectra.core import cycles_instrument, ladder, models, reading
+    from rough_spectra.addon.commands import command_line
+    from rough_spectra.addon.material import properties, storage
+    from rough_spectra.addon.samples import readers
+    from rough_spectra.core import ladder, models, reading
+    from rough_spectra.core.cycles import instrument_lobe
 
     white, sigma = np.ones((1, 31)), np.radians(50)
     light = np.linspace(0.01, 0.06, 93).reshape(31, 3)
@@ -85,7 +88,7 @@ USE = """
             reads(m, "60a:0"), 0.5, m, "60a:0").tolist()] for m in models.NAMES],
         "directions_at_60": ladder.reflectance("reference", [0.6], np.pi / 3, 0, 0, 0.5).tolist(),
         "angles": np.degrees(reading.INSTRUMENT_ANGLES["60a:0"]).tolist(),
-        "cycles": cycles_instrument.reflectance([0.5], 1.0, "60a:0").tolist(),
+        "cycles": instrument_lobe.reflectance([0.5], 1.0, "60a:0").tolist(),
         "menus": {name: menu(name) for name in ("model", "instrument")},
         "titles": [properties.title("model", "almost"), properties.title("instrument", "60a:0")],
         "status": status,
@@ -112,9 +115,13 @@ def found(tmp_path_factory, environment):
     shutil.copytree(ROOT / "presets", home / "presets")
     for name in ("__init__.py", "blender_manifest.toml"):
         shutil.copy(ROOT / name, home / name)
-    add(home / "core" / "models.py", 'to the V-cavity reference", 2),\n', MODEL_LINE)
-    (home / "core" / "model_almost.py").write_text(MODEL_FILE, encoding="utf-8")
-    add(home / "core" / "instruments.py", "    _multi_angle(110, number=13),\n", INSTRUMENT_RECORD)
+    add(home / "core" / "models" / "__init__.py", 'to the V-cavity reference", 2),\n', MODEL_LINE)
+    (home / "core" / "models" / "almost.py").write_text(MODEL_FILE, encoding="utf-8")
+    add(
+        home / "core" / "instruments" / "geometries.py",
+        "    _multi_angle(110, number=13),\n",
+        INSTRUMENT_RECORD,
+    )
 
     files = []
     for number, words in enumerate(("60/0", "0:60 annular", "60a:0")):

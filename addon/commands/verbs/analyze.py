@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
+
+from ...support.shown_text import tell
 
 SUMMARY = "match materials to the lights and directions of their scene"
 DESCRIPTION = (
@@ -61,15 +62,15 @@ def run(options: argparse.Namespace) -> int:
         changes = follow_scene.follow(report, chosen)
     for sentence in (*report.warnings, follow_scene.unlit_sentence(report), *left):
         if sentence:
-            print(f"warning: {sentence}", file=sys.stderr)
+            tell(f"warning: {sentence}")
     for change in changes:
         for warning in change.solution.warnings:
-            print(f"warning: material {change.material.name!r}: {warning}", file=sys.stderr)
-    print("\n".join(follow_scene.table(report, changes)), file=sys.stderr)
+            tell(f"warning: material {change.material.name!r}: {warning}")
+    for line in follow_scene.table(report, changes):
+        tell(line)
     path = save(options.output)
-    print(
+    tell(
         f"matched {counted(len(changes), 'material')} to scene {scene.name!r} in "
-        f"{report.seconds:.2f} s; saved {path}",
-        file=sys.stderr,
+        f"{report.seconds:.2f} s; saved {path}"
     )
     return _UNUSABLE if damaged and named is None else 0

@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
+
+from ...support.shown_text import tell
 
 SUMMARY = "build a Blender asset library of measured materials"
 DESCRIPTION = (
@@ -82,6 +83,6 @@ def run(options: argparse.Namespace) -> int:
         progress.close()
     for name, sentences in built.warnings.items():
         for sentence in sentences:
-            print(f"warning: material {name!r}: {sentence}", file=sys.stderr)
-    print(f"{counted(built.count, 'material')} in {built.blend}", file=sys.stderr)
+            tell(f"warning: material {name!r}: {sentence}")
+    tell(f"{counted(built.count, 'material')} in {built.blend}")
     return 0

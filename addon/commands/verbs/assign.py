@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
+
+from ...support.shown_text import tell
 
 SUMMARY = "give materials of the file measured spectra"
 DESCRIPTION = (
@@ -80,12 +81,11 @@ def run(options: argparse.Namespace) -> int:
     solutions = api.assign(pairs, options.shader)
     for (material, _), solution in zip(pairs, solutions, strict=True):
         for warning in solution.warnings:
-            print(f"warning: material {material.name!r}: {warning}", file=sys.stderr)
+            tell(f"warning: material {material.name!r}: {warning}")
     path = save(options.output)
     worst = max(solution.delta_e_instrument for solution in solutions)
-    print(
+    tell(
         f"assigned {counted(len(pairs), 'material')}, largest predicted ΔE00 at 45°/0° "
-        f"{worst:.4f}; saved {path}",
-        file=sys.stderr,
+        f"{worst:.4f}; saved {path}"
     )
     return 0

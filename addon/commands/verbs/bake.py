@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from ...support.shown_text import tell
 
 if TYPE_CHECKING:
     from ...readings.document import Readings
@@ -100,14 +101,14 @@ def run(options: argparse.Namespace) -> int:
         written = api.write(result, options.output, options.format or writers.FORMATS)
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
-    print(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}", file=sys.stderr)
+    tell(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}")
     return tell_faults(result)
 
 
 def tell_faults(result: Readings) -> int:
     """Name what could not be predicted or measured; gives the exit status, 0 or 2."""
     for sentence in result.faults:
-        print(f"rough_spectra: {sentence}", file=sys.stderr)
+        tell(f"rough_spectra: {sentence}")
     return _UNUSABLE if result.faults else 0
 
 

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
+from ...support.shown_text import tell
 from .bake import (
     add_format_argument,
     add_surface_arguments,
@@ -60,15 +60,11 @@ def run(options: argparse.Namespace) -> int:
     failed = [entry for entry in compared if (entry.delta_e_00 or 0) > options.max_delta_e]
     for entry in failed:
         reason = f" ({'; '.join(entry.warnings)})" if entry.warnings else ""
-        print(
-            f"material {entry.material!r} differs by ΔE00 {entry.delta_e_00:.2f}{reason}",
-            file=sys.stderr,
-        )
+        tell(f"material {entry.material!r} differs by ΔE00 {entry.delta_e_00:.2f}{reason}")
     largest = result.largest_delta_e
-    print(
+    tell(
         f"{len(failed)} of {len(compared)} materials exceed ΔE00 {options.max_delta_e:g}"
-        + ("" if largest is None else f"; the largest is {largest:.4f}"),
-        file=sys.stderr,
+        + ("" if largest is None else f"; the largest is {largest:.4f}")
     )
     # What could not be compared weighs more: nobody knows whether it would have passed.
     return tell_faults(result) or (_FAILED if failed else 0)

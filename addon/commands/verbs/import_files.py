@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from ....core.errors import InputError
+from ...support.shown_text import out, tell
 
 SUMMARY = "add the samples of measurement files to the library"
 DESCRIPTION = (
@@ -45,13 +45,13 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(batch.refused[0])
     for each in batch.found:
         for sentence in each.sentences:
-            print(f"warning: {each.path}: {sentence}", file=sys.stderr)
+            tell(f"warning: {each.path}: {sentence}")
     folder = options.folder or preferences.user_folder()
     added = importing.add(batch.found, options.collection, folder) if batch.found else []
     for each_added in added:
         for sample_id in each_added.ids:
-            print(sample_id)
+            out(sample_id)
     for sentence in batch.refused:
-        print(f"rough_spectra import: {sentence}", file=sys.stderr)
-    print(f"{importing.summary(added)}, {folder}", file=sys.stderr)
+        tell(f"rough_spectra import: {sentence}")
+    tell(f"{importing.summary(added)}, {folder}")
     return 2 if batch.refused else 0

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
+from ...support.shown_text import tell
 from .bake import add_format_argument, tell_faults
 
 SUMMARY = "join the parts that bake --shard wrote"
@@ -37,5 +37,5 @@ def run(options: argparse.Namespace) -> int:
     result = document.merge(document.from_json(path) for path in options.parts)
     written = api.write(result, options.output, options.format or writers.FORMATS)
     names = ", ".join(path.name for path in written)
-    print(f"{counted(len(result.entries), 'reading')}; wrote {names}", file=sys.stderr)
+    tell(f"{counted(len(result.entries), 'reading')}; wrote {names}")
     return tell_faults(result)

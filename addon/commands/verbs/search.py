@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ....core.errors import InputError
+from ...support.shown_text import out, tell
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
@@ -48,16 +48,16 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(msg)
     folder = options.folder or preferences.user_folder()
     for fault in library.contents(folder).faults:
-        print(f"warning: {fault}", file=sys.stderr)
+        tell(f"warning: {fault}")
     if options.near is None:
         for entry in library.search(" ".join(options.words), folder):
-            print(f"{entry.id}\t{entry.name}")
+            out(entry.id, entry.name)
         return 0
     if options.count < 1:
         msg = f"--count is {options.count}; give 1 or more."
         raise InputError(msg)
     for entry, difference in library.nearest(_lab(options.near), options.count, folder):
-        print(f"{entry.id}\t{entry.name}\t{difference:.2f}")
+        out(entry.id, entry.name, f"{difference:.2f}")
     return 0
 
 

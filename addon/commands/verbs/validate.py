@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
+
+from ...support.shown_text import tell
 
 SUMMARY = "say everything that is wrong with preset files"
 DESCRIPTION = (
@@ -41,10 +42,10 @@ def run(options: argparse.Namespace) -> int:
         verdict = preset_validation.validate(path)
         faults += len(verdict.faults)
         for sentence in verdict.faults:
-            print(sentence, file=sys.stderr)
+            tell(sentence)
         for sentence in verdict.remarks:
-            print(f"remark: {sentence}", file=sys.stderr)
-    print(f"{len(files)} presets, {faults} faults", file=sys.stderr)
+            tell(f"remark: {sentence}")
+    tell(f"{len(files)} presets, {faults} faults")
     return _UNUSABLE if faults else 0
 
 

@@ -10,6 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...support.shown_text import (
+    CELLS,
+    ESCAPED,
+    printable,
+    to_cell,
+)
 from ...support.version import version
 from ..document import INSTRUMENT, Readings
 from .tables import nanometers
@@ -66,11 +72,13 @@ def _table(
     source = f"Illumination={illuminant}\tObserverAngle={observer}°\tWhiteBase=Abs\tFilter=No"
     lines = [
         f'ORIGINATOR\t"Rough Spectra {version()}"',
-        f'DESCRIPTOR\t"Virtual spectrophotometer, {quantity}"',
+        f'DESCRIPTOR\t"Virtual spectrophotometer, {printable(quantity)}"',
         'INSTRUMENTATION\t"Rough Spectra virtual spectrophotometer"',
         f'MEASUREMENT_SOURCE\t"{source}"',
         'KEYWORD\t"MEASUREMENT_GEOMETRY"',
         f'MEASUREMENT_GEOMETRY\t"{INSTRUMENT}"',
+        f'KEYWORD\t"{CELLS}"',
+        f'{CELLS}\t"{ESCAPED}"',
         f"NUMBER_OF_FIELDS\t{len(names)}",
         "BEGIN_DATA_FORMAT",
         "\t".join(names),
@@ -88,6 +96,6 @@ def _file(tables: list[str]) -> bytes:
 
 
 def _quoted(name: str) -> str:
-    """Quote a name; a quote inside is doubled, and white space kept to one line."""
-    text = " ".join(name.split()).replace('"', '""')
+    """Quote a name as a cell; a quote inside is doubled."""
+    text = to_cell(name).replace('"', '""')
     return f'"{text}"'

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Sequence
 
+from ...support.shown_text import ESCAPED, printable, to_cell
 from ...support.version import version
 from ..document import (
     APERTURE,
@@ -31,9 +33,9 @@ def predicted(readings: Readings) -> bytes:
         at = dict(zip(part.wavelengths, part.values, strict=True))
         lines.append(
             [
-                entry.material,
-                entry.surface,
-                entry.sample,
+                to_cell(entry.material),
+                to_cell(entry.surface),
+                to_cell(entry.sample),
                 f"{part.sigma_degrees:g}",
                 part.model,
                 part.illuminant,
@@ -55,9 +57,9 @@ def measured(readings: Readings) -> bytes:
     header += ["X", "Y", "Z", "L*", "a*", "b*", "delta_e_00"]
     lines = [
         [
-            entry.material,
-            entry.surface,
-            entry.sample,
+            to_cell(entry.material),
+            to_cell(entry.surface),
+            to_cell(entry.sample),
             part.illuminant,
             *(f"{value:.6f}" for value in (*part.rgb, *part.spread)),
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
@@ -91,12 +93,21 @@ def _comments(quantity: str, lights: set[str]) -> list[str]:
         f"illuminant/observer: {', '.join(sorted(lights)) or 'none'}",
         f"instrument: {INSTRUMENT}",
         f"aperture: {APERTURE}",
+        f"cells: {ESCAPED} (names: \\x1b and the like, an apostrophe before = + - @ ')",
     ]
+
+
+_DELIMITED = re.compile(r"([,;]\s*)([=+\-@])")
+
+
+def _guarded(found: re.Match[str]) -> str:
+    """Keep a name in a comment from being a cell that is a formula."""
+    return f"{found[1]}'{found[2]}"
 
 
 def _csv(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
     text = io.StringIO()
-    text.writelines(f"# {comment}\n" for comment in comments)
+    text.writelines(f"# {_DELIMITED.sub(_guarded, printable(line))}\n" for line in comments)
     table = csv.writer(text, lineterminator="\n")
     table.writerow(header)
     # Without quotation marks a material called "#1" would read as a comment.

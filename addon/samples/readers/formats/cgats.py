@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ....support.shown_text import CELLS, ESCAPED, from_cell
 from ...sample import Sample, check_spectrum
 from ..parts import (
     cgats_columns,
@@ -46,6 +47,7 @@ class _Read:
     words: Words
     block: _table.Block
     notes: tuple[str, ...]
+    escaped: bool
 
 
 def sniff(document: Document) -> bool:
@@ -115,7 +117,14 @@ def _numbers(document: Document, table: Table, columns: Columns) -> _Read:
         stated = table.last(key)
         if stated and cgats_columns.number(stated) != count:
             notes.append(f"{key} says {quote(stated)}, the table has {count}.")
-    return _Read(table.fields, columns, cgats_words.read(table), block, tuple(notes))
+    return _Read(
+        table.fields,
+        columns,
+        cgats_words.read(table),
+        block,
+        tuple(notes),
+        table.last(CELLS) == ESCAPED,
+    )
 
 
 def _conditions(one: _Read) -> set[str]:
@@ -135,6 +144,7 @@ def _samples(
     for row, line in enumerate(block.lines):
         texts = iter(block.texts[row] if block.texts else ())
         name = next(texts) if columns.name is not None else ""
+        name = from_cell(name) if one.escaped else name
         name = name or (document.path.stem if alone else f"{document.path.stem} {row + 1}")
         own = next(texts) if columns.condition is not None else ""
         lab = _triple(document, line, texts, one.fields, columns.lab)

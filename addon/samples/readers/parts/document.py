@@ -7,14 +7,14 @@ from __future__ import annotations
 import codecs
 import os
 import re
-import stat
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from .....core.errors import InputError
+from ....support import user_files
 
-LARGEST_FILE = 256 * 2**20  # bytes; a table of 100,000 spectra takes about 30 MB
+LARGEST_FILE = user_files.LARGEST
 HEAD = 2**16  # how much a sniffer sees; metadata before a table is a few kB at most
 
 OTHER_QUANTITIES = {
@@ -209,31 +209,9 @@ def open_document(
         the system refuses to read it.
     """
     file = Path(path)
-    name = str(file).replace("\0", "\\0")
-    try:
-        mode = file.stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise InputError(f"{name}: this is a folder; choose a file in it.")
-        if not stat.S_ISREG(mode):
-            # A pipe or a device could make the read below wait forever.
-            raise InputError(f"{name}: this is no regular file; copy its content into one.")
-        size = file.stat().st_size
-        if size > LARGEST_FILE:
-            raise InputError(
-                f"{name}: the file has {size / 2**20:.0f} MB, more than the "
-                f"{LARGEST_FILE // 2**20} MB that are read; split it."
-            )
-        data = file.read_bytes()
-    except (FileNotFoundError, NotADirectoryError):
-        raise InputError(f"{name}: there is no such file; check its name and folder.") from None
-    except PermissionError:
-        raise InputError(f"{name}: no permission to read it; change the file's rights.") from None
-    except (OSError, ValueError) as error:
-        # ValueError: a name with a null character in it.
-        reason = getattr(error, "strerror", None) or error
-        raise InputError(f"{name}: it cannot be read ({reason}); check the name.") from error
+    data = user_files.read(file, LARGEST_FILE)
     if not data or data.isspace():
-        raise InputError(f"{name}: the file is empty; export the measurement again.")
+        raise InputError(f"{file}: the file is empty; export the measurement again.")
     return Document(file, data, region)
 
 

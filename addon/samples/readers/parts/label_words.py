@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from ....support.shown_text import ESCAPED
 from ...sample import Kind
 from .document import Document, quote
 from .tables import lines
@@ -52,12 +53,16 @@ _WAVELENGTH_UNITS = {
 
 @dataclass
 class Comments:
-    """What the comment lines state; `scale` is None where they say nothing of percent."""
+    """What the comment lines state; `scale` is None where they say nothing of percent.
+
+    `escaped` tells whether names are as `shown_text.to_cell` writes them.
+    """
 
     kind: Kind = "reading"
     scale: float | None = None
     wavelength_unit: str = ""
     texts: dict[str, str] = field(default_factory=dict)
+    escaped: bool = False
 
 
 def band(label: str) -> float | None:
@@ -155,6 +160,8 @@ def comments(document: Document) -> Comments:
             found.wavelength_unit = _one_of(document, number, key, value, _WAVELENGTH_UNITS)
         elif key == "kind":
             found.kind = _one_of(document, number, key, value, _KINDS)
+        elif key == "cells":
+            found.escaped = value.startswith(ESCAPED)
         elif key in ("instrument", "source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import (
     label_words,
@@ -99,7 +100,7 @@ def read(
                 said,
                 own,
                 found,
-                name=(cells[0] if name is not None else "") or alone,
+                name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
                 position=f"line {row}",
                 notes=not_read(unread),
             )
@@ -126,3 +127,7 @@ def _lab(
         series.number(document, place, cell) for place, cell in zip(places, cells, strict=True)
     )
     return lightness, a, b
+
+
+def _name(cell: str, escaped: bool) -> str:
+    return from_cell(cell) if escaped else cell
