@@ -17,7 +17,7 @@ import bpy
 
 from ...core import limits
 from ...core.errors import InputError, MaterialError
-from ..matching.request import Request
+from .. import api
 from ..material import preferences, selection
 from ..samples import library, readers
 from ..samples.sample import KINDS, Kind, Sample
@@ -74,7 +74,7 @@ def _by_name(options: argparse.Namespace) -> list[Row]:
     return chosen
 
 
-def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, Request]]:
+def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.Request]]:
     """Find the materials and settle σ and kind; makes materials only with --create.
 
     Raises
@@ -225,14 +225,14 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> R
     return Row(cells["material"], sample, sigma)
 
 
-def _request(row: Row, degrees: float, options: argparse.Namespace) -> Request:
+def _request(row: Row, degrees: float, options: argparse.Namespace) -> api.Request:
     if fault := limits.sigma_fault(degrees):
         msg = f"Material {row.material!r}: {fault}"
         raise InputError(msg)
-    sample = row.sample if options.kind is None else replace(row.sample, kind=options.kind)
-    return Request(
-        sample=sample,
-        sigma=math.radians(degrees),
+    return api.request(
+        row.sample,
+        math.radians(degrees),
+        kind=options.kind,
         model=options.model,
         illuminant=options.illuminant,
         observer=options.observer,

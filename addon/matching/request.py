@@ -7,8 +7,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ...core import limits
 from ...core.errors import DomainError
-from ...core.limits import TOLERANCE
+from ...core.models import NAMES
+from ..colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 from ..samples.sample import Sample
 from .scene_view import SceneView
 
@@ -47,7 +49,7 @@ class Request:
     Raises
     ------
     DomainError
-        If σ or the tolerance is no number, as a driver or a script may leave it.
+        If a setting is none that a material could store, as a driver or a script may leave it.
     """
 
     sample: Sample
@@ -57,11 +59,27 @@ class Request:
     observer: int = 2
     scene: SceneView | None = None
     flat: bool = False
-    tolerance: float = TOLERANCE
+    tolerance: float = limits.TOLERANCE
 
     def __post_init__(self) -> None:
-        """Refuse what would spread through every color."""
+        """Refuse what would spread through every color, or stop the writing of many materials."""
         for label, value in (("σ", self.sigma), ("The tolerance", self.tolerance)):
             if not math.isfinite(value):
                 msg = f"{label} is not a number; set it again, or mend its driver."
+                raise DomainError(msg)
+        if not 0 <= self.sigma <= limits.LARGEST_SIGMA:
+            msg = f"σ is {self.sigma:g} radians; give 0 to π/2, as math.radians(30) is."
+            raise DomainError(msg)
+        lowest, highest = limits.TOLERANCES
+        if not lowest <= self.tolerance <= highest:
+            msg = f"The tolerance is ΔE00 {self.tolerance:g}; give {lowest:g} to {highest:g}."
+            raise DomainError(msg)
+        for label, name, known in (
+            ("model", self.model, (AUTO, *NAMES)),
+            ("illuminant", self.illuminant, ILLUMINANTS),
+            ("observer", self.observer, OBSERVERS),
+        ):
+            if name not in known:
+                choices = ", ".join(map(str, known))
+                msg = f"The {label} {name!r} is not known; choose one of {choices}."
                 raise DomainError(msg)

@@ -70,15 +70,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
+    from ... import api
     from ...blender.blend_file import destination, save
-    from ...material import derive
     from .. import mapping
     from ..progress import counted
 
     destination(options.output)  # before the work that could not be saved
     rows = mapping.rows(options)
     pairs = mapping.pair(rows, options)
-    solutions = derive.assign(pairs, options.shader.upper())
+    solutions = api.assign(pairs, options.shader)
     for (material, _), solution in zip(pairs, solutions, strict=True):
         for warning in solution.warnings:
             tell(f"warning: material {material.name!r}: {warning}")

@@ -75,6 +75,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0, or 2 where a material could not be predicted or measured."""
+    from ... import api
     from ...instrument import bake
     from ...material import selection
     from ...readings import document, writers
@@ -97,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
             files.write(target, document.to_json(part))
         written = [target]
     else:
-        written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+        written = api.write(result, options.output, options.format or writers.FORMATS)
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
     tell(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}")
@@ -114,7 +115,7 @@ def tell_faults(result: Readings) -> int:
 def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readings:
     """Take the readings that the options ask for, with a progress line."""
     from ....core.errors import MaterialError
-    from ...instrument import bake
+    from ... import api
     from ...material import selection, storage
     from ..progress import ProgressLine
 
@@ -125,7 +126,7 @@ def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readi
     index, count = getattr(options, "shard", (1, 1))
     progress = ProgressLine("measuring")
     try:
-        return bake.bake(surfaces[index - 1 :: count], with_measurement, progress)
+        return api.bake(surfaces[index - 1 :: count], with_measurement, progress)
     finally:
         progress.close()
 

@@ -41,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure and compare; exit status 0 or 1, or 2 where a material could not be compared."""
     from ....core.errors import InputError
+    from ... import api
     from ...readings import writers
 
     if not options.max_delta_e >= 0:
@@ -55,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
         msg = f"None of {names} stores a spectrum to compare with; assign one first."
         raise InputError(msg)
     if options.output is not None:
-        writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+        api.write(result, options.output, options.format or writers.FORMATS)
     failed = [entry for entry in compared if (entry.delta_e_00 or 0) > options.max_delta_e]
     for entry in failed:
         reason = f" ({'; '.join(entry.warnings)})" if entry.warnings else ""

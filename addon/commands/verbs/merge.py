@@ -26,6 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Join and write; exit status as that of one bake."""
+    from ... import api
     from ...readings import document, writers
     from ...support import journal
     from ..progress import counted
@@ -34,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
     for folder in sorted({path.parent for path in options.parts}):
         journal.finish(folder)  # a document of a killed bake may wait for its name
     result = document.merge(document.from_json(path) for path in options.parts)
-    written = writers.write(result, options.output, tuple(options.format or writers.FORMATS))
+    written = api.write(result, options.output, options.format or writers.FORMATS)
     names = ", ".join(path.name for path in written)
     tell(f"{counted(len(result.entries), 'reading')}; wrote {names}")
     return tell_faults(result)

@@ -1,0 +1,542 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What scripts may rely on: names and arguments here change only with a note in the changelog.
+
+From a file to files:
+
+    read, find → request → assign → state, renew, keep → bake → write
+
+σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
+of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
+how; nothing was changed or written then. The page "Scripts" of the manual tells how to import this
+module, and has a whole script.
+
+The examples are run as tests, with the names of this module, `bpy`, `Path` and `radians`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from math import radians
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..core.errors import (
+    CancelledError,
+    DomainError,
+    InputError,
+    MaterialError,
+    OutputError,
+    RoughSpectraError,
+)
+from ..core.limits import TOLERANCE
+from .blender import working_space
+from .instrument import bake as instrument_bake
+from .matching.assess import Differences
+from .matching.request import AUTO, Request
+from .matching.solution import Solution
+from .material import changes, derive, preferences, selection, settled, storage
+from .material import state as material_state
+from .material.properties import SHADER_ITEMS
+from .material.settled import Settled
+from .material.state import State
+from .readings import writers
+from .readings.document import Reading, Readings
+from .samples import library, readers
+from .samples import presets as preset_files
+from .samples.sample import Kind, Sample
+
+__all__ = [
+    "CancelledError",
+    "Differences",
+    "DomainError",
+    "InputError",
+    "MaterialError",
+    "OutputError",
+    "Reading",
+    "Readings",
+    "Request",
+    "RoughSpectraError",
+    "Sample",
+    "Settled",
+    "Solution",
+    "State",
+    "assign",
+    "bake",
+    "differences",
+    "find",
+    "keep",
+    "materials",
+    "paused",
+    "presets",
+    "read",
+    "renew",
+    "request",
+    "settle",
+    "state",
+    "write",
+]
+
+
+def read(
+    path: str | os.PathLike[str], region: tuple[int, int, int, int] | None = None
+) -> list[Sample]:
+    r"""Return all samples of a measurement file, in the file's order.
+
+    Parameters
+    ----------
+    path
+        Any file; its format follows from its content.
+    region
+        Of a spectral image, the rectangle of pixels whose mean is the sample: x, y, width, height,
+        counted from the top left. None takes the whole image; other files have no regions.
+
+    Returns
+    -------
+    At least one sample. A `Sample` has, among others, `name`; `wavelengths` in nanometers and
+    `values` as fractions, both of shape (bands,); and `kind`, "reading" or "albedo".
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, no format recognizes it, or the one that does finds a fault.
+
+    Examples
+    --------
+    >>> _ = Path("paper.csv").write_text("nm,Paper\n400,0.61\n500,0.70\n600,0.72\n700,0.73\n")
+    >>> [paper] = read("paper.csv")
+    >>> paper.name, paper.kind, paper.values.tolist()
+    ('Paper', 'reading', [0.61, 0.7, 0.72, 0.73])
+    """
+    return readers.read(path, region)
+
+
+def presets(collection: str | None = None) -> list[str]:
+    """Return the ids of the presets that come with the extension, sorted.
+
+    Parameters
+    ----------
+    collection
+        "colorchecker" or "everyday"; None for all.
+
+    Raises
+    ------
+    InputError
+        There is no such collection.
+
+    Examples
+    --------
+    >>> presets("colorchecker")[:2]
+    ['colorchecker/01-dark-skin', 'colorchecker/02-light-skin']
+    """
+    return preset_files.names() if collection is None else preset_files.names_of(collection)
+
+
+def find(name: str) -> Sample:
+    """Return the preset, or the sample of the user's library, that is called so.
+
+    Parameters
+    ----------
+    name
+        Of a preset: its id, its name, the color's name or its number, in any case
+        ("colorchecker/14-green", "14 green", "Green", "14"). Of the library: its id
+        ("walls/plaster"), or its name where no preset is called so.
+
+    Raises
+    ------
+    InputError
+        Nothing is called so, or several are, or its file has a fault.
+
+    Examples
+    --------
+    >>> find("14 green").name
+    'ColorChecker 14 Green'
+    """
+    return library.load(name, preferences.user_folder())
+
+
+def request(
+    sample: Sample,
+    sigma: float | None = None,
+    *,
+    kind: Kind | None = None,
+    model: str = AUTO,
+    illuminant: str = "D65",
+    observer: int = 2,
+    tolerance: float = TOLERANCE,
+) -> Request:
+    """Say what to make of a sample; what is left out is as on the command line.
+
+    Parameters
+    ----------
+    sample
+        What `read` or `find` gave, or a `Sample` of your own.
+    sigma
+        Roughness σ, **radians**, 0 to π/2. None takes what the sample says, or else 0.
+    kind
+        "reading" for the reflectance factor that an instrument printed of the rough surface,
+        "albedo" for the reflectance of one facet. None takes what the sample says.
+    model
+        "auto" for the cheapest that is good enough, or one of `core.models.NAMES`.
+    illuminant
+        Light under which the color is right: "D65", "A", "D50", "D55", "D75", "E", "F2", "F7",
+        "F11" or "LED-B3".
+    observer
+        Of reports, 2 or 10 (degrees).
+    tolerance
+        Largest ΔE00 from the reference that "auto" accepts for a simpler model, 0.05 to 20.
+
+    Raises
+    ------
+    DomainError
+        A setting is none of these.
+    InputError
+        The kind is neither.
+
+    Examples
+    --------
+    >>> wanted = request(find("green"), sigma=radians(20), illuminant="D50")
+    >>> wanted.model, wanted.illuminant, round(wanted.sigma, 3)
+    ('auto', 'D50', 0.349)
+    >>> request(find("green"), sigma=20)
+    Traceback (most recent call last):
+    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/2, as math.radians(30) is.
+    """
+    if sigma is None:
+        sigma = radians(sample.sigma_degrees or 0.0)
+    if kind is not None:
+        sample = replace(sample, kind=kind)
+    return Request(
+        sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
+    )
+
+
+def assign(
+    pairs: Iterable[tuple[bpy.types.Material, Sample | Request]], shader: str = "auto"
+) -> list[Solution]:
+    """Give materials measured spectra, all of them or none, and set their shader nodes.
+
+    Parameters
+    ----------
+    pairs
+        Each a material, and what it is to become. A sample alone stands for `request(sample)`.
+    shader
+        "auto" sets the Diffuse or Principled BSDF that is in use, or a new Diffuse BSDF;
+        "diffuse" and "principled" ask for that node.
+
+    Returns
+    -------
+    What was matched, in the order of `pairs`: among others `color`, shape (3,); `roughness`;
+    `delta_e_instrument` and `delta_e_mean`, the ΔE00 that remain at 45°/0° and over all angles;
+    and `warnings`, sentences that should be read.
+
+    Raises
+    ------
+    MaterialError
+        A material cannot be written, or is named twice; nothing was changed.
+    DomainError
+        A spectrum or a setting cannot be used; nothing was changed.
+
+    Examples
+    --------
+    >>> wall, door = (bpy.data.materials.new(name) for name in ("Wall", "Door"))
+    >>> solutions = assign([(wall, find("neutral 6.5")), (door, request(find("green"), 0.35))])
+    >>> [[round(value, 2) for value in solution.color.tolist()] for solution in solutions]
+    [[0.36, 0.36, 0.36], [0.06, 0.3, 0.06]]
+    >>> [round(solution.roughness, 2) for solution in solutions]
+    [0.0, 0.25]
+    >>> [solution.delta_e_instrument < 0.001 for solution in solutions]
+    [True, True]
+    """
+    wanted = [
+        (_checked(material), request(what) if isinstance(what, Sample) else what)
+        for material, what in pairs
+    ]
+    return derive.assign(wanted, _node(shader))
+
+
+def materials() -> list[bpy.types.Material]:
+    """Return all materials of the open file that store a spectrum, sorted by name.
+
+    Examples
+    --------
+    >>> plain, wall = (bpy.data.materials.new(name) for name in ("Plain", "Wall"))
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> [material.name for material in materials()]
+    ['Wall']
+    """
+    _check_enabled()
+    return selection.with_spectrum()
+
+
+def renew(materials: Iterable[bpy.types.Material]) -> list[Solution]:
+    """Derive color and roughness again from what the materials store, all of them or none.
+
+    Edits of the shader node by hand are overwritten: `state` tells beforehand.
+
+    Returns
+    -------
+    As of `assign`, in the order of `materials`.
+
+    Raises
+    ------
+    MaterialError
+        A material stores no spectrum or cannot be written; nothing was changed.
+    DomainError
+        A spectrum cannot be used; nothing was changed.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> with paused():
+    ...     wall.rough_spectra.sigma = radians(40)
+    >>> [solution] = renew([wall])
+    >>> round(solution.roughness, 2)
+    0.52
+    """
+    return derive.renew([_checked(material) for material in materials])
+
+
+def paused() -> AbstractContextManager[None]:
+    """Let no color follow while several settings are written; call `renew` afterwards.
+
+    Without it every setting of `material.rough_spectra` is followed at once, at a few milliseconds
+    each.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> with paused():
+    ...     wall.rough_spectra.sigma = radians(30)
+    ...     wall.rough_spectra.illuminant = "A"
+    >>> state(wall).kind
+    'stale'
+    """
+    return changes.paused()
+
+
+def state(material: bpy.types.Material) -> State:
+    """Tell whether color and roughness still follow from the spectrum, and if not, why.
+
+    Only compares what is stored: cheap enough to draw with.
+
+    Returns
+    -------
+    Its `kind` is "none" (no spectrum), "fresh", "stale", "kept" (edited by hand, and accepted),
+    "error" or "linked"; `reasons` are sentences, most important first; `stamp` is what was
+    derived, or None.
+
+    Raises
+    ------
+    MaterialError
+        This is no material.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> state(wall).kind
+    'none'
+    >>> _ = assign([(wall, find("neutral 6.5"))], shader="diffuse")
+    >>> state(wall).kind
+    'fresh'
+    >>> node = wall.node_tree.nodes[state(wall).stamp.node]
+    >>> node.inputs["Color"].default_value = (1, 0, 0, 1)
+    >>> state(wall).kind, state(wall).reasons
+    ('stale', ('color or roughness was edited by hand',))
+    """
+    return material_state.state(_checked(material))
+
+
+def keep(material: bpy.types.Material) -> None:
+    """Accept what the surface shows as edited by hand; the spectrum stays as it is.
+
+    Raises
+    ------
+    MaterialError
+        Nothing was derived from a spectrum yet, or the material is linked.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))], shader="diffuse")
+    >>> wall.node_tree.nodes[state(wall).stamp.node].inputs["Roughness"].default_value = 0.5
+    >>> keep(wall)
+    >>> state(wall).kind
+    'kept'
+    """
+    storage.keep(_checked(material))
+
+
+def settle(material: bpy.types.Material) -> Settled:
+    """Return what a material is to become, as its settings are now.
+
+    Returns
+    -------
+    Its `request` has the sample, σ in radians, and the model that holds in place of "auto";
+    `model_reason` says why.
+
+    Raises
+    ------
+    MaterialError
+        The material has no spectrum that can be read.
+    DomainError
+        Its spectrum or a setting cannot be used.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> wanted = settle(wall).request
+    >>> wanted.sample.name, wanted.model, round(wanted.sigma, 4)
+    ('ColorChecker 21 Neutral 6.5 (.44 D)', 'two-bounce', 0.5236)
+    """
+    return settled.of(_checked(material))
+
+
+def differences(material: bpy.types.Material) -> Differences:
+    """Tell how far the surface in Cycles is from its target, as predicted: nothing is rendered.
+
+    Returns
+    -------
+    ΔE00 at 45°/0°, and its mean and 95th percentile over all angles.
+
+    Raises
+    ------
+    MaterialError, DomainError
+        As of `settle`; or the surface shows what nobody predicts, such as gloss or a texture.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> instrument, mean, _ = differences(wall)
+    >>> round(instrument, 2), round(mean, 1)
+    (0.0, 0.3)
+    """
+    return settled.differences(_checked(material), working_space.current())
+
+
+def bake(
+    surfaces: Iterable[bpy.types.Material | tuple[str, bpy.types.Material]],
+    measure: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+) -> Readings:
+    """Predict the readings of materials at 45°/0°, and measure them in Cycles.
+
+    Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
+
+    Parameters
+    ----------
+    surfaces
+        Materials; or pairs of a name to tell them by, such as that of an object, and a material.
+        One without a spectrum is measured and not predicted.
+    measure
+        Whether to measure; predictions alone need no second Blender.
+    progress
+        Called with renders done and renders in all.
+
+    Returns
+    -------
+    Its `entries` have one `Reading` for each surface, in this order: `predicted.values`, one a
+    band; `measured.rgb`; `delta_e_00` between the two; `warnings`; and `fault`, why a prediction
+    or a measurement is missing, which does not stop the others. `largest_delta_e` is the largest.
+
+    Raises
+    ------
+    MaterialError
+        A surface is no material.
+    OutputError
+        The second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> [entry] = bake([wall]).entries
+    >>> [round(value, 3) for value in entry.measured.rgb]
+    [0.292, 0.292, 0.292]
+    >>> entry.delta_e_00 < 0.01
+    True
+    """
+    named = [surface if isinstance(surface, tuple) else ("", surface) for surface in surfaces]
+    found = [(name, _checked(material)) for name, material in named]
+    return instrument_bake.bake(found, measure, progress)
+
+
+def write(
+    readings: Readings,
+    base: str | os.PathLike[str],
+    formats: Iterable[str] = writers.FORMATS,
+) -> list[Path]:
+    """Write all files of a bake, or none; what an earlier bake wrote beside them goes.
+
+    Parameters
+    ----------
+    readings
+        What `bake` gave.
+    base
+        Folder and base name; endings are added: "out/chart" becomes out/chart.json,
+        out/chart.predicted.csv and so on. Folders are made.
+    formats
+        Any of "csv", "cgats" and "exr", to be written beside the JSON document.
+
+    Returns
+    -------
+    The files written.
+
+    Raises
+    ------
+    DomainError
+        A format is not known; nothing was written.
+    OutputError
+        A file cannot be written or replaced; none was touched.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> [path.name for path in write(bake([wall], measure=False), "out/chart", ["csv"])]
+    ['chart.predicted.csv', 'chart.json']
+    """
+    chosen = (formats,) if isinstance(formats, str) else tuple(formats)
+    unknown = [name for name in chosen if name not in writers.FORMATS]
+    if unknown:
+        msg = f"The format {unknown[0]!r} is not known; choose of {', '.join(writers.FORMATS)}."
+        raise DomainError(msg)
+    return writers.write(readings, Path(base), chosen)
+
+
+def _checked(material: Any) -> Any:
+    """Give a material back, or say what it is instead."""
+    _check_enabled()
+    if not isinstance(material, bpy.types.Material):
+        msg = f"{material!r} is no material; give one of bpy.data.materials."
+        raise MaterialError(msg)
+    return material
+
+
+def _node(shader: str) -> Any:
+    """Give what the material's own setting calls a shader."""
+    known = [identifier for identifier, *_ in SHADER_ITEMS]
+    if shader.upper() not in known:
+        choices = ", ".join(known).lower()
+        raise DomainError(f"The shader {shader!r} is not known; choose one of {choices}.")
+    return shader.upper()
+
+
+def _check_enabled() -> None:
+    if "rough_spectra" not in bpy.types.Material.bl_rna.properties:
+        msg = (
+            "Rough Spectra is not enabled in this Blender; enable it in the preferences, and start "
+            "without --factory-startup."
+        )
+        raise RoughSpectraError(msg)

@@ -1,0 +1,189 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What scripts may rely on: its examples are true, and its names and arguments stay."""
+
+import dataclasses
+import doctest
+import inspect
+from math import radians
+
+import bpy
+import pytest
+from rough_spectra.addon import api
+
+SIGNATURES = {
+    "assign": "(pairs, shader='auto')",
+    "bake": "(surfaces, measure=True, progress=None)",
+    "differences": "(material)",
+    "find": "(name)",
+    "keep": "(material)",
+    "materials": "()",
+    "paused": "()",
+    "presets": "(collection=None)",
+    "read": "(path, region=None)",
+    "renew": "(materials)",
+    "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
+    "tolerance=1.0)",
+    "settle": "(material)",
+    "state": "(material)",
+    "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
+}
+"""Every function, and how it is called. A script somewhere calls it so: adding an argument with a
+default at the end breaks none; any other change does, and belongs in the changelog."""
+
+FIELDS = {
+    "Sample": "name wavelengths values kind quantity instrument geometry aperture specular "
+    "sigma_degrees sigma_source source license position device condition illuminant observer lab "
+    "xyz notes altered",
+    "Request": "sample sigma model illuminant observer scene flat tolerance",
+    "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
+    "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
+    "State": "kind reasons stamp",
+    "Settled": "request model_reason",
+    "Readings": "working_space blender entries shard shards whole version",
+    "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
+    "warnings fault",
+}
+"""What the functions take and give, field by field in order."""
+
+OTHERS = {
+    "Differences",
+    "CancelledError",
+    "DomainError",
+    "InputError",
+    "MaterialError",
+    "OutputError",
+    "RoughSpectraError",
+}
+
+
+def called(function):
+    """How a function is called, without types."""
+    found = inspect.signature(function)
+    bare = [p.replace(annotation=p.empty) for p in found.parameters.values()]
+    return str(found.replace(parameters=bare, return_annotation=found.empty))
+
+
+def fields_of(kind):
+    """Names of a record's fields."""
+    named = getattr(kind, "_fields", None)
+    return " ".join(named or [field.name for field in dataclasses.fields(kind)])
+
+
+def test_names_and_arguments_stay_as_they_are():
+    assert {*api.__all__} == {*SIGNATURES, *FIELDS, *OTHERS}
+    assert {name: called(getattr(api, name)) for name in SIGNATURES} == SIGNATURES
+    assert {name: fields_of(getattr(api, name)) for name in FIELDS} == FIELDS
+
+
+def test_what_a_module_says_is_all_it_has():
+    """A name without an underscore looks as if it were promised."""
+    own = {
+        name
+        for name, value in vars(api).items()
+        if getattr(value, "__module__", "") == api.__name__ and not name.startswith("_")
+    }
+    assert own == {*SIGNATURES}
+
+
+@pytest.mark.parametrize("name", SIGNATURES)
+def test_the_example_of(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = inspect.getdoc(getattr(api, name))
+    assert "\nExamples\n--------\n>>> " in text, "give it an example that runs"
+    example = doctest.DocTestParser().get_doctest(text, {**vars(api)}, name, None, 0)
+    said = []
+    doctest.DocTestRunner(verbose=False).run(example, out=said.append)
+    assert not said, "".join(said)
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"sigma": 30}, "σ is 30 radians; give 0 to π/2, as math.radians(30) is."),
+        ({"sigma": -0.1}, "σ is -0.1 radians; give 0 to π/2, as math.radians(30) is."),
+        ({"sigma": float("nan")}, "σ is not a number; set it again, or mend its driver."),
+        ({"tolerance": 0}, "The tolerance is ΔE00 0; give 0.05 to 20."),
+        ({"model": "mirror"}, "The model 'mirror' is not known; choose one of auto, lambert, "),
+        ({"illuminant": "D93"}, "The illuminant 'D93' is not known; choose one of A, D50, "),
+        ({"observer": 3}, "The observer 3 is not known; choose one of 2, 10."),
+        ({"kind": "gloss"}, "kind is 'gloss'; make it 'reading' or 'albedo'."),
+    ],
+)
+def test_a_setting_that_no_material_could_store_is_refused(settings, sentence):
+    """Before the first of many materials is written, however the request is made."""
+    sample = api.find("green")
+    with pytest.raises((api.DomainError, api.InputError)) as caught:
+        api.request(sample, **settings)
+    assert sentence in str(caught.value)
+    if "kind" not in settings:
+        with pytest.raises(api.DomainError) as caught:
+            api.Request(sample, **{"sigma": 0.0} | settings)
+        assert sentence in str(caught.value)
+
+
+def test_the_ends_of_the_range_are_in_it():
+    assert api.request(api.find("green"), radians(90)).sigma == radians(90)
+    wall = bpy.data.materials.new("Wall")
+    api.assign([(wall, api.request(api.find("green"), radians(90), tolerance=0.05))])
+    assert api.settle(wall).request.sigma == radians(90)
+    assert api.settle(wall).request.tolerance == 0.05
+
+
+def test_what_is_left_out_is_as_the_sample_says():
+    brick = api.find("everyday/brick")
+    assert brick.sigma_degrees > 0
+    assert api.request(brick).sigma == radians(brick.sigma_degrees)
+    assert api.request(brick).sample is brick
+    assert api.request(brick, 0.0).sigma == 0
+    other = {"reading": "albedo", "albedo": "reading"}[brick.kind]
+    assert api.request(brick, kind=other).sample.kind == other
+    wall, twin = (bpy.data.materials.new(name) for name in ("Wall", "Twin"))
+    first, second = api.assign([(wall, brick), (twin, api.request(brick))])
+    assert first.color.tolist() == second.color.tolist()
+
+
+def test_a_name_is_no_material_and_nothing_is_changed():
+    wall = bpy.data.materials.new("Wall")
+    sample = api.find("green")
+    for call in (
+        lambda: api.assign([(wall, sample), ("Door", sample)]),
+        lambda: api.renew(["Door"]),
+        lambda: api.state("Door"),
+        lambda: api.bake([wall, "Door"]),
+    ):
+        with pytest.raises(api.MaterialError) as caught:
+            call()
+        assert str(caught.value) == "'Door' is no material; give one of bpy.data.materials."
+    assert api.materials() == []
+
+
+def test_an_unknown_shader_or_format_is_named(tmp_path):
+    wall = bpy.data.materials.new("Wall")
+    with pytest.raises(api.DomainError, match="'glass' is not known; choose one of auto, diffuse"):
+        api.assign([(wall, api.find("green"))], shader="glass")
+    assert api.materials() == []
+    readings = api.bake([wall], measure=False)
+    with pytest.raises(api.DomainError, match="'xlsx' is not known; choose of csv, cgats, exr"):
+        api.write(readings, tmp_path / "chart", ["csv", "xlsx"])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_surfaces_keep_their_names_and_order():
+    wall, door = (bpy.data.materials.new(name) for name in ("Wall", "Door"))
+    api.assign([(wall, api.find("neutral 6.5")), (door, api.find("green"))])
+    entries = api.bake([("House", wall), door, wall], measure=False).entries
+    assert [(entry.surface, entry.material) for entry in entries] == [
+        ("House", "Wall"),
+        ("", "Door"),
+        ("", "Wall"),
+    ]
+
+
+def test_without_the_extension_a_sentence_says_so(extension):
+    extension.unregister()
+    try:
+        with pytest.raises(api.RoughSpectraError, match="is not enabled in this Blender; enable"):
+            api.materials()
+    finally:
+        extension.register()
