@@ -6,11 +6,10 @@ from __future__ import annotations
 
 import platform
 import tempfile
-import tomllib
 import traceback
 from pathlib import Path
 
-from ..support.version import version
+from ..support.version import version, where_to_report
 
 
 def sentence(error: BaseException, doing: str, with_file: bool = True) -> str:
@@ -26,16 +25,11 @@ def sentence(error: BaseException, doing: str, with_file: bool = True) -> str:
         Whether to write the traceback to a file among the temporary ones, which the sentence names.
     """
     what = " ".join(f"{type(error).__name__}: {error}".split())
-    told = f"Rough Spectra {version()} itself failed ({what}); please report it to {_where()}"
+    told = (
+        f"Rough Spectra {version()} itself failed ({what}); please report it to {where_to_report()}"
+    )
     path = _write(error, doing) if with_file else None
     return f"{told}, with {path}." if path else f"{told}."
-
-
-def _where() -> str:
-    """Give the website or the maintainer that the manifest names."""
-    manifest = Path(__file__).parents[1] / "blender_manifest.toml"
-    known = tomllib.loads(manifest.read_text(encoding="utf-8"))
-    return str(known.get("website") or known["maintainer"])
 
 
 def _write(error: BaseException, doing: str) -> Path | None:

@@ -7,10 +7,21 @@ from __future__ import annotations
 import tomllib
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 
 @lru_cache(maxsize=1)
 def version() -> str:
     """Give the version as in "0.1.0"."""
-    manifest = Path(__file__).parents[2] / "blender_manifest.toml"
-    return str(tomllib.loads(manifest.read_text(encoding="utf-8"))["version"])
+    return str(_manifest()["version"])
+
+
+def where_to_report() -> str:
+    """Give the website or the maintainer that the manifest names."""
+    known = _manifest()
+    return str(known.get("website") or known["maintainer"])
+
+
+def _manifest() -> dict[str, Any]:
+    path = Path(__file__).parents[2] / "blender_manifest.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8"))

@@ -30,8 +30,8 @@ assert outsiders() == before == [], (before, outsiders())
 from rough_spectra.addon.samples import presets
 assert presets.load("14").name
 formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.samples.readers.")]
-own = {{"preset", "_document", "_preset_fields"}}
-assert {{name.rpartition(".")[2] for name in formats}} <= own, formats
+own = {{"formats", "formats.preset", "parts", "parts.document", "parts.preset_fields"}}
+assert {{name.partition(".readers.")[2] for name in formats}} <= own, formats
 
 np.set_printoptions(precision=3, suppress=True)
 options, filters, errors = np.get_printoptions(), list(warnings.filters), np.geterr()

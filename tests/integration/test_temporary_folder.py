@@ -13,7 +13,7 @@ from rough_spectra.addon.instrument.measure import measure
 
 from tests.integration.support import ROOT, rgb_material
 
-HOME = Path("addon", "spectrophotometer", "worker.py")
+HOME = Path("addon", "instrument", "worker.py")
 """The one place that tells Blender where a picture goes."""
 
 
