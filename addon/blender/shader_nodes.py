@@ -449,14 +449,11 @@ def _make(place: Place) -> Any:
     else:
         node = tree.nodes.new(place.make)
         x, y = output.location
-        node.location = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
-    node = tree.nodes.new(place.make)
-    x, y = output.location
-    at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if _surface_link(output) else 0))
-    locations = array("f", bytes(8 * len(tree.nodes)))
-    tree.nodes.foreach_get("location", locations)
-    locations[-2:] = array("f", at)  # the newest comes last
-    tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
+        at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
+        locations = array("f", bytes(8 * len(tree.nodes)))
+        tree.nodes.foreach_get("location", locations)
+        locations[-2:] = array("f", at)  # the newest comes last
+        tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
     tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
     if before is not None:
         before[_SET_ASIDE] = before.name
