@@ -8,6 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
+NAME = "analyze"
 SUMMARY = "match materials to the lights and directions of their scene"
 DESCRIPTION = (
     "Look through the scene's camera, find the lights and directions that meet each material with "

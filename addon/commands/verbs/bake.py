@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ...readings.document import Readings
 
+NAME = "bake"
 SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
 DESCRIPTION = (
     "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "

@@ -8,6 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
+NAME = "validate"
 SUMMARY = "say everything that is wrong with preset files"
 DESCRIPTION = (
     "Check preset files: every fault is one line with file, field and remedy. Exit status 2 if "
