@@ -34,6 +34,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
     bl_idname = "rough_spectra.import_samples"
     bl_label = "Import Spectra"  # the file browser's button holds no more
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 1, 4
 
     filepath: StringProperty(
         name="File",
