@@ -65,10 +65,12 @@ def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_format_argument(parser: argparse.ArgumentParser) -> None:
     """Declare which files are written."""
+    from ...readings import writers
+
     parser.add_argument(
         "--format",
         action="append",
-        choices=("csv", "cgats", "exr"),
+        choices=writers.FORMATS,
         help="write only these beside the JSON; repeatable",
     )
 
