@@ -5,6 +5,7 @@
 A format is one module of this package, and nothing else has to know of it:
 
     NAME = "Nix export"                             what messages call it
+    ENDINGS = ("csv",)                              of its files' names: a hint, for the drop list
     PRIORITY = 100                                  who is asked first; specific formats above 0
     def sniff(document: Document) -> bool           by content; quick, and never raises
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
@@ -32,6 +33,7 @@ class Reader(Protocol):
     """What a module of this package offers."""
 
     NAME: str
+    ENDINGS: tuple[str, ...]
     PRIORITY: int
 
     def sniff(self, document: Document) -> bool:
