@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
@@ -20,12 +20,10 @@ import numpy as np
 from ...core.errors import OutputError
 from ..blender import blend_file
 from ..blender.background_job import Job
+from ..matching import shaders
 from ..support import atomic_files, journal
 from . import catalogs
 from .plan import Asset
-
-if TYPE_CHECKING:
-    from ..blender.shader_nodes import Shader
 
 LONGEST_NAME = 63 if bpy.app.version < (5, 0, 0) else 255
 """Bytes that Blender leaves for the name of a material."""
@@ -44,7 +42,7 @@ class Settings:
     model, illuminant, observer
         As in `target.Request`.
     shader
-        Node that is made, as in `nodes.find`.
+        Node that is made, as in `shader_nodes.find`.
     author
         Of the assets.
     """
@@ -52,7 +50,7 @@ class Settings:
     model: str = "auto"
     illuminant: str = "D65"
     observer: int = 2
-    shader: Shader = "DIFFUSE"
+    shader: str = shaders.DEFAULT.name
     author: str = AUTHOR
 
 

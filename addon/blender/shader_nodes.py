@@ -7,68 +7,45 @@ Finding never changes anything, so a whole selection is checked before the first
 
 from __future__ import annotations
 
-import math
 from array import array
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
-
-import bpy
+from typing import Any
 
 from ...core.errors import MaterialError
+from ..matching import shaders
+from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
+from .surface import (
+    Surface,
+    comparable,
+    disturbing_sockets,
+    link_to,
+    output_node,
+    shader_node,
+    surface,
+    surface_link,
+    uses_nodes,
+    written,
+)
 
-Shader = Literal["AUTO", "DIFFUSE", "PRINCIPLED"]
+__all__ = [
+    "Place",
+    "Surface",
+    "color_socket",
+    "comparable",
+    "curves",
+    "disturbing_sockets",
+    "find",
+    "roughness_socket",
+    "shader_node",
+    "surface",
+    "write",
+    "written",
+]
 
-_SPECULAR_SOCKET = "Specular IOR Level"
-_PURE_DIFFUSE = {
-    "Metallic": 0.0,
-    "Alpha": 1.0,
-    "Subsurface Weight": 0.0,
-    "Transmission Weight": 0.0,
-    "Coat Weight": 0.0,
-    "Sheen Weight": 0.0,
-    "Emission Strength": 0.0,
-    "Thin Film Thickness": 0.0,
-}
-"""Principled sockets that have to keep these values for the surface to be the Diffuse closure."""
-
-
-class _Sockets(NamedTuple):
-    """What a shader node and its sockets are called.
-
-    Parameters
-    ----------
-    node
-        Type of the node.
-    color, roughness, normal
-        What all shader nodes have; roughness is that of the diffuse closure.
-    zeroed
-        What is set to 0 besides.
-    neutral
-        What has to keep these values, and is never set.
-    """
-
-    node: str
-    color: str
-    roughness: str
-    normal: str
-    zeroed: tuple[str, ...]
-    neutral: Mapping[str, float]
-
-
-_SHADERS = {
-    "DIFFUSE": _Sockets("ShaderNodeBsdfDiffuse", "Color", "Roughness", "Normal", (), {}),
-    "PRINCIPLED": _Sockets(
-        *("ShaderNodeBsdfPrincipled", "Base Color", "Diffuse Roughness", "Normal"),
-        zeroed=(_SPECULAR_SOCKET,),
-        neutral=_PURE_DIFFUSE,
-    ),
-}
-_SOCKETS = {sockets.node: sockets for sockets in _SHADERS.values()}
 _SET_ASIDE = "rough_spectra_set_aside"
 """Custom property of a node that another one took the place of, with its name then: a copy that
 somebody made of it has another name."""
-_DISPLACEMENT = "Displacement"
 _NODE_DISTANCE = 300.0
 
 
@@ -92,48 +69,7 @@ class Place:
     make: str
 
 
-class Surface(NamedTuple):
-    """What a surface shows, as far as Rough Spectra sets it or cannot predict it.
-
-    Parameters
-    ----------
-    node, shader
-        Name and type of the shader node.
-    color, roughness
-        Values of its sockets. What is no number is `math.nan` itself, so that surfaces compare.
-    color_linked, roughness_linked
-        Whether another node sets them, so that the values don't show.
-    muted
-        Whether the node is.
-    disturbing
-        See `disturbing_sockets`.
-    values
-        Values of all sockets where any disturbs, since the light depends on all of them then; else
-        empty.
-    bumped
-        Whether the surface is turned point by point: by its Normal, or by the output's
-        displacement.
-    """
-
-    node: str
-    shader: str
-    color: tuple[float, float, float]
-    roughness: float
-    color_linked: bool
-    roughness_linked: bool
-    muted: bool
-    disturbing: tuple[str, ...]
-    values: tuple[float, ...]
-    bumped: bool
-
-    @property
-    def linked(self) -> list[str]:
-        """Names of those of color and roughness that another node sets."""
-        sockets = _SOCKETS[self.shader]
-        return [sockets.color] * self.color_linked + [sockets.roughness] * self.roughness_linked
-
-
-def find(material: Any, shader: Shader = "AUTO") -> Place:
+def find(material: Any, shader: str = shaders.AUTO) -> Place:
     """Find where the color of a material's surface is set, changing nothing.
 
     Parameters
@@ -141,9 +77,9 @@ def find(material: Any, shader: Shader = "AUTO") -> Place:
     material
         A `bpy.types.Material`.
     shader
-        "AUTO" takes the Diffuse or Principled BSDF that is there, or a new Diffuse BSDF where
-        there is none. "DIFFUSE" and "PRINCIPLED" ask for that node; where the other one is in
-        use it takes its place, and the other one stays in the tree. It is the node that an earlier
+        "AUTO" takes the target shader that is there, or a new Diffuse BSDF where there is none.
+        The name of one, such as "PRINCIPLED", asks for that node; where another one is in use it
+        takes its place, and the other one stays in the tree. It is the node that an earlier
         change has set aside, if nobody uses that, else a new one.
 
     Raises
@@ -151,74 +87,33 @@ def find(material: Any, shader: Shader = "AUTO") -> Place:
     MaterialError
         If the material is linked or read-only, or its surface is made of nodes whose reading
         nobody could predict; the message says what to do.
+    DomainError
+        If no target shader has this name.
     """
+    wanted = OF_SHADER[shaders.find(shader).name].node
     _refuse_read_only(material)
-    output = _output(material)
-    link = _surface_link(output)
+    output = output_node(material)
+    link = surface_link(output)
     if link is None:
-        return _place_for(material, _SHADERS["DIFFUSE" if shader == "AUTO" else shader].node)
+        return _place_for(material, wanted)
     node = link.from_node
-    if node.bl_idname not in _SOCKETS:
+    if node.bl_idname not in OF_NODE:
         msg = (
             f"Material {material.name!r}: its surface comes from {node.name!r} "
-            f"({node.bl_label}), which Rough Spectra cannot set; link a Diffuse or Principled "
-            "BSDF to the material output."
+            f"({node.bl_label}), which Rough Spectra cannot set; link a {shaders.listed()} to the "
+            "material output."
         )
         raise MaterialError(msg)
-    if shader != "AUTO" and node.bl_idname != _SHADERS[shader].node:
-        return _place_for(material, _SHADERS[shader].node)
+    if shader != shaders.AUTO and node.bl_idname != wanted:
+        return _place_for(material, wanted)
     _refuse_unpredictable(material, node)
     return Place(material, node.name, "")
-
-
-def shader_node(material: Any) -> Any | None:
-    """Give the Diffuse or Principled BSDF behind the active output, or None."""
-    return _shader_of(_output(material))
-
-
-def surface(material: Any) -> Surface | None:
-    """Read the Diffuse or Principled BSDF behind the active output; None where there is none."""
-    output = _output(material)
-    node = _shader_of(output)
-    if output is None or node is None:
-        return None
-    shader, inputs = node.bl_idname, node.inputs
-    color_at, roughness_at, normal_at, neutral = _places(node, shader)
-    color, roughness = inputs[color_at], inputs[roughness_at]
-    red, green, blue, _ = color.default_value
-    disturbing = tuple(_in_use(inputs, neutral))
-    return Surface(
-        node.name,
-        shader,
-        (comparable(red), comparable(green), comparable(blue)),
-        comparable(roughness.default_value),
-        color.is_linked,
-        roughness.is_linked,
-        node.mute,
-        disturbing,
-        tuple(_values(inputs)) if disturbing else (),
-        inputs[normal_at].is_linked or output.inputs[_DISPLACEMENT].is_linked,
-    )
-
-
-def written(before: Surface, color: Sequence[float], roughness: float) -> Surface:
-    """Give what a surface shows after `write` set the node that it comes from.
-
-    `before` is what it showed, with nothing in use that `write` would set to 0.
-    """
-    red, green, blue, rough = array("f", (*color, roughness))  # sockets are single precision
-    return before._replace(color=(red, green, blue), roughness=rough)
-
-
-def comparable(value: float) -> float:
-    """Give NaN as `math.nan` itself: no other is equal to itself in a tuple."""
-    return math.nan if math.isnan(value) else value
 
 
 def write(place: Place, color: tuple[float, float, float], roughness: float) -> str:
     """Set color and roughness at a place that `find` gave; returns the node's name."""
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
-    sockets = _SOCKETS[node.bl_idname]
+    sockets = OF_NODE[node.bl_idname]
     zeros = dict.fromkeys(sockets.zeroed, (0.0,))
     _set_sockets(node, {sockets.color: color, sockets.roughness: (roughness,), **zeros})
     # What setting a socket would have done, but for looking through all trees of the file.
@@ -256,62 +151,6 @@ def _layout(node: Any) -> tuple[dict[str, int], int]:
 _layouts: dict[str, tuple[dict[str, int], int]] = {}
 
 
-def color_socket(node: Any) -> Any:
-    """Give the socket that holds a Diffuse or Principled BSDF's color."""
-    return node.inputs[_SOCKETS[node.bl_idname].color]
-
-
-def roughness_socket(node: Any) -> Any:
-    """Give the socket that holds Cycles' diffuse roughness."""
-    return node.inputs[_SOCKETS[node.bl_idname].roughness]
-
-
-def _shader_of(output: Any | None) -> Any | None:
-    link = _surface_link(output)
-    if link is None or link.from_node.bl_idname not in _SOCKETS:
-        return None
-    return link.from_node
-
-
-def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int, float], ...]]:
-    """Give the numbers of the sockets for color, roughness, normal, and what has to be neutral.
-
-    All nodes of a type have the same sockets. A panel reads eleven at every redraw: found by number
-    that takes two thirds of the time (10 µs for nine, where by name it was 15).
-    """
-    if shader not in _numbers:
-        find, sockets = node.inputs.find, _SOCKETS[shader]
-        neutral = dict.fromkeys(sockets.zeroed, 0.0) | dict(sockets.neutral)
-        rest = tuple((name, find(name), value) for name, value in neutral.items())
-        own = find(sockets.color), find(sockets.roughness), find(sockets.normal)
-        _numbers[shader] = (*own, rest)
-    return _numbers[shader]
-
-
-_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = {}
-
-
-def disturbing_sockets(node: Any) -> list[str]:
-    """Name the sockets in use that make a Principled BSDF more than the Diffuse closure.
-
-    Empty for a Diffuse BSDF. The specular level counts, which `write` sets to 0.
-    """
-    return _in_use(node.inputs, _places(node, node.bl_idname)[-1])
-
-
-def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
-    found = [(name, inputs[number], value) for name, number, value in neutral]
-    return [
-        name for name, socket, value in found if socket.default_value != value or socket.is_linked
-    ]
-
-
-def _values(inputs: Any) -> Iterator[float]:
-    for socket in inputs:
-        value: Any = getattr(socket, "default_value", 0.0)
-        yield from map(comparable, value if hasattr(value, "__len__") else (value,))
-
-
 def _refuse_read_only(material: Any) -> None:
     if material.library is not None:
         msg = (
@@ -338,7 +177,7 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
     if node.mute:
         msg = f"{where} is muted; unmute it first."
         raise MaterialError(msg)
-    sockets = _SOCKETS[node.bl_idname]
+    sockets = OF_NODE[node.bl_idname]
     for name in (sockets.color, sockets.roughness, *sockets.zeroed):
         if node.inputs[name].is_linked:
             msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
@@ -381,50 +220,13 @@ def curves(data: Any | None) -> list[Any]:
     return found
 
 
-def _uses_nodes(material: Any) -> bool:
-    """Up to Blender 4.5 a material may do without nodes; later the property only warns."""
-    if bpy.app.version >= (5, 0, 0):
-        return material.node_tree is not None
-    return bool(material.use_nodes)
-
-
-def _output(material: Any) -> Any | None:
-    if not _uses_nodes(material):
-        return None
-    return material.node_tree.get_output_node("CYCLES")
-
-
-def _surface_link(output: Any | None) -> Any | None:
-    """Give the link that reaches the output's Surface, seen through reroutes."""
-    if output is None:
-        return None
-    socket = output.inputs["Surface"]
-    while socket.is_linked:
-        link = _link_to(socket)
-        if link.is_muted or not link.is_valid:
-            return None
-        if link.from_node.bl_idname != "NodeReroute":
-            return link
-        socket = link.from_node.inputs[0]
-    return None
-
-
-def _link_to(socket: Any) -> Any:
-    """Give the link that ends in a socket. `socket.links` would look twice at each of the tree."""
-    for link in socket.id_data.links:
-        if link.to_socket == socket:
-            return link
-    msg = f"{socket.name!r} is not linked"
-    raise ValueError(msg)
-
-
 def _place_for(material: Any, kind: str) -> Place:
     """Give the place of a node of this type that is to take over the surface.
 
     The one that was set aside keeps what the user chose in it, and no tree grows with each change.
     One that the user linked anywhere since, or that cannot be set, is left alone.
     """
-    for node in material.node_tree.nodes if _uses_nodes(material) else ():
+    for node in material.node_tree.nodes if uses_nodes(material) else ():
         if node.bl_idname != kind or node.get(_SET_ASIDE) != node.name or not _is_loose(node):
             continue
         try:
@@ -444,13 +246,13 @@ def _is_loose(node: Any) -> bool:
 def _make(place: Place) -> Any:
     """Link a node to the output, one that was set aside or a new one."""
     material = place.material
-    if not _uses_nodes(material):
+    if not uses_nodes(material):
         material.use_nodes = True
     tree = material.node_tree
     output = tree.get_output_node("CYCLES")
     if output is None:
         output = tree.nodes.new("ShaderNodeOutputMaterial")
-    link = _surface_link(output)
+    link = surface_link(output)
     before = None if link is None else link.from_node
     if place.node_name:
         node = tree.nodes[place.node_name]
@@ -463,7 +265,7 @@ def _make(place: Place) -> Any:
         tree.nodes.foreach_get("location", locations)
         locations[-2:] = array("f", at)  # the newest comes last
         tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
-    tree.links.new(node.outputs["BSDF"], output.inputs["Surface"])
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
     if before is not None:
         before[_SET_ASIDE] = before.name
         _carry_over(before, node)
@@ -473,11 +275,11 @@ def _make(place: Place) -> Any:
 def _carry_over(before: Any, node: Any) -> None:
     """Let a shader node show what the one before it did, beyond what is derived: bump and alpha."""
     color_socket(node).default_value[3] = color_socket(before).default_value[3]
-    old = before.inputs[_SOCKETS[before.bl_idname].normal]
-    new = node.inputs[_SOCKETS[node.bl_idname].normal]
+    old = before.inputs[OF_NODE[before.bl_idname].normal]
+    new = node.inputs[OF_NODE[node.bl_idname].normal]
     links = node.id_data.links
     if new.is_linked:
-        links.remove(_link_to(new))
+        links.remove(link_to(new))
     if old.is_linked:
-        link = _link_to(old)
+        link = link_to(old)
         links.new(link.from_socket, new).is_muted = link.is_muted

@@ -10,7 +10,6 @@ to files, since Blender itself prints on standard output.
 from __future__ import annotations
 
 import contextlib
-import importlib
 import os
 import sys
 from collections.abc import Sequence
@@ -21,10 +20,6 @@ if TYPE_CHECKING:
     import argparse
 
 NAME = "rough_spectra"
-VERBS = ("analyze", "assets", "assign", "bake", "check", "import", "merge", "search", "validate")
-_MODULES = {"import": "import_files"}
-"""Of verbs that are words of Python's own."""
-
 _UNUSABLE = 2
 _FAILED_ITSELF = 3
 _INTERRUPTED = 130
@@ -134,14 +129,15 @@ def _let_go() -> None:
 def _parser() -> argparse.ArgumentParser:
     import argparse  # here, because registering the command must not cost Blender's start
 
+    from .verbs import verbs
+
     parser = argparse.ArgumentParser(
         prog=f"blender -b scene.blend --command {NAME}",
         description="Measured rough materials that read the same when measured again.",
     )
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
-    for verb in VERBS:
-        module = importlib.import_module(f".verbs.{_MODULES.get(verb, verb)}", __package__)
-        sub = verbs.add_parser(verb, help=module.SUMMARY, description=module.DESCRIPTION)
+    subparsers = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
+    for verb in verbs():
+        sub = subparsers.add_parser(verb.NAME, help=verb.SUMMARY, description=verb.DESCRIPTION)
         sub.add_argument(
             "--blend",
             type=Path,
@@ -153,8 +149,8 @@ def _parser() -> argparse.ArgumentParser:
             action="store_true",
             help="when Rough Spectra itself fails, print where, instead of writing it to a file",
         )
-        module.add_arguments(sub)
-        sub.set_defaults(run=module.run)
+        verb.add_arguments(sub)
+        sub.set_defaults(run=verb.run)
     return parser
 
 

@@ -9,37 +9,11 @@ import bpy
 from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
-from .operators import (
-    analyze_scene,
-    assign_file,
-    assign_preset,
-    bake,
-    build_assets,
-    choose_sample,
-    find_nearest,
-    import_review,
-    import_samples,
-    keep,
-    library,
-    measure,
-    renew,
-)
-from .panels import panels
+from . import operators
+from .panels import menus, panels
 
-_MODULES = (
-    *(
-        properties,
-        preferences,
-        choose_sample,
-        assign_preset,
-        assign_file,
-        renew,
-        keep,
-        bake,
-        measure,
-    ),
-    *(import_samples, import_review, library, find_nearest, build_assets, analyze_scene, panels),
-)
+_OPERATORS = operators.modules()
+_MODULES = (properties, preferences, *_OPERATORS, panels)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 
@@ -48,9 +22,10 @@ def register() -> None:
     for cls in classes:
         bpy.utils.register_class(cls)
     properties.register_pointer()
-    import_samples.register_menu()
-    build_assets.register_menu()
-    panels.register_menus()
+    for module in _OPERATORS:
+        if hasattr(module, "register_menu"):
+            module.register_menu()
+    menus.register(classes)
     follow.register()
     command_line.register()
 
@@ -60,9 +35,10 @@ def unregister() -> None:
     events.unregistering.announce()
     command_line.unregister()
     follow.unregister()
-    panels.unregister_menus()
-    build_assets.unregister_menu()
-    import_samples.unregister_menu()
+    menus.unregister()
+    for module in reversed(_OPERATORS):
+        if hasattr(module, "unregister_menu"):
+            module.unregister_menu()
     properties.unregister_pointer()
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)

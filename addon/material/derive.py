@@ -11,7 +11,7 @@ from typing import Any
 from ...core.errors import MaterialError, RoughSpectraError
 from ..blender import shader_nodes, working_space
 from ..colorimetry.rgb_space import WorkingSpace
-from ..matching import solve
+from ..matching import shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
@@ -20,9 +20,7 @@ from .changes import Derived, Solved
 from .snapshot import Facts
 
 
-def assign(
-    pairs: Sequence[tuple[Any, Request]], shader: shader_nodes.Shader = "AUTO"
-) -> list[Solution]:
+def assign(pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
     Parameters
@@ -30,7 +28,7 @@ def assign(
     pairs
         Each a `bpy.types.Material` and what it is to become.
     shader
-        Which node to set; see `nodes.find`.
+        Which node to set; see `shader_nodes.find`.
 
     Returns
     -------
@@ -41,7 +39,7 @@ def assign(
     MaterialError
         If a material cannot be written; nothing was changed then.
     DomainError
-        If a spectrum or a setting cannot be used; nothing was changed then.
+        If a spectrum, a setting or the shader cannot be used; nothing was changed then.
     """
     work = [
         (shader_nodes.find(material, shader), storage.in_scene(material, request))

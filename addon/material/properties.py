@@ -20,6 +20,7 @@ from bpy.types import Material, PropertyGroup
 
 from ...core import limits, models
 from ...core.instruments import REGISTRY
+from ..matching import shaders
 from . import changes
 
 SCHEMA = 1
@@ -43,13 +44,12 @@ MODEL_ITEMS = (
 )
 SHADER_ITEMS = (
     (
-        "AUTO",
+        shaders.AUTO,
         "As It Is",
-        "Set the Diffuse or Principled BSDF in use; make a Diffuse BSDF if none",
+        f"Set the {shaders.listed()} in use; make a {shaders.DEFAULT.title} if none",
         0,
     ),
-    ("DIFFUSE", "Diffuse BSDF", "Set a Diffuse BSDF, making one if another shader is in use", 1),
-    ("PRINCIPLED", "Principled BSDF", "Set a Principled BSDF with its specular level at 0", 2),
+    *((s.name, s.title, s.description, s.number) for s in shaders.REGISTRY.values()),
 )
 _TITLES = {
     setting: {item[0]: item[1] for item in items}

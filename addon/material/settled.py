@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...core.errors import MaterialError
 from ..blender import shader_nodes
+from ..matching import shaders
 from . import derivation, snapshot, state
 from .derivation import Stamp
 from .snapshot import Facts
@@ -63,9 +64,7 @@ class Obstacle(NamedTuple):
         return self.template.format(names=self.names)
 
 
-_NO_NODE = Obstacle(
-    "the surface comes from no Diffuse or Principled BSDF: there is no color to compare"
-)
+_NO_NODE = Obstacle(f"the surface comes from no {shaders.listed()}: there is no color to compare")
 _MUTED = Obstacle("the shader node is muted: there is no color to compare")
 LINKED = Obstacle("color or roughness comes from another node: there is no one color to compare")
 _NO_NUMBER = Obstacle("color or roughness is no number: there is no color to compare")

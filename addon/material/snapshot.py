@@ -70,7 +70,7 @@ class Facts(NamedTuple):
     analyzed
         Whether there is an analysis of the scene, followed or not.
     surface
-        Its shader node, or None where there is no Diffuse or Principled BSDF.
+        Its shader node, or None where there is no target shader's.
     working_space
         Name of the open file's working space.
     engine

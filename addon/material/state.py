@@ -118,7 +118,7 @@ def edited_by_hand(material: Any) -> bool:
 def shown(surface: shader_nodes.Surface | None) -> str:
     """Give all that a surface shows, as far as Rough Spectra sets it, in a text to compare."""
     if surface is None:
-        return "no Diffuse or Principled BSDF"
+        return "no Diffuse or Principled BSDF"  # stored with what was kept: never another text
     linked = (surface.color_linked, surface.roughness_linked, surface.muted)
     values = (*surface.color, surface.roughness)
     return repr((surface.node, values, linked, list(surface.disturbing)))

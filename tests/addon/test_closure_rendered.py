@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.blender import shader_nodes, sockets
 from rough_spectra.addon.instrument.measure import RING_45_0, Geometry, measure
 from rough_spectra.core import cycles
 from rough_spectra.core.errors import MaterialError
@@ -135,7 +135,7 @@ def test_each_principled_socket_is_refused_or_changes_no_reading(make_material):
     assert {name: difference for name, difference in named.items() if difference > 2e-6} == {}
 
 
-@pytest.mark.parametrize("neutral", sorted(shader_nodes._PURE_DIFFUSE))
+@pytest.mark.parametrize("neutral", sorted(sockets.OF_SHADER["PRINCIPLED"].neutral))
 def test_a_refused_socket_does_change_the_reading(make_material, neutral):
     base, other = make_material(**PRINCIPLED), make_material(**PRINCIPLED)
     socket = other.node_tree.nodes["Principled BSDF"].inputs[neutral]

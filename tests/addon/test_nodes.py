@@ -6,8 +6,9 @@ import time
 
 import bpy
 import pytest
-from rough_spectra.addon.blender import shader_nodes
-from rough_spectra.core.errors import MaterialError
+from rough_spectra.addon.blender import shader_nodes, sockets
+from rough_spectra.addon.matching import shaders
+from rough_spectra.core.errors import DomainError, MaterialError
 
 COLOR, ROUGHNESS = (0.25, 0.5, 0.75), 0.625  # exact in single precision
 
@@ -445,7 +446,7 @@ def test_local_copy_of_a_linked_material_is_written(library):
     written(wanted.materials[0].copy())
 
 
-PRINCIPLED = ("Specular IOR Level", *shader_nodes._PURE_DIFFUSE)
+PRINCIPLED = ("Specular IOR Level", *sockets.OF_SHADER["PRINCIPLED"].neutral)
 
 
 @pytest.mark.parametrize("name", PRINCIPLED)
@@ -459,10 +460,33 @@ def test_a_surface_is_read_from_the_sockets_of_these_names(make_material, name):
     assert (found.node, found.linked, found.muted, found.disturbing) == (node.name, [], False, ())
     node.inputs[name].default_value = 0.5
     assert shader_nodes.surface(material).disturbing == (name,)
-    node.inputs[name].default_value = shader_nodes._PURE_DIFFUSE.get(name, 0.0)
+    node.inputs[name].default_value = sockets.OF_SHADER["PRINCIPLED"].neutral.get(name, 0.0)
     tree = material.node_tree
     tree.links.new(tree.nodes.new("ShaderNodeValue").outputs[0], node.inputs[name])
     assert shader_nodes.surface(material).disturbing == (name,)
+
+
+def test_every_target_shader_has_a_map_of_sockets_that_its_node_has(make_material):
+    assert set(sockets.OF_SHADER) == set(shaders.REGISTRY)
+    nodes = make_material().node_tree.nodes
+    for name, shader in shaders.REGISTRY.items():
+        map_ = sockets.OF_SHADER[name]
+        node = nodes.new(map_.node)
+        assert node.bl_rna.name == shader.title
+        own = (map_.color, map_.roughness, map_.normal, *map_.zeroed, *map_.neutral)
+        assert {*own} <= set(node.inputs.keys())
+
+
+def test_the_numbers_that_files_hold_are_told_apart_and_stay():
+    assert [shaders.REGISTRY[name].number for name in ("DIFFUSE", "PRINCIPLED")] == [1, 2]
+    numbers = [0, *(shader.number for shader in shaders.REGISTRY.values())]  # 0: as it is
+    assert len(set(numbers)) == len(numbers)
+    assert [shader.is_default for shader in shaders.REGISTRY.values()].count(True) == 1
+
+
+def test_a_shader_that_there_is_not_is_refused(make_material):
+    with pytest.raises(DomainError, match="choose one of: AUTO, DIFFUSE, PRINCIPLED"):
+        shader_nodes.find(make_material(), "GLASS")
 
 
 @pytest.mark.parametrize("kind", ["ShaderNodeBsdfDiffuse", "ShaderNodeBsdfPrincipled"])
@@ -498,7 +522,7 @@ def test_writing_leaves_all_other_sockets_as_they_are_to_the_bit(make_material, 
             socket.default_value = not value
         elif hasattr(value, "__len__"):
             socket.default_value = [0.1 + number / 31 + i / 7 for i in range(len(value))]
-        elif socket.name not in shader_nodes._PURE_DIFFUSE:
+        elif socket.name not in sockets.OF_SHADER["PRINCIPLED"].neutral:
             socket.default_value = 0.1 + number / 31
     before = [(s.name, s.default_value) for s in node.inputs]
     before = [(name, tuple(v) if hasattr(v, "__len__") else v) for name, v in before]

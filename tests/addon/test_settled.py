@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.blender import shader_nodes
+from rough_spectra.addon.blender import shader_nodes, sockets
 from rough_spectra.addon.colorimetry import illuminant_spectra
 from rough_spectra.addon.instrument import bake
 from rough_spectra.addon.interface.panels.redraw import Shown
@@ -297,7 +297,7 @@ def set_color(value):
 OBSTACLES = {
     **{
         f"no ΔE00 is predicted with {name} in use": use(name)
-        for name in ("Specular IOR Level", *shader_nodes._PURE_DIFFUSE)
+        for name in ("Specular IOR Level", *sockets.OF_SHADER["PRINCIPLED"].neutral)
     },
     "color or roughness comes from another node: there is no one color to compare": link_texture,
     "the shader node is muted: there is no color to compare": mute,

@@ -54,7 +54,7 @@ def _ended():
 
 def _watch_result():
     """Note each time that the panel draws what was measured."""
-    panel, drawn = ours("addon.interface.panels.drawing"), []
+    panel, drawn = ours("addon.interface.panels.boxes.measurement"), []
     draw = panel._draw_measured
 
     def watched(*arguments):

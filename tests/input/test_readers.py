@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from rough_spectra.addon.samples import readers
+from rough_spectra.addon.samples import endings, readers
 from rough_spectra.addon.samples.readers.parts import document
 from rough_spectra.core.errors import InputError
 
@@ -30,11 +30,12 @@ def test_every_module_keeps_the_protocol_and_the_general_one_comes_last():
     found = readers.readers()
     assert {reader.__name__.rpartition(".")[2] for reader in found} == {
         path.stem
-        for path in (ROOT / "addon" / "readers").glob("*.py")
-        if not path.stem.startswith("_")
+        for path in (ROOT / "addon" / "samples" / "readers" / "formats").glob("*.py")
+        if path.stem != "__init__"
     }
     for reader in found:
         assert isinstance(reader.NAME, str)
+        assert all(ending == ending.lower() for ending in reader.ENDINGS)
         assert callable(reader.sniff)
         assert callable(reader.read)
     priorities = [reader.PRIORITY for reader in found]
@@ -43,27 +44,15 @@ def test_every_module_keeps_the_protocol_and_the_general_one_comes_last():
     assert found[-1].NAME.startswith("table with wavelengths")
 
 
-def test_a_new_format_is_one_new_file(tmp_path, monkeypatch):
-    (tmp_path / "shouting.py").write_text(
-        "from rough_spectra.addon.samples.sample import Sample\n"
-        "NAME = 'shouting'\n"
-        "PRIORITY = 50\n"
-        "def sniff(document):\n"
-        "    return document.head.startswith(b'SPECTRUM!')\n"
-        "def read(document):\n"
-        "    return [Sample('loud', [400, 410], [0.5, 0.5], 'reading')]\n"
-    )
-    monkeypatch.setattr(readers, "__path__", [*readers.__path__, str(tmp_path)])
-    readers.readers.cache_clear()
-    try:
-        assert "shouting" in [reader.NAME for reader in readers.readers()[:-1]]
-        file = tmp_path / "loud.csv"
-        file.write_bytes(b"SPECTRUM! 400 0.5")
-        assert readers.read(file)[0].name == "loud"
-    finally:
-        monkeypatch.undo()
-        readers.readers.cache_clear()
-        sys.modules.pop("rough_spectra.addon.samples.readers.shouting", None)
+def test_endings_are_told_without_importing_and_the_manual_lists_them():
+    found = {ending for reader in readers.readers() for ending in reader.ENDINGS}
+    assert endings.endings() == sorted(found)
+    rows = [
+        f"| {reader.NAME} | {', '.join(f'`.{ending}`' for ending in reader.ENDINGS)} |"
+        for reader in sorted(readers.readers(), key=lambda reader: reader.NAME.casefold())
+    ]
+    manual = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+    assert "\n".join(["|---|---|", *rows, ""]) in manual
 
 
 @pytest.mark.parametrize("ending", [".txt", ".exr", ".json", ""])

@@ -124,6 +124,10 @@ def test_drop_takes_every_ending_of_the_files_that_tests_read():
     handler = import_samples.ROUGHSPECTRA_FH_import
     endings = set(handler.bl_file_extensions.split(";"))
     assert all(ending.startswith(".") and ending == ending.lower() for ending in endings)
+    fixtures = ROOT / "tests" / "fixtures"
+    folders = [folder for folder in fixtures.iterdir() if folder.name != "fuzz"]
+    read = {path.suffix for folder in folders for path in folder.iterdir()} - {".md"}
+    assert read - endings == {".exr"}
     assert ".exr" not in endings  # images are dropped more often than spectral ones
     assert not handler.poll_drop(bpy.context)  # no area under the mouse
     assert hasattr(bpy.ops.rough_spectra, handler.bl_import_operator.partition(".")[2])

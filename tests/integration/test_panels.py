@@ -14,7 +14,7 @@ import types
 
 import bpy
 import pytest
-from rough_spectra.addon.interface.panels import panels, sentences, text
+from rough_spectra.addon.interface.panels import menus, panels, sentences, text
 from rough_spectra.addon.material import last_measurement, snapshot, storage
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
@@ -395,10 +395,10 @@ def test_the_sidebar_of_the_shader_editor_shows_the_same(green):
 def test_right_click_menus_offer_to_measure_what_was_clicked(green):
     for space in ("VIEW_3D", "PROPERTIES", "OUTLINER"):
         menu = types.SimpleNamespace(layout=Layout())
-        panels.menus.draw_measure(menu, context(space))
+        menus.draw_measure(menu, context(space))
         assert menu.layout.page == ["rough_spectra.measure"]
-    for name in panels.menus._MENUS:
-        assert panels.menus.draw_measure in getattr(bpy.types, name)._dyn_ui_initialize()
+    for name in menus._MENUS:
+        assert menus.draw_measure in getattr(bpy.types, name)._dyn_ui_initialize()
 
 
 def test_what_has_not_changed_is_not_composed_again(green):
@@ -424,7 +424,7 @@ def test_a_panel_by_itself_asks_anew(green):
     green.rough_spectra.model = "lambert"
     other = context(region=types.SimpleNamespace(width=300))
     page = []
-    panels.ROUGHSPECTRA_PT_difference.draw(types.SimpleNamespace(layout=Layout(page)), other)
+    bpy.types.ROUGHSPECTRA_PT_difference.draw(types.SimpleNamespace(layout=Layout(page)), other)
     assert any("Material rough" in line or "Material lambert" in line for line in page)
     assert not any(line.startswith("Model") for line in page)
 

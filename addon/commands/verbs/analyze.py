@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...support.shown_text import tell
 
+NAME = "analyze"
 SUMMARY = "match materials to the lights and directions of their scene"
 DESCRIPTION = (
     "Look through the scene's camera, find the lights and directions that meet each material with "

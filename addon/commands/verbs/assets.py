@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...support.shown_text import tell
 
+NAME = "assets"
 SUMMARY = "build a Blender asset library of measured materials"
 DESCRIPTION = (
     "Build a folder that Blender takes for an asset library: materials with rendered previews, "
@@ -21,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assets`."""
     from ....core.models import NAMES
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
+    from ...matching import shaders
 
     parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="the folder")
     parser.add_argument(
@@ -50,7 +52,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
     parser.add_argument("--model", choices=("auto", *NAMES), default="auto")
-    parser.add_argument("--shader", choices=("diffuse", "principled"), default="diffuse")
+    default = shaders.DEFAULT.name.lower()
+    parser.add_argument(
+        "--shader", choices=[name.lower() for name in shaders.NAMES], default=default
+    )
     parser.add_argument("--author", metavar="NAME", help="author of the assets")
 
 

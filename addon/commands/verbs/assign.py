@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...support.shown_text import tell
 
+NAME = "assign"
 SUMMARY = "give materials of the file measured spectra"
 DESCRIPTION = (
     "Give materials measured spectra, from a mapping file, from a preset, or from measurement "
@@ -20,6 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assign`."""
     from ....core.models import NAMES
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
+    from ...matching import shaders
 
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument(
@@ -61,7 +63,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="how light between facets is counted; auto takes the cheapest that is good enough",
     )
-    parser.add_argument("--shader", choices=("auto", "diffuse", "principled"), default="auto")
+    parser.add_argument(
+        "--shader",
+        choices=[name.lower() for name in (shaders.AUTO, *shaders.NAMES)],
+        default="auto",
+    )
     parser.add_argument(
         "--create", action="store_true", help="make the materials that are not there"
     )

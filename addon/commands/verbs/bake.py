@@ -14,6 +14,7 @@ from ...support.shown_text import tell
 if TYPE_CHECKING:
     from ...readings.document import Readings
 
+NAME = "bake"
 SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
 DESCRIPTION = (
     "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "
@@ -65,10 +66,12 @@ def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_format_argument(parser: argparse.ArgumentParser) -> None:
     """Declare which files are written."""
+    from ...readings import writers
+
     parser.add_argument(
         "--format",
         action="append",
-        choices=("csv", "cgats", "exr"),
+        choices=writers.FORMATS,
         help="write only these beside the JSON; repeatable",
     )
 

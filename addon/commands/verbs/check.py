@@ -15,6 +15,7 @@ from .bake import (
     tell_faults,
 )
 
+NAME = "check"
 SUMMARY = "measure again, and fail when any ΔE00 exceeds a limit"
 DESCRIPTION = (
     "Measure materials in Cycles and compare with the readings predicted from their spectra. Exit "

@@ -10,6 +10,7 @@ from pathlib import Path
 from ....core.errors import InputError
 from ...support.shown_text import out, tell
 
+NAME = "import"
 SUMMARY = "add the samples of measurement files to the library"
 DESCRIPTION = (
     "Add the samples of measurement files to the user's library, all of them or none. What was "

@@ -10,6 +10,7 @@ from pathlib import Path
 from ...support.shown_text import tell
 from .bake import add_format_argument, tell_faults
 
+NAME = "merge"
 SUMMARY = "join the parts that bake --shard wrote"
 DESCRIPTION = (
     "Join the parts of a bake into the files that one bake of everything would have written, byte "

@@ -15,6 +15,7 @@ from ...support.shown_text import out, tell
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
 
+NAME = "search"
 SUMMARY = "find samples of the library and presets, by words or by color"
 DESCRIPTION = (
     "Print id and name of the samples that have all the words in name, collection or source; with "

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...support.shown_text import tell
 
+NAME = "validate"
 SUMMARY = "say everything that is wrong with preset files"
 DESCRIPTION = (
     "Check preset files: every fault is one line with file, field and remedy. Exit status 2 if "

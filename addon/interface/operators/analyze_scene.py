@@ -29,6 +29,7 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
     bl_idname = "rough_spectra.analyze_scene"
     bl_label = "Analyze Scene"
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 2, 1
 
     scope: EnumProperty(name="For", description="Materials that follow the scene", items=_SCOPES)
     through: EnumProperty(name="Through", description="What looks at the scene", items=_EYES)

@@ -34,6 +34,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
     bl_idname = "rough_spectra.assign_file"
     bl_label = "Assign from File"  # the file browser's button holds no more
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 1, 3
 
     filepath: StringProperty(
         name="File", description="Spectra that an instrument wrote", subtype="FILE_PATH"

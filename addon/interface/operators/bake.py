@@ -23,6 +23,7 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
     bl_idname = "rough_spectra.bake"
     bl_label = "Bake Readings"
     bl_options = {"REGISTER"}  # no undo step: nothing in the .blend changes
+    menu_place = 3, 2
 
     filepath: StringProperty(
         name="Files",

@@ -39,6 +39,7 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
     bl_idname = "rough_spectra.build_assets"
     bl_label = "Build Asset Library"
     bl_options = {"REGISTER"}  # no undo step: nothing in the .blend changes
+    menu_place = 4, 1
 
     stopped = "Building was stopped; nothing was written"
 

@@ -60,6 +60,7 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
     bl_label = "Choose Sample"
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "sample"
+    menu_place = 1, 1
 
     sample: EnumProperty(name="Sample", description="Measured sample", items=sample_items)
 

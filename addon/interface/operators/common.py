@@ -19,7 +19,6 @@ from ....core.limits import LARGEST_SIGMA
 from ...material.properties import SHADER_ITEMS
 
 if TYPE_CHECKING:
-    from ...blender.shader_nodes import Shader
     from ...matching.solution import Solution
     from ...matching.solve import Request
     from ...samples.sample import Sample
@@ -109,7 +108,7 @@ def new_request(sample: Sample, sigma: float) -> Request:
     )
 
 
-def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, Shader]:
+def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, str]:
     """Give the request of a material with another sample, and its shader; the settings stay.
 
     Parameters
@@ -163,7 +162,7 @@ def is_material_tree(context: Any) -> bool:
 
 
 def assign_in_scope(
-    context: Any, scope: str, request: Request, shader: Shader
+    context: Any, scope: str, request: Request, shader: str
 ) -> list[tuple[Any, Solution]]:
     """Assign to all materials in scope, or to none; an active object without one gets one.
 

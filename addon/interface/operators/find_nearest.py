@@ -78,6 +78,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
     bl_idname = "rough_spectra.find_nearest"
     bl_label = "Find Sample by Color"
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 1, 2
 
     color: FloatVectorProperty(
         name="Color",

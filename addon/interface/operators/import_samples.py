@@ -11,19 +11,15 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
+from ...samples.endings import endings
 from . import common
 from .import_options import ImportOptions, carry_out, waiting
 
 if TYPE_CHECKING:
     from ...samples.importing import Batch
 
-ENDINGS = (
-    *("csv", "tsv", "txt", "dat", "cgats", "ti3", "sp", "it8", "cxf", "xml", "qtx", "spdx"),
-    *("asd", "jdx", "dx", "jcamp", "trt", "ttt", "tit", "rfl8", "json"),
-)
-"""Of files that may be dropped. Any file can be chosen in the File menu: content decides. Without
-exr, whose dropping belongs to images."""
-
+_LEFT_TO_BLENDER = {"exr"}
+"""Endings of files whose dropping belongs to Blender's own images."""
 
 _MOST_SENTENCES = 20
 
@@ -34,6 +30,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
     bl_idname = "rough_spectra.import_samples"
     bl_label = "Import Spectra"  # the file browser's button holds no more
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 1, 4
 
     filepath: StringProperty(
         name="File",
@@ -124,7 +121,10 @@ class ROUGHSPECTRA_FH_import(bpy.types.FileHandler):
     bl_idname = "ROUGHSPECTRA_FH_import"
     bl_label = "Measured Spectra"
     bl_import_operator = "rough_spectra.import_samples"
-    bl_file_extensions = ";".join(f".{ending}" for ending in ENDINGS)
+    # Any file can be chosen in the File menu: content decides.
+    bl_file_extensions = ";".join(
+        f".{ending}" for ending in endings() if ending not in _LEFT_TO_BLENDER
+    )
 
     @classmethod
     def poll_drop(cls, context: Any) -> bool:

@@ -19,6 +19,7 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
     bl_idname = "rough_spectra.keep"
     bl_label = "Keep"
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 2, 3
 
     @classmethod
     def poll(cls, context: Any) -> bool:

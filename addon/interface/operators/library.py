@@ -75,6 +75,7 @@ class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):
     bl_idname = "rough_spectra.rename_sample"
     bl_label = "Rename Sample"
     bl_options = {"REGISTER"}
+    menu_place = 4, 2
 
     sample: StringProperty(
         name="Sample",
@@ -119,6 +120,7 @@ class ROUGHSPECTRA_OT_remove_sample(bpy.types.Operator):
     bl_idname = "rough_spectra.remove_sample"
     bl_label = "Remove Sample"
     bl_options = {"REGISTER"}
+    menu_place = 4, 3
 
     sample: StringProperty(
         name="Sample",
@@ -162,6 +164,7 @@ class ROUGHSPECTRA_OT_open_library(bpy.types.Operator):
     bl_idname = "rough_spectra.open_library"
     bl_label = "Open Library Folder"
     bl_options = {"REGISTER"}
+    menu_place = 4, 4
 
     def execute(self, _context: Any) -> set[str]:
         """Make the folder if it is not there, and open it in the system's file manager."""

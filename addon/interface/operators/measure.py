@@ -24,6 +24,7 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
     bl_idname = "rough_spectra.measure"
     bl_label = "Measure with Virtual Spectrophotometer"
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 3, 1
 
     scope: EnumProperty(
         name="For",

@@ -23,6 +23,7 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
     bl_idname = "rough_spectra.renew"
     bl_label = "Renew"
     bl_options = {"REGISTER", "UNDO"}
+    menu_place = 2, 2
 
     scope: EnumProperty(
         name="For",

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import groupby
 from typing import Any
 
 import bpy
@@ -17,12 +19,8 @@ _MENUS = (
     "VIEW3D_MT_object_context_menu",
 )
 
-_ACTIONS = (
-    ("choose_sample", "find_nearest", "assign_file", "import_samples"),
-    ("analyze_scene", "renew", "keep"),
-    ("measure", "bake"),
-    ("build_assets", "rename_sample", "remove_sample", "open_library"),
-)
+_groups: list[list[str]] = []
+"""Operators in the menu of everything."""
 
 
 class ROUGHSPECTRA_MT_actions(bpy.types.Menu):
@@ -33,11 +31,11 @@ class ROUGHSPECTRA_MT_actions(bpy.types.Menu):
     def draw(self, _context: Any) -> None:
         """Draw groups of operators, with dialogs where they have some."""
         self.layout.operator_context = "INVOKE_DEFAULT"
-        for number, group in enumerate(_ACTIONS):
+        for number, group in enumerate(_groups):
             if number:
                 self.layout.separator()
             for name in group:
-                self.layout.operator(f"rough_spectra.{name}")
+                self.layout.operator(name)
 
 
 def draw_actions(menu: Any, _context: Any) -> None:
@@ -57,8 +55,27 @@ def draw_measure(menu: Any, context: Any) -> None:
     entry.scope = "ACTIVE" if in_material else "SELECTED"
 
 
-def register() -> None:
-    """Add the menu and the entries."""
+def _grouped(classes: Iterable[Any]) -> list[list[str]]:
+    """Give the operators that have a place in the menu, group by group."""
+    placed = sorted((cls for cls in classes if hasattr(cls, "menu_place")), key=_place)
+    return [
+        [cls.bl_idname for cls in group] for _, group in groupby(placed, lambda cls: _place(cls)[0])
+    ]
+
+
+def _place(cls: Any) -> tuple[int, int, str]:
+    return *cls.menu_place, cls.bl_idname
+
+
+def register(classes: Iterable[Any]) -> None:
+    """Add the menu and the entries.
+
+    Parameters
+    ----------
+    classes
+        All that are registered, operators among them.
+    """
+    _groups[:] = _grouped(classes)
     bpy.utils.register_class(ROUGHSPECTRA_MT_actions)
     for name in _MENUS:
         menu = getattr(bpy.types, name, None)

@@ -4,13 +4,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import bpy
 
 from ..operators import common
-from . import menus
+from .boxes import Box, boxes
 
 _ENGINES = {"CYCLES", "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
@@ -45,14 +44,6 @@ class _Sidebar:
         return common.is_material_tree(context)
 
 
-@lru_cache(maxsize=1)
-def _drawing() -> Any:
-    """Import what draws: most sessions of Blender never show these panels."""
-    from . import drawing
-
-    return drawing
-
-
 class _Main:
     """Measured spectrum of the material"""
 
@@ -65,135 +56,50 @@ class _Main:
 
     def draw(self, context: Any) -> None:
         """Draw the sample and the settings."""
-        _drawing().draw_sample(self.layout, context)  # type: ignore[attr-defined]
+        from . import sample  # most sessions of Blender never show the panel
 
-
-class _Part:
-    """A part that needs a material with a spectrum."""
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Show where the material stores a spectrum."""
-        return _drawing().current(context).shown is not None
-
-
-class _Difference(_Part):
-    """Target and Blender side by side, and what the difference means"""
-
-    bl_label = "Difference"
-
-    def draw(self, context: Any) -> None:
-        """Draw swatches, numbers and words."""
-        _drawing().draw_difference(self.layout, context)  # type: ignore[attr-defined]
-
-
-class _Plots(_Part):
-    """Range of σ, spectrum, and reflectance over the view angle"""
-
-    bl_label = "Plots"
-
-    def draw(self, context: Any) -> None:
-        """Draw the plots."""
-        _drawing().draw_plots(self.layout, context)  # type: ignore[attr-defined]
-
-
-class _Measurement:
-    """Measure the material with a virtual spectrophotometer"""
-
-    bl_label = "Measurement"
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Show where there is a material."""
-        return bool(_drawing().current(context).has_material)
-
-    def draw(self, context: Any) -> None:
-        """Draw the buttons and the last measurement."""
-        _drawing().draw_measurement(self.layout, context)  # type: ignore[attr-defined]
-
-
-class _Scene(_Part):
-    """What the scene shows of the material"""
-
-    bl_label = "Scene"
-
-    def draw(self, context: Any) -> None:
-        """Draw the lights found."""
-        _drawing().draw_scene(self.layout, context)  # type: ignore[attr-defined]
-
-
-class _Source(_Part):
-    """Where the spectrum comes from"""
-
-    bl_label = "Source"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: Any) -> None:
-        """Draw file, instrument and notes."""
-        _drawing().draw_source(self.layout, context)  # type: ignore[attr-defined]
+        sample.draw(self.layout, context)  # type: ignore[attr-defined]
 
 
 class ROUGHSPECTRA_PT_material(_Main, _Tab, bpy.types.Panel):
     """Measured spectrum of the material"""
 
 
-class ROUGHSPECTRA_PT_difference(_Difference, _Tab, bpy.types.Panel):
-    """Target and Blender side by side, and what the difference means"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_material"
-
-
-class ROUGHSPECTRA_PT_plots(_Plots, _Tab, bpy.types.Panel):
-    """Range of σ, spectrum, and reflectance over the view angle"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_material"
-
-
-class ROUGHSPECTRA_PT_measurement(_Measurement, _Tab, bpy.types.Panel):
-    """Measure the material with a virtual spectrophotometer"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_material"
-
-
-class ROUGHSPECTRA_PT_scene(_Scene, _Tab, bpy.types.Panel):
-    """What the scene shows of the material"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_material"
-
-
-class ROUGHSPECTRA_PT_source(_Source, _Tab, bpy.types.Panel):
-    """Where the spectrum comes from"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_material"
-
-
 class ROUGHSPECTRA_PT_nodes(_Main, _Sidebar, bpy.types.Panel):
     """Measured spectrum of the material"""
 
 
-class ROUGHSPECTRA_PT_nodes_difference(_Difference, _Sidebar, bpy.types.Panel):
-    """Target and Blender side by side, and what the difference means"""
+def _panel(box: Box, name: str, place: type, around: type) -> type:
+    """Make the class that Blender wants of a box in one of its places."""
 
-    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
+    def poll(_cls: Any, context: Any) -> bool:
+        return box.poll(context)
+
+    def draw(self: Any, context: Any) -> None:
+        box.draw(self.layout, context)
+
+    content = {
+        "__doc__": box.TOOLTIP,
+        "bl_label": box.LABEL,
+        "bl_parent_id": around.__name__,
+        "bl_options": {"DEFAULT_CLOSED"} if box.IS_CLOSED else set(),
+        "poll": classmethod(poll),
+        "draw": draw,
+    }
+    return type(f"ROUGHSPECTRA_PT_{name}", (place, bpy.types.Panel), content)
 
 
-class ROUGHSPECTRA_PT_nodes_plots(_Plots, _Sidebar, bpy.types.Panel):
-    """Range of σ, spectrum, and reflectance over the view angle"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
-
-
-class ROUGHSPECTRA_PT_nodes_measurement(_Measurement, _Sidebar, bpy.types.Panel):
-    """Measure the material with a virtual spectrophotometer"""
-
-    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
+def _inside(prefix: str, found: list[Box], place: type, around: type) -> list[type]:
+    names = [box.__name__.rpartition(".")[2] for box in found]
+    return [
+        _panel(box, prefix + name, place, around) for box, name in zip(found, names, strict=True)
+    ]
 
 
+_BOXES = boxes()
 classes = (
-    *(ROUGHSPECTRA_PT_material, ROUGHSPECTRA_PT_difference, ROUGHSPECTRA_PT_plots),
-    *(ROUGHSPECTRA_PT_measurement, ROUGHSPECTRA_PT_scene, ROUGHSPECTRA_PT_source),
-    *(ROUGHSPECTRA_PT_nodes, ROUGHSPECTRA_PT_nodes_difference, ROUGHSPECTRA_PT_nodes_plots),
-    ROUGHSPECTRA_PT_nodes_measurement,
+    ROUGHSPECTRA_PT_material,
+    *_inside("", _BOXES, _Tab, ROUGHSPECTRA_PT_material),
+    ROUGHSPECTRA_PT_nodes,
+    *_inside("nodes_", [box for box in _BOXES if box.IN_SIDEBAR], _Sidebar, ROUGHSPECTRA_PT_nodes),
 )
-register_menus = menus.register
-unregister_menus = menus.unregister

@@ -5,29 +5,54 @@
 From the base name `out/chart` come `chart.json` with everything, `chart.predicted.*` and
 `chart.measured.*`. Where nothing was predicted, or nothing measured, those files are left out: a
 CGATS file without a table is no CGATS file.
+
+A format is one module of this package, and nothing else has to know of it:
+
+    NAME = "csv"                                       what --format calls it
+    PLACE = 10                                         among the others, when files are named
+    ENDINGS = r"predicted[.]csv"                       pattern of what may follow the base name
+    CREATOR = rb"# creator: Rough Spectra "            pattern within its first 1,024 bytes
+    def files(readings: Readings) -> list[tuple[str, Content]]    endings and content, none empty
+
+By ending and creator the files are known that an earlier bake left and a later one does not write.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol
 
-from ...support import atomic_files
+from ...support import atomic_files, discovery
 from ..document import Readings, to_json
-from . import cgats, images, tables
 
-FORMATS = ("csv", "cgats", "exr")
+Content = bytes | Callable[[Path, Path], None]
+"""All of a file; or what writes it, to the first path, and names the second one in errors."""
+
+
+class Writer(Protocol):
+    """What a module of this package offers."""
+
+    NAME: str
+    PLACE: int
+    ENDINGS: str
+    CREATOR: bytes
+
+    def files(self, readings: Readings) -> list[tuple[str, Content]]:
+        """Give what follows the base name, and content, of each file; none without readings."""
+
+
+_WRITERS: list[Writer] = sorted(
+    discovery.modules(__name__, __path__), key=lambda writer: writer.PLACE
+)
+
+FORMATS = tuple(writer.NAME for writer in _WRITERS)
 """Written beside the JSON document, which is always written."""
 
-_ENDING = re.compile(
-    r"json|(?:predicted|measured)\.(?:csv|cgats\.txt)"
-    r"|predicted(?:-[1-9]\d*)?\.spectral\.exr|measured\.exr"
-)
+_ENDING = re.compile("|".join(("json", *(f"(?:{writer.ENDINGS})" for writer in _WRITERS))))
 """What may follow the base name."""
-_CREATOR = re.compile(
-    rb'# creator: Rough Spectra |ORIGINATOR\t"Rough Spectra |Software\0string\0.{4}Rough Spectra ',
-    re.DOTALL,
-)
+_CREATOR = re.compile(b"|".join(writer.CREATOR for writer in _WRITERS), re.DOTALL)
 _HEAD = 1024
 """Bytes within which every file says who made it."""
 
@@ -70,27 +95,20 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
     """
     atomic_files.check_base(base)
     written: list[Path] = []
-    is_predicted = any(entry.predicted is not None for entry in readings.entries)
-    is_measured = any(entry.measured is not None for entry in readings.entries)
     with atomic_files.publication() as files:
 
-        def put(ending: str, content: bytes) -> None:
+        def put(ending: str, content: Content) -> None:
             target = base.with_name(f"{base.name}.{ending}")
-            files.write(target, content)
+            if isinstance(content, bytes):
+                files.write(target, content)
+            else:
+                content(files.stage(target), target)
             written.append(target)
 
-        for module, ending in ((tables, "csv"), (cgats, "cgats.txt")):
-            if ending.partition(".")[0] not in formats:
-                continue
-            if is_predicted:
-                put(f"predicted.{ending}", module.predicted(readings))
-            if is_measured:
-                put(f"measured.{ending}", module.measured(readings))
-        if "exr" in formats:
-            for ending, image in images.predicted(readings) + images.measured(readings):
-                target = base.with_name(f"{base.name}.{ending}")
-                images.write(image, files.stage(target), target)
-                written.append(target)
+        for writer in _WRITERS:
+            if writer.NAME in formats:
+                for ending, content in writer.files(readings):
+                    put(ending, content)
         put("json", to_json(readings))
         files.clear(base.parent, lambda path: _is_of(base, path) and _is_ours(path))
     return written

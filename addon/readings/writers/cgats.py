@@ -20,6 +20,21 @@ from ...support.version import version
 from ..document import INSTRUMENT, Readings
 from .tables import nanometers
 
+NAME = "cgats"
+PLACE = 20
+ENDINGS = r"(?:predicted|measured)\.cgats\.txt"
+CREATOR = rb'ORIGINATOR\t"Rough Spectra '
+
+
+def files(readings: Readings) -> list[tuple[str, bytes]]:
+    """Give the endings and tables of what was predicted and of what was measured."""
+    found = []
+    if any(entry.predicted is not None for entry in readings.entries):
+        found.append(("predicted.cgats.txt", predicted(readings)))
+    if any(entry.measured is not None for entry in readings.entries):
+        found.append(("measured.cgats.txt", measured(readings)))
+    return found
+
 
 def predicted(readings: Readings) -> bytes:
     """Give the predicted spectra with their XYZ and Lab."""

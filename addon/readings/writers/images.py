@@ -10,7 +10,9 @@ crashes on 24 or more bands.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +22,11 @@ from ....core.numerics.arrays import Array
 from ...support.openimageio import openimageio
 from ...support.version import version
 from ..document import Reading, Readings
+
+NAME = "exr"
+PLACE = 30
+ENDINGS = r"predicted(?:-[1-9]\d*)?\.spectral\.exr|measured\.exr"
+CREATOR = rb"Software\0string\0.{4}Rough Spectra "
 
 SWATCH = 16
 """Pixels a swatch is wide and high."""
@@ -38,6 +45,12 @@ class Picture:
     channels: tuple[str, ...]
     layout: str
     spectral: bool
+
+
+def files(readings: Readings) -> list[tuple[str, Callable[[Path, Path], None]]]:
+    """Give the endings of all images, and what writes each."""
+    pictures = predicted(readings) + measured(readings)
+    return [(ending, partial(write, picture)) for ending, picture in pictures]
 
 
 def predicted(readings: Readings) -> list[tuple[str, Picture]]:

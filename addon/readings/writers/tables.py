@@ -19,6 +19,21 @@ from ..document import (
     Readings,
 )
 
+NAME = "csv"
+PLACE = 10
+ENDINGS = r"(?:predicted|measured)\.csv"
+CREATOR = rb"# creator: Rough Spectra "
+
+
+def files(readings: Readings) -> list[tuple[str, bytes]]:
+    """Give the endings and tables of what was predicted and of what was measured."""
+    found = []
+    if any(entry.predicted is not None for entry in readings.entries):
+        found.append(("predicted.csv", predicted(readings)))
+    if any(entry.measured is not None for entry in readings.entries):
+        found.append(("measured.csv", measured(readings)))
+    return found
+
 
 def predicted(readings: Readings) -> bytes:
     """Give the table of predicted spectra; a band that a sample lacks is left empty."""

@@ -5,6 +5,7 @@
 A format is one module of this package, and nothing else has to know of it:
 
     NAME = "Nix export"                             what messages call it
+    ENDINGS = ("csv",)                              of its files' names: a hint, for the drop list
     PRIORITY = 100                                  who is asked first; specific formats above 0
     def sniff(document: Document) -> bool           by content; quick, and never raises
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
@@ -16,12 +17,11 @@ Modules whose name begins with an underscore are help for the readers, not forma
 from __future__ import annotations
 
 import functools
-import importlib
 import os
-import pkgutil
-from typing import Protocol, cast
+from typing import Protocol
 
 from ....core.errors import InputError
+from ...support import discovery
 from ..sample import Sample
 from . import formats
 from .parts.document import Document, open_document
@@ -33,6 +33,7 @@ class Reader(Protocol):
     """What a module of this package offers."""
 
     NAME: str
+    ENDINGS: tuple[str, ...]
     PRIORITY: int
 
     def sniff(self, document: Document) -> bool:
@@ -75,12 +76,9 @@ def read(
 @functools.cache
 def readers() -> tuple[Reader, ...]:
     """Return the format modules in the order in which they are asked."""
-    found = []
-    for module in pkgutil.iter_modules(formats.__path__):
-        found.append(importlib.import_module(f"{formats.__name__}.{module.name}"))
     # The module's name breaks ties, so that the order never depends on the file system.
-    found.sort(key=lambda module: (-module.PRIORITY, module.__name__))
-    return tuple(cast(Reader, module) for module in found)
+    found = discovery.modules(formats.__name__, formats.__path__)
+    return tuple(sorted(found, key=lambda module: (-module.PRIORITY, module.__name__)))
 
 
 def _unrecognized(document: Document) -> InputError:

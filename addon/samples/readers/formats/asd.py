@@ -23,6 +23,7 @@ from ..parts import geometry_words
 from ..parts.document import Document
 
 NAME = "ASD binary file (.asd)"
+ENDINGS = ("asd",)
 PRIORITY = 100
 
 _MAGIC = (b"ASD", b"as2", b"as3", b"as4", b"as5", b"as6", b"as7", b"as8")

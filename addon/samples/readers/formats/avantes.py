@@ -22,6 +22,7 @@ from ..parts.document import Document, quote
 from ..parts.geometry_words import instrument_of
 
 NAME = "AvaSoft text export"
+ENDINGS = ("ttt", "trt", "tit", "rfl8", "txt")
 PRIORITY = 90
 
 _BINARY = (b"AVS8", b"\x00\x00\x8cB", b"\x00\x00pB")  # AvaSoft 8; 7 and 6 begin with 70.0 and 60.0

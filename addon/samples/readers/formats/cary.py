@@ -21,6 +21,7 @@ from ..parts import label_words, series, tables
 from ..parts.document import Document, plain, quote
 
 NAME = "Cary WinUV CSV"
+ENDINGS = ("csv",)
 PRIORITY = 60
 
 _MARKS = ",;\t"

@@ -32,6 +32,7 @@ from ..parts.cgats_words import Words
 from ..parts.document import Document, quote
 
 NAME = "CGATS file"
+ENDINGS = ("cgats", "ti3", "sp", "it8", "txt")
 PRIORITY = 80
 
 _FORMAT = re.compile(r"^[ \t]*BEGIN_DATA(?:_FORMAT)?\b", re.MULTILINE | re.IGNORECASE)

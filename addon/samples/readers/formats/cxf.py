@@ -22,6 +22,7 @@ from ..parts.cxf_parts import Specification, Spectrum, Thing
 from ..parts.document import Document, quote
 
 NAME = "CxF3"
+ENDINGS = ("cxf", "mxf", "xml")
 PRIORITY = 100
 
 _ROOT = re.compile(r"<(?:[\w.-]+:)?CXF[\s>/]", re.IGNORECASE)

@@ -26,6 +26,7 @@ from ..parts.table_start import LEAST_BAND
 from ..parts.tables import SPACES, Row
 
 NAME = "table with wavelengths (CSV, TSV, semicolons or spaces)"
+ENDINGS = ("csv", "tsv", "txt", "dat", "sed")
 PRIORITY = 0
 
 _PEEK = 20  # rows from which the layout follows

@@ -27,6 +27,7 @@ from ..parts.document import Document, quote
 from ..parts.tables import Block, Row
 
 NAME = "ECOSTRESS or ASTER library file"
+ENDINGS = ("txt",)
 PRIORITY = 100
 
 _MARKS = ("x units", "y units", "first x value")

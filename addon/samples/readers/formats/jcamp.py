@@ -25,6 +25,7 @@ from ..parts.geometry_words import instrument_of, specular_of
 from ..parts.jcamp_ordinates import Ordinates, Pairs
 
 NAME = "JCAMP-DX"
+ENDINGS = ("jdx", "dx", "jcamp")
 PRIORITY = 95
 
 _WAVENUMBERS = re.compile(r"1/cm|cm *\^?-1|wave *numbers?", re.IGNORECASE)

@@ -27,6 +27,7 @@ from ...sample import KINDS, Sample, check_spectrum
 from ..parts.document import Document, quote
 
 NAME = "Rough Spectra library"
+ENDINGS = ("json",)
 PRIORITY = 100
 
 FORMAT = "rough-spectra-library"

@@ -19,6 +19,7 @@ from ..parts import tables
 from ..parts.document import Document, quote
 
 NAME = "Nix export"
+ENDINGS = ("csv",)
 PRIORITY = 100
 
 # Nix states 45°/0° for all its instruments.

@@ -24,6 +24,7 @@ from ..parts.document import Document
 from ..parts.geometry_words import instrument_of
 
 NAME = "Ocean Optics text file"
+ENDINGS = ("txt", "jaz")
 PRIORITY = 90
 
 _PERCENT = 100.0

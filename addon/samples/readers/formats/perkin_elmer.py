@@ -15,6 +15,7 @@ from ..parts import series, tables
 from ..parts.document import Document, quote
 
 NAME = "PerkinElmer Lambda ASCII"
+ENDINGS = ("asc",)
 PRIORITY = 90
 
 _MARK = re.compile(r"PE UV\s+SUBTECH\s+SPECTRUM\s+ASCII")

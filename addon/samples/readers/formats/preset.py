@@ -12,6 +12,7 @@ from ..parts.document import Document
 from ..parts.preset_fields import FORMAT, faults
 
 NAME = "Rough Spectra preset"
+ENDINGS = ("json",)
 PRIORITY = 100
 
 _OPTIONAL = (

@@ -23,6 +23,7 @@ from ..parts.document import Document, quote
 from ..parts.geometry_words import instrument_of, specular_of
 
 NAME = "Datacolor QTX"
+ENDINGS = ("qtx",)
 PRIORITY = 95
 
 _PERCENT = 100.0

@@ -30,6 +30,7 @@ from ..parts.document import Document, plain, quote
 from ..parts.tables import Row
 
 NAME = "RELAB file"
+ENDINGS = ("txt", "asc", "tab")
 PRIORITY = 90
 
 _TITLE = re.compile(r"relab\s+spectrum\s*(\S*)", re.IGNORECASE)

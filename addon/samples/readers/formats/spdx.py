@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
 NAME = "IES TM-27 spectrum (.spdx)"
+ENDINGS = ("spdx", "xml")
 PRIORITY = 100
 
 _ROOT = "IESTM2714"

@@ -29,6 +29,7 @@ from ..parts.document import Document, open_document, quote
 from ..parts.exr_image import Image
 
 NAME = "spectral OpenEXR image"
+ENDINGS = ("exr",)
 PRIORITY = 100
 REGIONS = True
 

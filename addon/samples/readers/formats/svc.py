@@ -18,6 +18,7 @@ from ..parts import band_order, geometry_words, tables
 from ..parts.document import Document
 
 NAME = "Spectra Vista file (.sig)"
+ENDINGS = ("sig",)
 PRIORITY = 100
 
 _MARK = "/*** Spectra Vista SIG Data"

@@ -26,6 +26,7 @@ from ..parts import band_order, geometry_words, tables
 from ..parts.document import Document, quote
 
 NAME = "USGS Spectral Library file"
+ENDINGS = ("txt",)
 PRIORITY = 100
 
 LICENSE = "public domain (U.S. Geological Survey)"

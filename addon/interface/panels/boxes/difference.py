@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Target and Blender side by side."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .. import redraw, sentences
+
+LABEL = "Difference"
+TOOLTIP = "Target and Blender side by side, and what the difference means"
+PLACE = 10
+IN_SIDEBAR = True
+IS_CLOSED = False
+
+_SWATCH_UNITS = 5.0
+_NARROWEST = 200.0
+"""Pixels at UI scale 1 that numbers need beside the swatches; else they go below."""
+
+
+def poll(context: Any) -> bool:
+    """Show where the material stores a spectrum."""
+    from .. import redraw
+
+    return redraw.current(context).shown is not None
+
+
+def draw(layout: Any, context: Any) -> None:
+    """Show target and Blender side by side, what the difference means, and what limits it."""
+    from .. import redraw, sentences, text
+
+    here = redraw.current(context)
+    if here.shown is None:
+        return
+    shown = here.shown
+    if shown.obstacle is not None:
+        text.draw(layout, sentences.obstacle(shown.obstacle, here.style))
+        return
+    apart = _draw_swatches(layout, here, shown)
+    if shown.state.kind == "fresh":
+        text.draw(layout, sentences.difference(shown.facts, apart, here.style))
+    if shown.is_bumped:
+        told = "Bump is not counted: numbers are of the surface without it. Measure it to know"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
+
+
+def _draw_swatches(
+    layout: Any, here: redraw.Redraw, shown: redraw.Shown
+) -> sentences.Numbers | None:
+    """Draw the colors with their numbers, which are None until they are computed."""
+    from .. import sentences, text
+
+    picture = shown.picture("swatches", _SWATCH_UNITS)
+    beside = here.format.width(sentences.SWATCHES) >= _NARROWEST
+    row = layout.row() if beside else layout.column()
+    row.template_icon(picture, scale=_SWATCH_UNITS)
+    apart = shown.apart()
+    if apart is not None:
+        text.draw(row.column(align=True), sentences.numbers(apart, beside, here.style))
+    return apart

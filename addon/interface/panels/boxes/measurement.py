@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the virtual spectrophotometer read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .. import redraw
+
+LABEL = "Measurement"
+TOOLTIP = "Measure the material with a virtual spectrophotometer"
+PLACE = 30
+IN_SIDEBAR = True
+IS_CLOSED = False
+
+
+def poll(context: Any) -> bool:
+    """Show where there is a material."""
+    from .. import redraw
+
+    return bool(redraw.current(context).has_material)
+
+
+def draw(layout: Any, context: Any) -> None:
+    """Offer to measure, and show the last measurement beside the prediction."""
+    from .. import redraw
+    from ..icon_values import icon_value
+
+    row, render = layout.row(align=True), icon_value("RENDER_STILL")
+    row.operator("rough_spectra.measure", text="Measure", icon_value=render).scope = "ACTIVE"
+    row.operator("rough_spectra.measure", text="Measure All").scope = "ALL"
+    here = redraw.current(context)
+    if here.shown is not None:
+        _draw_measured(layout, context, here, here.shown)
+    layout.operator("rough_spectra.bake", icon_value=icon_value("EXPORT"))
+
+
+def _draw_measured(layout: Any, context: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
+    from ....material import last_measurement, settled
+    from ...operators import common
+    from .. import sentences, text
+
+    found = last_measurement.get(common.active_material(context), shown.facts)
+    if found is None or found.delta_e is None:
+        return
+    predicted = found.predicted
+    if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
+        predicted = of_now[0]
+    told = sentences.measurement(predicted, found.delta_e, found.current, here.style)
+    text.draw(layout.column(align=True), told)

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the spectrum comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+LABEL = "Source"
+TOOLTIP = "Where the spectrum comes from"
+PLACE = 50
+IN_SIDEBAR = False
+IS_CLOSED = True
+
+
+def poll(context: Any) -> bool:
+    """Show where the material stores a spectrum."""
+    from .. import redraw
+
+    return redraw.current(context).shown is not None
+
+
+def draw(layout: Any, context: Any) -> None:
+    """Draw source, what the file says of the measurement, and every note."""
+    from ...operators import common
+    from .. import redraw, sentences, text
+
+    material: Any = common.active_material(context)
+    group, here = material.rough_spectra, redraw.current(context)
+    cited, about, notes = sentences.source(
+        group.source, group.details, group.sigma_source, here.style
+    )
+    text.draw(layout, cited)
+    text.draw(layout.column(align=True), about)
+    text.draw(layout, notes)
