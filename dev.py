@@ -219,7 +219,7 @@ def command_run(arguments: Sequence[str]) -> int:
     # What a verb prints may be piped on: set-up talks elsewhere.
     with contextlib.redirect_stdout(sys.stderr):
         python = prepare_blender().python
-    command = [str(python), str(script("tools/run_command_line.py")), *arguments]
+    command = [str(python), str(script("tools/run/run_command_line.py")), *arguments]
     if sys.platform != "win32":
         # Give our place to the child, so that a signal to this process reaches the work itself.
         os.execv(command[0], command)

@@ -21,8 +21,8 @@ THEMES = {"dark": ((0.239,) * 3, (0.902,) * 3), "light": ((0.8,) * 3, (0.102,) *
 SCALE = 2
 SHEET, PAIR, GAP = 300, 110, 10
 
-sys.path.insert(0, str(ROOT / "tools"))
-from run_command_line import load_extension  # noqa: E402
+sys.path.insert(0, str(ROOT))
+from tools.run.run_command_line import load_extension  # noqa: E402
 
 
 def main():

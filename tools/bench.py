@@ -12,22 +12,21 @@ prints the table in any case. Needs an environment with bpy:
 from __future__ import annotations
 
 import argparse
-import importlib
 import platform
 import sys
 import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 
+from tools.run.run_command_line import ROOT, load_extension
+
 if "rough_spectra" not in sys.modules:
-    # A script finds its neighbors by their bare names.
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
 
 from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.addon.matching import solve
@@ -46,7 +45,7 @@ PEER_SPECTRA = 50
 """The peer takes most of a millisecond for each, so it gets fewer; times are a spectrum's."""
 SIGMA = np.pi / 6
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+DOCS = ROOT / "docs"
 TABLE = DOCS / "benchmark-table.md"
 DATA = DOCS / "data" / "benchmark.csv"
 

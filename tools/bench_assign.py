@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import argparse
 import cProfile
-import importlib
 import pstats
 import sys
 import tempfile
@@ -26,9 +25,10 @@ from typing import Any
 import bpy
 import numpy as np
 
+from tools.run.run_command_line import load_extension
+
 if "rough_spectra" not in sys.modules:
-    # A script finds its neighbors by their bare names.
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
 
 from rough_spectra.addon.blender import blend_file
 from rough_spectra.addon.commands import command_line, mapping

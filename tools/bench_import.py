@@ -9,14 +9,14 @@ Needs numpy and no Blender. Wall and processor time, and the most memory that th
 
 from __future__ import annotations
 
-import importlib
 import resource
-import sys
 import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
+
+from tools.run.run_command_line import load_extension
 
 SAMPLES = 10_000
 BANDS = range(380, 731, 10)
@@ -26,8 +26,7 @@ Found = TypeVar("Found")
 
 def main() -> None:
     """Print a line for each step."""
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
     from rough_spectra.addon.samples import importing
 
     with tempfile.TemporaryDirectory() as folder:

@@ -14,15 +14,15 @@ from __future__ import annotations
 
 import importlib
 import statistics
-import sys
 import time
 import types
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from tools.run.run_command_line import load_extension
 
 MATERIALS = 500
 DRAWS = 200
@@ -40,8 +40,7 @@ class Nothing:
 
 def main() -> None:
     """Print a table."""
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
-    extension = importlib.import_module("run_command_line").load_extension()
+    extension = load_extension()
     import bpy
 
     models = ("auto", *importlib.import_module("rough_spectra.core.models").NAMES)

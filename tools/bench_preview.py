@@ -11,18 +11,17 @@ time, which other programs disturb less than wall time. Milliseconds.
 
 from __future__ import annotations
 
-import importlib
 import itertools
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 from typing import Any
 
+from tools.run.run_command_line import ROOT, load_extension
+
 REPEATS = 100
-PATCH = Path(__file__).resolve().parents[1] / "presets" / "colorchecker" / "14-green.json"
+PATCH = ROOT / "presets" / "colorchecker" / "14-green.json"
 SHEET = 280
 """Side of the largest picture at scale 1: a properties editor of about 320 pixels."""
 SWATCHES = 96
@@ -30,8 +29,7 @@ SWATCHES = 96
 
 def main() -> None:
     """Print a table."""
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
-    extension = importlib.import_module("run_command_line").load_extension()
+    extension = load_extension()
     extension.register()
     import bpy
     import numpy as np

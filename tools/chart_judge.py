@@ -15,11 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from . import run_command_line
+from tools.run.run_command_line import load_extension
+
 from .chart_work import BANDS, Array, relative_error, summary
 
 if "rough_spectra" not in sys.modules:
-    run_command_line.load_extension()
+    load_extension()
 
 from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.addon.support.colour_science import colour

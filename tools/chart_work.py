@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from tools.run.run_command_line import ROOT
+
 Array = npt.NDArray[Any]
 
-ROOT = Path(__file__).resolve().parents[1]
 PRESETS = ROOT / "presets" / "colorchecker"
 
 SIGMAS = np.radians([10.0, 20.0, 30.0, 40.0, 50.0])

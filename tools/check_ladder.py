@@ -14,7 +14,6 @@ colour-science.
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 import time
 from collections import Counter
@@ -24,9 +23,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from tools.run.run_command_line import load_extension
+
 if "rough_spectra" not in sys.modules:
-    # A script finds its neighbors by their bare names.
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
 
 from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.core import ladder, models

@@ -16,6 +16,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tools.run.run_command_line import load_extension
+
 if TYPE_CHECKING:
     from rough_spectra.addon.readings.document import Readings
 
@@ -31,8 +33,7 @@ PICTURE = "demo-scene.png"
 
 def main(folder: Path) -> int:
     """Make everything but the contact sheet; returns the exit status."""
-    # A script finds its neighbors by their bare names.
-    extension = importlib.import_module("run_command_line").load_extension()
+    extension = load_extension()
     importlib.import_module("bpy")
     extension.register()
     say("Rough Spectra demo: 24 ColorChecker presets at σ = 0°, 15°, 30° and 45°")

@@ -11,7 +11,6 @@ default; `sky.read` multiplies the ratios. Each render is an equirectangular pic
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 import sys
@@ -21,6 +20,8 @@ from typing import Any
 
 import bpy
 import numpy as np
+
+from tools.run.run_command_line import load_extension
 
 ELEVATIONS = (-5.0, 0.0, 2.0, 5.0, 10.0, 20.0, 40.0, 90.0)
 SETTINGS: dict[str, tuple[float, ...]] = {
@@ -37,7 +38,7 @@ ROWS = 48
 
 def main(path: Path) -> None:
     """Render and write the table."""
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
     scene, node = build()
     table: dict[str, Any] = {"elevations": ELEVATIONS, "settings": SETTINGS, "defaults": DEFAULTS}
     table["turbidities"] = TURBIDITIES

@@ -24,7 +24,8 @@ from pathlib import Path
 from typing import Any
 
 import promises
-from run_command_line import ROOT, load_extension
+
+from tools.run.run_command_line import ROOT, load_extension
 
 FIXTURES = ROOT / "tests" / "fixtures"
 OUT = ROOT / "build" / "fuzz"

@@ -17,12 +17,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from tools.run.run_command_line import ROOT, load_extension
+
 try:
     from tools import promises
 except ImportError:  # started as a script
     import promises  # type: ignore[import-not-found, no-redef]
 
-ROOT = Path(__file__).resolve().parents[1]
 FIXTURES = ROOT / "tests" / "fixtures"
 
 SIZE = 10**6
@@ -141,8 +142,6 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--fixtures", type=int, default=2, help="of each reader")
     parser.add_argument("readers", nargs="*", metavar="READER", help="modules of addon/readers")
     options = parser.parse_args(arguments)
-    from run_command_line import load_extension
-
     load_extension()
     from rough_spectra.addon.samples import readers
 

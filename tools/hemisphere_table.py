@@ -14,18 +14,17 @@ an environment with bpy:
 
 from __future__ import annotations
 
-import importlib
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 
+from tools.run.run_command_line import ROOT, load_extension
+
 if "rough_spectra" not in sys.modules:
-    # A script finds its neighbors by their bare names.
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
 
 from rough_spectra.addon.blender import shader_nodes, working_space
 from rough_spectra.addon.colorimetry import tristimulus
@@ -45,7 +44,7 @@ GEOMETRIES = 500
 TARGETS = {"two-bounce": "two-bounce", solve.AUTO: "reference"}
 """What a material was assigned with, and the model of `core.ladder` it is compared with."""
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+DOCS = ROOT / "docs"
 TABLE = DOCS / "hemisphere-table.md"
 DATA = DOCS / "data" / "hemisphere.csv"
 

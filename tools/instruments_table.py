@@ -11,14 +11,13 @@ docs/instruments.md, and then where matplotlib is, for the figure. Equal numbers
 from __future__ import annotations
 
 import csv
-import importlib
 import io
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.run.run_command_line import ROOT, load_extension
+
 PAGE = ROOT / "docs" / "instruments.md"
 DATA = ROOT / "docs" / "data" / "instruments.csv"
 FIGURE = ROOT / "docs" / "images" / "instruments"
@@ -36,9 +35,7 @@ NOTE = (
 
 def rows() -> list[dict[str, Any]]:
     """Compare every instrument with 45a:0; needs an environment with colour-science."""
-    if "rough_spectra" not in sys.modules:
-        # A script finds its neighbors by their bare names.
-        importlib.import_module("run_command_line").load_extension()
+    load_extension()
     import numpy as np
     from rough_spectra.addon.colorimetry import tristimulus
     from rough_spectra.addon.samples import presets
@@ -75,8 +72,7 @@ def rows() -> list[dict[str, Any]]:
 
 def described() -> str:
     """Give the table of what there is: name, light and view of every record."""
-    if "rough_spectra" not in sys.modules:
-        importlib.import_module("run_command_line").load_extension()
+    load_extension()
     from rough_spectra.core import instruments
 
     lines = ["| name | light | view |", "| --- | --- | --- |"]

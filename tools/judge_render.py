@@ -22,6 +22,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from tools.run.run_command_line import load_extension
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 WIDTH, HEIGHT, SAMPLES = 320, 180, 256
@@ -201,10 +203,8 @@ def difference(shown: np.ndarray, truth: np.ndarray, white: np.ndarray) -> float
 
 def main() -> None:
     """Print the mean of each material."""
-    judge_scene, make_room, command_line = map(
-        importlib.import_module, ("judge_scene", "make_room", "run_command_line")
-    )
-    extension = command_line.load_extension()
+    judge_scene, make_room = map(importlib.import_module, ("judge_scene", "make_room"))
+    extension = load_extension()
     extension.register()
     from rough_spectra.addon.material import derive
     from rough_spectra.addon.scene import analysis, follow_scene

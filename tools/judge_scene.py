@@ -22,6 +22,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from tools.run.run_command_line import load_extension
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 SEED = 4711
@@ -133,7 +135,7 @@ def _lab(xyz: np.ndarray, white: np.ndarray) -> np.ndarray:
 def main() -> None:
     """Print how long the analysis takes and what it gains."""
     make_room = importlib.import_module("make_room")
-    extension = importlib.import_module("run_command_line").load_extension()
+    extension = load_extension()
     extension.register()
     from rough_spectra.addon.material import derive
     from rough_spectra.addon.scene import analysis, follow_scene

@@ -12,10 +12,12 @@ import warnings
 
 import numpy as np
 
+from tools.run.run_command_line import load_extension
+
 
 def main() -> None:
     """Compute and write the weights."""
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
     e308 = importlib.import_module("rough_spectra.addon.colorimetry.astm_e308")
     # colour-science tells on the console of every table that it aligns.
     warnings.simplefilter("ignore")

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.run.run_command_line import ROOT, load_extension
+
 FOLDER = ROOT / "presets" / "everyday"
 NIX = ROOT / "tests" / "fixtures" / "nix"
 
@@ -270,7 +271,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("usgs", type=Path, metavar="USGS-FOLDER")
     parser.add_argument("folder", type=Path, nargs="?", default=FOLDER)
     options = parser.parse_args(arguments)
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
     made = [preset(material, options.usgs) for material in MATERIALS]
     written = importlib.import_module("make_presets").write_presets(made, options.folder)
     print(f"{len(written)} presets in {options.folder}")

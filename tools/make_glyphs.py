@@ -22,9 +22,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from tools.run.run_command_line import ROOT
+
 Array = npt.NDArray[np.int64]
 
-MODULE = Path(__file__).resolve().parents[1] / "addon" / "preview" / "glyphs.py"
+MODULE = ROOT / "addon" / "preview" / "glyphs.py"
 CHARACTERS = "".join(map(chr, range(32, 127))) + "°²±µ·×Δθλπρσ–…−≤≥"
 EM = 1024
 """Units an em in the table."""

@@ -17,8 +17,10 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from tools.run.run_command_line import ROOT
+
 COLLECTION = "ColorChecker N Ohta"
-FOLDER = Path(__file__).resolve().parents[1] / "presets" / "colorchecker"
+FOLDER = ROOT / "presets" / "colorchecker"
 SOURCE = (
     "Ohta, N. (1997), The basis of color reproduction engineering, with Munsell Color Science, "
     "Macbeth Colorchecker, http://www.rit-mcsl.org/UsefulData/MacbethColorChecker.xls, as "

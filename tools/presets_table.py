@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.run.run_command_line import ROOT, load_extension
+
 FILE = ROOT / "docs" / "presets-table.md"
 COLLECTION = "everyday"
 
@@ -93,7 +94,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("file", type=Path, nargs="?", default=FILE)
     file = parser.parse_args(arguments).file
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
     presets = importlib.import_module("rough_spectra.addon.samples.presets")
     names = presets.names_of(COLLECTION)
     samples = presets.load_all(COLLECTION)

@@ -9,21 +9,20 @@ draws the figures afterwards in one that has matplotlib.
 from __future__ import annotations
 
 import csv
-import importlib
 import io
 import re
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tools.run.run_command_line import ROOT, load_extension
+
 if "rough_spectra" not in sys.modules:
-    # A script finds its neighbors by their bare names.
-    importlib.import_module("run_command_line").load_extension()
+    load_extension()
 
 from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.addon.samples import presets
@@ -35,7 +34,7 @@ from rough_spectra.core.color import color_difference
 
 Array = NDArray[np.float64]
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+DOCS = ROOT / "docs"
 PAGE = DOCS / "report-2007.md"
 DATA = DOCS / "data"
 

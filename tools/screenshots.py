@@ -18,7 +18,8 @@ from pathlib import Path
 
 import desktop
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.run.run_command_line import ROOT
+
 INSIDE = ROOT / "tools" / "screenshots_inside.py"
 
 

@@ -13,6 +13,8 @@ from typing import Any
 
 import bpy
 
+from tools.run.run_command_line import ROOT
+
 BANDS = range(400, 701, 20)
 PLASTER = "\n".join(
     [
@@ -24,7 +26,7 @@ PLASTER = "\n".join(
 LAMP = "wavelength,irradiance\n" + "\n".join(f"{nm},{nm / 10}" for nm in BANDS)
 """Invented numbers, for pictures alone."""
 
-TERRACOTTA = Path(__file__).parents[1] / "tests" / "fixtures" / "nix" / "terracotta.csv"
+TERRACOTTA = ROOT / "tests" / "fixtures" / "nix" / "terracotta.csv"
 
 KEY = "F19"
 

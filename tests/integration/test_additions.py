@@ -124,7 +124,7 @@ def found(tmp_path_factory, environment):
     mapping.write_text("material,sample,file,kind\nWall,clay,0.csv,reading\n", encoding="utf-8")
     done = subprocess.run(
         [
-            *(sys.executable, "-c", START.format(tools=str(home / "tools")) + textwrap.dedent(USE)),
+            *(sys.executable, "-c", START.format(root=str(home)) + textwrap.dedent(USE)),
             *map(str, (mapping, *files)),
         ],
         env=environment,

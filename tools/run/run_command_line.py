@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the extension's command line over the bpy module, without a Blender executable.
 
-`dev.py run VERB ...` starts this file in an environment that has bpy. The repository's root is
-loaded as the package `rough_spectra`, because a clone's folder may have any name.
+`dev.py run VERB ...` starts this file in an environment that has bpy: by its path, because it runs
+in the caller's folder, whose files must not be taken for modules. The repository's root is loaded
+as the package `rough_spectra`, because a clone's folder may have any name.
 """
 
 import importlib
@@ -13,14 +14,19 @@ import traceback
 from pathlib import Path
 from types import ModuleType
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "rough_spectra"
 FAILED_ITSELF, INTERRUPTED = 3, 130
 """Exit statuses, as `addon/commands/command_line.py` has them."""
 
 
 def load_extension() -> ModuleType:
-    """Make `import rough_spectra` find the repository's root, and return that package."""
+    """Make `import rough_spectra` find the repository's root, and return that package.
+
+    Every tool that needs the extension comes here, and where it is loaded nothing happens.
+    """
+    if PACKAGE in sys.modules:
+        return sys.modules[PACKAGE]
     spec = importlib.util.spec_from_file_location(
         PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
     )
