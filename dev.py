@@ -19,10 +19,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tools.ground import environments, package, side_by_side, wheels
-from tools.ground.environments import Environment
-from tools.ground.errors import GroundError
-from tools.ground.side_by_side import Result, Step
+from tools.environment import environments, package, side_by_side, wheels
+from tools.environment.environments import Environment
+from tools.environment.errors import SetupError
+from tools.environment.side_by_side import Result, Step
 
 ROOT = Path(__file__).resolve().parent
 BUILD = ROOT / "build"
@@ -68,7 +68,7 @@ def prepare_blenders(wanted: Sequence[str]) -> dict[str, Environment]:
     """Prepare the Blender versions asked for and return those whose Python exists."""
     ready = {name: BLENDERS[name] for name in wanted if environments.prepare(BLENDERS[name], say)}
     if not ready and len(wanted) == len(BLENDERS):
-        raise GroundError(NO_PYTHON)
+        raise SetupError(NO_PYTHON)
     return ready
 
 
@@ -77,13 +77,13 @@ def prepare_blender() -> Environment:
     for environment in BLENDERS.values():
         if environments.prepare(environment, say):
             return environment
-    raise GroundError(NO_PYTHON)
+    raise SetupError(NO_PYTHON)
 
 
 def prepare_tools() -> Environment:
     """Prepare ruff, mypy and the rest."""
     if not environments.prepare(TOOLS, say):
-        raise GroundError(NO_PYTHON)
+        raise SetupError(NO_PYTHON)
     return TOOLS
 
 
@@ -115,7 +115,7 @@ def script(name: str) -> Path:
     """Return a script of the repository or say that it isn't there."""
     path = ROOT / name
     if not path.is_file():
-        raise GroundError(f"{name} does not exist in this version of the repository yet.")
+        raise SetupError(f"{name} does not exist in this version of the repository yet.")
     return path
 
 
@@ -254,7 +254,7 @@ def command_chart(_options: argparse.Namespace) -> int:
     try:
         if environments.prepare(CHART, say):
             command += ["--peers", CHART.python]
-    except GroundError as error:
+    except SetupError as error:
         say(f"{error} The chart is made without the renderers it compares with.")
     return call(command)
 
@@ -262,7 +262,7 @@ def command_chart(_options: argparse.Namespace) -> int:
 def command_fuzz(options: argparse.Namespace) -> int:
     """Fuzz the readers of measurement files; what breaks one is kept in build/fuzz/."""
     if not environments.prepare(FUZZ, say):
-        raise GroundError(NO_PYTHON)
+        raise SetupError(NO_PYTHON)
     return call([FUZZ.python, script("tools/fuzz.py"), *options.arguments])
 
 
@@ -356,7 +356,7 @@ def main(argv: Sequence[str]) -> int:
 if __name__ == "__main__":
     try:
         sys.exit(main(sys.argv[1:]))
-    except GroundError as error:
+    except SetupError as error:
         print(error, file=sys.stderr)
         sys.exit(UNUSABLE)
     except OSError as error:

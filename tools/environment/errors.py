@@ -3,5 +3,5 @@
 """The one error of the developer commands."""
 
 
-class GroundError(Exception):
+class SetupError(Exception):
     """A command cannot go on; the message says what is wrong and what to do about it."""

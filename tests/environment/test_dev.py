@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import dev
-from tools.ground.errors import GroundError
+from tools.environment.errors import SetupError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -105,7 +105,7 @@ def test_unknown_argument_is_refused(stubbed):
 
 
 def test_missing_script_is_named():
-    with pytest.raises(GroundError, match=r"tools/nothing\.py does not exist"):
+    with pytest.raises(SetupError, match=r"tools/nothing\.py does not exist"):
         dev.script("tools/nothing.py")
 
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.ground import archives, wheels
-from tools.ground.errors import GroundError
+from tools.environment import archives, wheels
+from tools.environment.errors import SetupError
 
 ROOT = Path(__file__).resolve().parents[2]
 # 88 MB unpacked before; design: "1.7 MB and 6.9 MB unpacked".
@@ -159,7 +159,7 @@ def test_damaged_wheel_is_made_again(tmp_path, wheel):
 def test_missing_pin_says_what_to_do(tmp_path):
     (tmp_path / "requirements").mkdir()
     (tmp_path / "requirements" / "wheels.txt").write_text("colour-science\n", encoding="utf-8")
-    with pytest.raises(GroundError, match=r"wheels\.txt has no line .* from git"):
+    with pytest.raises(SetupError, match=r"wheels\.txt has no line .* from git"):
         wheels.pin(tmp_path)
 
 

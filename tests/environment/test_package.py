@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.ground import package, wheels
-from tools.ground.errors import GroundError
+from tools.environment import package, wheels
+from tools.environment.errors import SetupError
 
 ROOT = Path(__file__).resolve().parents[2]
 CXF = ROOT / "tests" / "fixtures" / "cxf" / "two.cxf"
@@ -95,7 +95,7 @@ def test_builder_refuses_a_broken_manifest(tmp_path):
     for name in ALLOWED_FOLDERS - {"wheels"}:
         (tmp_path / name).mkdir()
     python, output = Path(sys.executable), tmp_path / "out" / "x.zip"
-    with pytest.raises(GroundError, match="refuses to build"):
+    with pytest.raises(SetupError, match="refuses to build"):
         package.build(tmp_path, python, wheels.shipped(ROOT, python), tmp_path / "stage", output)
     assert not output.exists()
 
@@ -103,7 +103,7 @@ def test_builder_refuses_a_broken_manifest(tmp_path):
 def test_missing_license_is_named(tmp_path):
     (tmp_path / "__init__.py").touch()
     (tmp_path / "blender_manifest.toml").touch()
-    with pytest.raises(GroundError, match="LICENSE is missing"):
+    with pytest.raises(SetupError, match="LICENSE is missing"):
         package.stage(tmp_path, tmp_path / "stage")
 
 

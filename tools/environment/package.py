@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import archives
-from .errors import GroundError
+from .errors import SetupError
 
 MANIFEST = "blender_manifest.toml"
 SHIPPED_FILES = ("__init__.py", MANIFEST, "LICENSE", "README.md")
@@ -25,7 +25,7 @@ def version(root: Path) -> str:
     path = root / MANIFEST
     match = re.search(r'^version = "([^"]+)"', path.read_text(encoding="utf-8"), re.M)
     if match is None:
-        raise GroundError(f'{path} has no line version = "...": add it.')
+        raise SetupError(f'{path} has no line version = "...": add it.')
     return match[1]
 
 
@@ -38,7 +38,7 @@ def stage(
     """Copy what ships, without the wheels, into a fresh folder."""
     for name in (*files, *folders):
         if not (root / name).exists():
-            raise GroundError(f"{root / name} is missing, but it ships: put it back from git.")
+            raise SetupError(f"{root / name} is missing, but it ships: put it back from git.")
     if target.exists():
         shutil.rmtree(target)
     target.mkdir(parents=True)
@@ -85,11 +85,11 @@ def builder(python: Path) -> Path:
     code = "import importlib.util as u; print(u.find_spec('bpy').submodule_search_locations[0])"
     where = subprocess.run([str(python), "-c", code], capture_output=True, text=True, check=False)
     if where.returncode != 0:
-        raise GroundError(f"{python} has no bpy module: run 'python3 dev.py setup'.")
+        raise SetupError(f"{python} has no bpy module: run 'python3 dev.py setup'.")
     pattern = "*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
     found = sorted(Path(where.stdout.strip()).glob(pattern))
     if not found:
-        raise GroundError(f"The bpy module of {python} carries no extension builder ({pattern}).")
+        raise SetupError(f"The bpy module of {python} carries no extension builder ({pattern}).")
     return found[0]
 
 
@@ -98,4 +98,4 @@ def _builder(python: Path, verb: str, *arguments: str) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         said = (done.stdout + done.stderr).strip()
-        raise GroundError(f"Blender's extension builder refuses to {verb}: {said}")
+        raise SetupError(f"Blender's extension builder refuses to {verb}: {said}")

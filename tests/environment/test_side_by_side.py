@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.ground import side_by_side
-from tools.ground.side_by_side import Step
+from tools.environment import side_by_side
+from tools.environment.side_by_side import Step
 
 ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 30
@@ -88,7 +88,7 @@ RUN = """
 import sys
 sys.path.insert(0, {root!r})
 from pathlib import Path
-from tools.ground import side_by_side
+from tools.environment import side_by_side
 side_by_side.MOMENT, side_by_side.TIDYING, side_by_side.LAST = {patience}
 sleep = '''{sleep}'''
 steps = [

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.ground import environments, interpreters, wheels
-from tools.ground.errors import GroundError
+from tools.environment import environments, interpreters, wheels
+from tools.environment.errors import SetupError
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = "{}.{}".format(*sys.version_info[:2])
@@ -58,7 +58,7 @@ def test_second_preparation_does_nothing(environment, monkeypatch):
     assert said == []
 
 
-@pytest.mark.parametrize("error", [GroundError("no network"), KeyboardInterrupt()])
+@pytest.mark.parametrize("error", [SetupError("no network"), KeyboardInterrupt()])
 def test_failed_setup_is_redone(environment, error):
     pip, said = Installer(), []
     pip.error = error
@@ -75,7 +75,7 @@ KILLED = """
 import sys
 from pathlib import Path
 sys.path.insert(0, {root!r})
-from tools.ground import environments, interpreters
+from tools.environment import environments, interpreters
 found = interpreters.Interpreter(Path(sys.executable), {here!r})
 interpreters.find = lambda _version: found
 environments._create = lambda folder, *_: folder.mkdir()

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import archives
-from .errors import GroundError
+from .errors import SetupError
 
 DROPPED_FOLDERS = frozenset({"htmlcov", "tests", "examples"})
 BUILD_TAG = "1"
@@ -63,7 +63,7 @@ def pin(root: Path, name: str = COLOUR) -> Pin:
     pattern = rf"^{name}==(?P<version>\S+)\s+--hash=sha256:(?P<sha256>[0-9a-f]{{64}})"
     match = re.search(pattern, path.read_text(encoding="utf-8"), re.M)
     if match is None:
-        raise GroundError(
+        raise SetupError(
             f"{path} has no line '{name}==VERSION --hash=sha256:...': put it back from git."
         )
     return Pin(name, match["version"], match["sha256"])
@@ -166,7 +166,7 @@ def _download(root: Path, python: Path, wanted: Pin) -> Path:
         )
         command += ["--dest", fresh, "--requirement", str(requirement)]
         if subprocess.run(command, check=False).returncode != 0:
-            raise GroundError(
+            raise SetupError(
                 f"{wanted.name} {wanted.version} could not be downloaded (pip says why above): "
                 "check the connection to the package index and run the same command again."
             )

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.ground import interpreters
+from tools.environment import interpreters
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = "{}.{}".format(*sys.version_info[:2])
@@ -103,7 +103,7 @@ def test_neither_python_ends_with_one_sentence_and_status_2(tmp_path, command):
     for name in ("demo", "contact_sheet", "bench"):
         (clone / "tools" / f"{name}.py").touch()
     start = (
-        "import runpy, sys; import tools.ground.interpreters as interpreters\n"
+        "import runpy, sys; import tools.environment.interpreters as interpreters\n"
         "interpreters.find = lambda *_: None\n"
         f"sys.argv = ['dev.py', {command!r}]; runpy.run_path('dev.py', run_name='__main__')\n"
     )

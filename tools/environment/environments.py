@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import IO
 
 from . import interpreters, wheels
-from .errors import GroundError
+from .errors import SetupError
 
 STAMP = "rough-spectra-ready.json"
 TOOLS = "tools"
@@ -148,7 +148,7 @@ def _create(folder: Path, interpreter: interpreters.Interpreter, python: Path) -
     bare = _child([*base, "venv", "--without-pip", str(folder)], stdout=subprocess.PIPE)
     pip = [*base, "pip", "--python", str(python), "install", "--quiet", PIP]
     if bare.returncode != 0 or _child(pip).returncode != 0:
-        raise GroundError(
+        raise SetupError(
             f"{interpreter.path} cannot make a virtual environment in {folder}: install its venv "
             "module (on Debian and Ubuntu the package python3-venv) and check that the disk has "
             "room."
@@ -168,7 +168,7 @@ def _pip(environment: Environment, *arguments: str) -> None:
     command = [str(environment.python), "-m", "pip", "install", "--quiet", "--no-input"]
     command += ["--disable-pip-version-check", *arguments]
     if _child(command).returncode != 0:
-        raise GroundError(
+        raise SetupError(
             f"pip could not fill .venv/{environment.name} (it says why above): check the "
             "connection to the package index and the room on the disk, then run the same command "
             "again."
