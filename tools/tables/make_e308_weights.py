@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write addon/e308_weights.npy: ASTM E308's weights of the usual grids, by colour-science.
+"""Write addon/colorimetry/e308_weights.npy: ASTM E308's usual grids, by colour-science.
 
-    .venv/bpy-5.2/bin/python tools/make_e308_weights.py
+    .venv/bpy-5.2/bin/python -m tools.tables.make_e308_weights
 
 The same library gives the same bytes but for the last digit; the tests compare with it.
 """
 
-import importlib
 import warnings
 
 import numpy as np
@@ -18,7 +17,8 @@ from tools.run.run_command_line import load_extension
 def main() -> None:
     """Compute and write the weights."""
     load_extension()
-    e308 = importlib.import_module("rough_spectra.addon.colorimetry.astm_e308")
+    from rough_spectra.addon.colorimetry import astm_e308 as e308
+
     # colour-science tells on the console of every table that it aligns.
     warnings.simplefilter("ignore")
     rows = [

@@ -4,7 +4,7 @@
 
 Needs colour-science, which the presets themselves do not. Equal data give equal bytes:
 
-    python3 tools/make_presets.py [FOLDER]
+    python3 -m tools.tables.make_presets [FOLDER]
 """
 
 from __future__ import annotations

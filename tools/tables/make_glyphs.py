@@ -5,7 +5,7 @@
 The font is Inter (SIL Open Font License 1.1, no reserved name), which Blender's own interface is
 set in. Needs fontTools and brotli, which the extension does not. Equal fonts give equal bytes:
 
-    python tools/make_glyphs.py …/datafiles/fonts/Inter.woff2
+    python -m tools.tables.make_glyphs …/datafiles/fonts/Inter.woff2
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from tools.run.run_command_line import ROOT
 
 Array = npt.NDArray[np.int64]
 
-MODULE = ROOT / "addon" / "preview" / "glyphs.py"
+MODULE = ROOT / "addon" / "preview" / "drawing" / "glyphs.py"
 CHARACTERS = "".join(map(chr, range(32, 127))) + "°²±µ·×Δθλπρσ–…−≤≥"
 EM = 1024
 """Units an em in the table."""
@@ -37,7 +37,7 @@ WIDTH = 92
 
 HEADER = '''# SPDX-FileCopyrightText: 2016 The Inter Project Authors (https://github.com/rsms/inter)
 # SPDX-License-Identifier: OFL-1.1
-"""Outlines of Inter {version}, written by tools/make_glyphs.py; do not edit by hand.
+"""Outlines of Inter {version}, written by tools/tables/make_glyphs.py; not by hand.
 
 This Font Software is licensed under the SIL Open Font License, Version 1.1: see OFL-1.1.txt.
 `preview.text` reads it.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write the everyday presets from the measurement files that they come from.
 
-    python tools/make_everyday_presets.py USGS-FOLDER [FOLDER]
+    python -m tools.tables.make_everyday_presets USGS-FOLDER [FOLDER]
 
 The Nix exports are those of ``tests/fixtures/nix``. USGS-FOLDER holds the files of splib07a that
 `MATERIALS` names, with their wavelength file, in any subfolders: they are in ASCIIdata_splib07a.zip
@@ -12,13 +12,13 @@ of https://doi.org/10.5066/F7RR1WDJ. Equal data give equal bytes. Needs numpy, a
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from tools.run.run_command_line import ROOT, load_extension
+from tools.tables import make_presets
 
 FOLDER = ROOT / "presets" / "everyday"
 NIX = ROOT / "tests" / "fixtures" / "nix"
@@ -216,7 +216,8 @@ def preset(material: Material, usgs: Path) -> dict[str, Any]:
     usgs
         Folder with the files of splib07a.
     """
-    readers = importlib.import_module("rough_spectra.addon.samples.readers")
+    from rough_spectra.addon.samples import readers
+
     nix = material.file.endswith(".csv")
     missing: list[int] = []
     path = NIX / material.file if nix else next(usgs.rglob(material.file))
@@ -273,7 +274,7 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     load_extension()
     made = [preset(material, options.usgs) for material in MATERIALS]
-    written = importlib.import_module("make_presets").write_presets(made, options.folder)
+    written = make_presets.write_presets(made, options.folder)
     print(f"{len(written)} presets in {options.folder}")
     return 0
 

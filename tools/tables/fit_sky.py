@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tabulate what Cycles' sky textures shed: mean radiance of the dome, and irradiance of the sun.
 
-    .venv/bpy-5.2/bin/python tools/fit_sky.py addon/scene_analysis/sky_table.json
+    .venv/bpy-5.2/bin/python -m tools.tables.fit_sky addon/scene/sky_table.json
 
 No function of Blender gives the color of a sky without rendering. The table holds it over the
 elevation of the sun, and for every other setting over that setting alone, the rest at its

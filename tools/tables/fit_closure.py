@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fit the closure of `core.closure` to the V-cavity reference; needs numpy alone.
 
-    PYTHONPATH=. python tools/fit_closure.py            print the errors of the constants in use
-    PYTHONPATH=. python tools/fit_closure.py --write    write core/closure/fitted.py first
+    python -m tools.tables.fit_closure            print the errors of the constants in use
+    python -m tools.tables.fit_closure --write    write core/closure/fitted.py first
 
 The 45a:0 reading: r(1) over σ by least squares; then a and g so that the largest relative error
 over σ and ρ is smallest (Gauss-Newton steps on ever higher powers of the error).
@@ -214,7 +214,7 @@ def render(white: Array, walk: Array, ratio: Array, geometry: Array) -> str:
     )
     return f'''# SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Constants of `core.closure`, written by tools/fit_closure.py; do not edit by hand."""
+"""Constants of `core.closure`, written by tools/tables/fit_closure.py; not by hand."""
 
 import numpy as np
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tabulate the V-cavity reference for `core.vcavity.tabulated`; needs numpy alone.
 
-    PYTHONPATH=. python tools/fit_yardstick.py            print the errors of the table in use
-    PYTHONPATH=. python tools/fit_yardstick.py --write    write core/vcavity/tabulated_data.py first
+    python -m tools.tables.fit_yardstick            print the errors of the table in use
+    python -m tools.tables.fit_yardstick --write    write core/vcavity/tabulated_data.py first
 
 The solver is asked at 1,387 geometries for all σ, and again at 9,600 geometries between them: the
 largest differences there, by polar angle, azimuth and σ, are the bounds of the table. Takes one
@@ -31,7 +31,7 @@ from core.vcavity import (
     tabulated_data,
 )
 
-TARGET = Path(tabulated.__file__).with_name("yardstick_table.py")
+TARGET = Path(tabulated_data.__file__)
 
 POLAR = (0, 3, 8, 16, 24, 32, 40, 48, 55, 62, 68, 73, 77, 81, 85)
 RATIO = (0, 0.25, 0.5, 0.7, 0.83, 0.92, 0.97, 1)
@@ -146,7 +146,7 @@ def render(geometries: Array, basis: Array, bound: Array) -> str:
     listed = repr(bound.tolist()).replace("], ", "],\n    ")
     return f'''# SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Table of `core.vcavity.tabulated`, written by tools/fit_yardstick.py; do not edit by hand."""
+"""Table of `core.vcavity.tabulated`, written by tools/tables/fit_yardstick.py; not by hand."""
 
 # Nodes: larger polar angle in degrees, smaller over larger, azimuth in degrees.
 POLAR = (0, 3, 8, 16, 24, 32, 40, 48, 55, 62, 68, 73, 77, 81, 85)
