@@ -119,6 +119,12 @@ def script(name: str) -> Path:
     return path
 
 
+def tool(python: str | Path, name: str, *arguments: str | Path) -> list[str | Path]:
+    """Return the command that runs a script of tools/: as a module, so that it finds the others."""
+    script(name)
+    return [python, "-m", name.removesuffix(".py").replace("/", "."), *arguments]
+
+
 # Commands ----------------------------------------------------------------------------------------
 
 
@@ -228,17 +234,17 @@ def command_run(arguments: Sequence[str]) -> int:
 
 def command_demo(_options: argparse.Namespace) -> int:
     """Make the demo scene, its readings and its pictures in build/demo."""
-    demo, sheet = script("tools/demo.py"), script("tools/contact_sheet.py")
     blender, tools = prepare_blender(), prepare_tools()
     wheels.ensure(ROOT, blender.python)
     output = BUILD / "demo"
     output.mkdir(parents=True, exist_ok=True)
-    return call([blender.python, demo, output]) or call([tools.python, sheet, output])
+    status = call(tool(blender.python, "tools/demo.py", output))
+    return status or call(tool(tools.python, "tools/contact_sheet.py", output))
 
 
 def command_bench(options: argparse.Namespace) -> int:
     """Measure speed against copies and peers."""
-    return call([prepare_blender().python, script("tools/bench.py"), *options.arguments])
+    return call(tool(prepare_blender().python, "tools/bench.py", *options.arguments))
 
 
 def command_figures(options: argparse.Namespace) -> int:
@@ -263,15 +269,17 @@ def command_fuzz(options: argparse.Namespace) -> int:
     """Fuzz the readers of measurement files; what breaks one is kept in build/fuzz/."""
     if not environments.prepare(FUZZ, say):
         raise SetupError(NO_PYTHON)
-    return call([FUZZ.python, script("tools/fuzz.py"), *options.arguments])
+    return call(tool(FUZZ.python, "tools/checks/fuzz.py", *options.arguments))
 
 
 def command_screenshots(options: argparse.Namespace) -> int:
     """Take the manual's pictures in the window of a desktop Blender."""
     status = command_build(options)
     zips = sorted(BUILD.glob("rough_spectra-*.zip"))
-    tool = script("tools/screenshots.py")
-    return status or call([sys.executable, tool, "--zip", zips[-1], *options.arguments])
+    if status:
+        return status
+    arguments = ("--zip", zips[-1], *options.arguments)
+    return call(tool(sys.executable, "tools/screenshots.py", *arguments))
 
 
 def command_docs(_options: argparse.Namespace) -> int:
@@ -314,7 +322,7 @@ TAKES_ARGUMENTS = {
     "test": "pytest",
     "bench": "tools/bench.py",
     "figures": "docs/figures.py",
-    "fuzz": "tools/fuzz.py",
+    "fuzz": "tools/checks/fuzz.py",
     "screenshots": "tools/screenshots.py",
 }
 

@@ -100,8 +100,6 @@ def test_neither_python_ends_with_one_sentence_and_status_2(tmp_path, command):
     shutil.copytree(ROOT / "tools", clone / "tools")
     shutil.copytree(ROOT / "requirements", clone / "requirements")
     shutil.copy(ROOT / "dev.py", clone)
-    for name in ("demo", "contact_sheet", "bench"):
-        (clone / "tools" / f"{name}.py").touch()
     start = (
         "import runpy, sys; import tools.environment.interpreters as interpreters\n"
         "interpreters.find = lambda *_: None\n"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Furnish a room: a scene of many objects and materials to analyze.
 
-    .venv/bpy-5.2/bin/python tools/make_room.py room.blend
+    .venv/bpy-5.2/bin/python -m tools.checks.make_room room.blend
 
 Floor, ceiling and four walls, things strewn over the floor, an incandescent lamp, a lamp of warm
 white, a window that lets in skylight, and a camera. The same numbers give the same room.

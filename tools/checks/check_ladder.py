@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check `core.ladder.choose_model` on random materials and scenes against the V-cavity solver.
 
-    python tools/check_ladder.py [--scenes 1000]
+    python -m tools.checks.check_ladder [--scenes 1000]
 
 Every scene has a spectrum, a roughness, its own directions and lights and its own tolerance. The
 solver tells how far each rung really is from the reference there. Printed are how often the choice

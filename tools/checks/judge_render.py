@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Judge Cycles' own pictures of a room: matched to its scene, against made for D65.
 
-    .venv/bpy-5.2/bin/python tools/judge_render.py
+    .venv/bpy-5.2/bin/python -m tools.checks.judge_render
 
 The room of make_room.py is rendered once with each, without indirect light, each lamp in a pass of
 its own. What the picture should show at a pixel is the spectral model's reflectance toward the
@@ -13,7 +13,6 @@ that place. Beside judge_scene.py, which adds up the light itself, this one take
 
 from __future__ import annotations
 
-import importlib
 import sys
 import tempfile
 from pathlib import Path
@@ -22,6 +21,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from tools.checks import judge_scene, make_room
 from tools.run.run_command_line import load_extension
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -203,7 +203,6 @@ def difference(shown: np.ndarray, truth: np.ndarray, white: np.ndarray) -> float
 
 def main() -> None:
     """Print the mean of each material."""
-    judge_scene, make_room = map(importlib.import_module, ("judge_scene", "make_room"))
     extension = load_extension()
     extension.register()
     from rough_spectra.addon.material import derive

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import os
 import re
 import subprocess
 import sys
@@ -23,12 +24,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import promises
-
+from tools.checks import promises
 from tools.run.run_command_line import ROOT, load_extension
 
 FIXTURES = ROOT / "tests" / "fixtures"
 OUT = ROOT / "build" / "fuzz"
+ITSELF = (sys.executable, "-m", "tools.checks.fuzz")
 
 LONGEST = 64 * 1024
 _EACH = 16  # tracemalloc makes reading several times slower, so one input in so many is weighed
@@ -105,11 +106,11 @@ def _start(name: str, seeds: list[Path], seconds: int) -> subprocess.Popen[bytes
     with (folder / "log").open("wb") as log:
         return subprocess.Popen(
             [
-                *(sys.executable, __file__, "--child", name, str(corpus), "-dict=words"),
+                *(*ITSELF, "--child", name, str(corpus), "-dict=words"),
                 *(f"-max_total_time={seconds}", f"-max_len={LONGEST}", "-timeout=60"),
                 *("-rss_limit_mb=1024", f"-artifact_prefix={folder}/found/"),
             ],
-            cwd=folder,
+            cwd=ROOT,
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=subprocess.STDOUT,
@@ -130,8 +131,8 @@ def _tell(name: str, status: int) -> bool:
     lines = (folder / "log").read_text(encoding="utf-8", errors="replace").splitlines()
     done = [line for line in lines if line.startswith("Done ")]
     inputs = done[-1].split()[1] if done else "?"
-    command = [sys.executable, __file__, "--weigh", name]
-    weighed = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    command = [*ITSELF, "--weigh", name]
+    weighed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     told = weighed.stdout.strip() or weighed.stderr.strip().splitlines()[-1]
     print(f"{name}: {inputs} inputs; {told}", flush=True)
     found = [path for path in sorted((folder / "found").iterdir()) if path.suffix != ".txt"]
@@ -221,8 +222,10 @@ def weigh(name: str) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--child"]:
+        os.chdir(OUT / sys.argv[2])
         child(sys.argv[2], sys.argv[3:])
     elif sys.argv[1:2] == ["--weigh"]:
+        os.chdir(OUT / sys.argv[2])
         weigh(sys.argv[2])
     else:
         sys.exit(main(sys.argv[1:]))

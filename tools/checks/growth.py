@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blow up each fixture in many ways and see how time and memory of its reader grow.
 
-    .venv/bpy-5.2/bin/python tools/growth.py [READER ...]
+    .venv/bpy-5.2/bin/python -m tools.checks.growth [READER ...]
 
 Prints the worst seconds and the worst peak of memory of each reader over files of 1 MB. The tests
 do the same to fewer and smaller files (tests/input/test_growth.py).
@@ -17,12 +17,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from tools.checks import promises
 from tools.run.run_command_line import ROOT, load_extension
-
-try:
-    from tools import promises
-except ImportError:  # started as a script
-    import promises  # type: ignore[import-not-found, no-redef]
 
 FIXTURES = ROOT / "tests" / "fixtures"
 

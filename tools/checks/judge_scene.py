@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Judge the picture of a room: matched to its scene, against matched to the whole hemisphere.
 
-    .venv/bpy-5.2/bin/python tools/judge_scene.py
+    .venv/bpy-5.2/bin/python -m tools.checks.judge_scene
 
 Rays of another seed than the analysis uses meet the room's surfaces. At each hit the light of all
 lamps is added up twice, without indirect light: spectrally, by the model of the material, and as
@@ -12,7 +12,6 @@ The color difference of the two, seen under the light of that place, is a pixel'
 
 from __future__ import annotations
 
-import importlib
 import sys
 import time
 from collections.abc import Mapping
@@ -22,6 +21,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from tools.checks import make_room
 from tools.run.run_command_line import load_extension
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -134,7 +134,6 @@ def _lab(xyz: np.ndarray, white: np.ndarray) -> np.ndarray:
 
 def main() -> None:
     """Print how long the analysis takes and what it gains."""
-    make_room = importlib.import_module("make_room")
     extension = load_extension()
     extension.register()
     from rough_spectra.addon.material import derive
