@@ -244,7 +244,7 @@ def command_demo(_options: argparse.Namespace) -> int:
 
 def command_bench(options: argparse.Namespace) -> int:
     """Measure speed against copies and peers."""
-    return call(tool(prepare_blender().python, "tools/bench.py", *options.arguments))
+    return call(tool(prepare_blender().python, "tools/benchmarks/bench.py", *options.arguments))
 
 
 def command_figures(options: argparse.Namespace) -> int:
@@ -320,7 +320,7 @@ COMMANDS = {
 }
 TAKES_ARGUMENTS = {
     "test": "pytest",
-    "bench": "tools/bench.py",
+    "bench": "tools/benchmarks/bench.py",
     "figures": "docs/figures.py",
     "fuzz": "tools/checks/fuzz.py",
     "screenshots": "tools/screenshots.py",

@@ -16,11 +16,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import desktop
-
+from tools.run import desktop
 from tools.run.run_command_line import ROOT
 
-INSIDE = ROOT / "tools" / "screenshots_inside.py"
+INSIDE = "tools.screenshots_inside"
 
 
 def main(arguments: Sequence[str]) -> int:

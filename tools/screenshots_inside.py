@@ -20,11 +20,10 @@ from typing import Any
 import bpy
 
 bpy.utils.expose_bundled_modules()
-sys.path.insert(0, str(Path(__file__).parent))
 
 import numpy as np  # noqa: E402
-import palette_png  # noqa: E402
-import screenshots_states  # noqa: E402
+
+from tools import palette_png, screenshots_states  # noqa: E402
 
 ZIP, OUT, SCALE, WIDTH, THEME, GRAB, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 SETTLE_SECONDS = 1.5
@@ -164,7 +163,3 @@ def _dialog(pixels: Any) -> Any:
     shown = np.abs(pixels.astype(int) - pixels[0, 0]).max(axis=-1) > 2
     rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
     return pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-
-
-if __name__ == "__main__":
-    start()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Start a desktop Blender, with a new and empty user folder, for a script to act in its window."""
+"""Start a desktop Blender, with a new and empty user folder, for a module to act in its window."""
 
 from __future__ import annotations
 
@@ -9,30 +9,35 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
-from pathlib import Path
+
+from tools.run.run_command_line import ROOT
 
 SECONDS = 600
 
 
-def run(blender: str, script: Path, size: tuple[int, int], words: Sequence[object]) -> int:
-    """Run a script in a window and give Blender's exit status.
+def run(blender: str, module: str, size: tuple[int, int], words: Sequence[object]) -> int:
+    """Call `start` of a module in a window and give Blender's exit status.
 
     Parameters
     ----------
     blender
         The executable; a screen (or a virtual one) has to be there.
-    script
-        Installs the extension and ends Blender.
+    module
+        Of tools/; its `start` installs the extension and ends Blender in the end.
     size
         Width and height of the window in pixels.
     words
-        The script's arguments.
+        The module's arguments.
     """
+    start = (
+        f"import importlib, sys; sys.path.insert(0, {str(ROOT)!r}); "
+        f"importlib.import_module({module!r}).start()"
+    )
     with tempfile.TemporaryDirectory(prefix="rough-spectra-user-") as user:
         command = [
             *(blender, "--gpu-backend", "opengl", "--enable-event-simulate"),
             *("--window-geometry", "0", "0", *map(str, size)),
-            *("--python-exit-code", "1", "--python", str(script), "--", *map(str, words)),
+            *("--python-exit-code", "1", "--python-expr", start, "--", *map(str, words)),
         ]
         try:
             done = subprocess.run(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure reading 10,000 samples from one CGATS file and importing them into a library.
 
-    python tools/bench_import.py
+    python -m tools.benchmarks.bench_import
 
 Needs numpy and no Blender. Wall and processor time, and the most memory that the process held.
 """

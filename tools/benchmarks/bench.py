@@ -6,7 +6,7 @@ A ratio within one run says more of another machine than seconds do. Each line a
 exact the result is. Writes docs/data/benchmark.csv and docs/benchmark-table.md with --write, and
 prints the table in any case. Needs an environment with bpy:
 
-    bench.py [--write]
+    python -m tools.benchmarks.bench [--write]
 """
 
 from __future__ import annotations
@@ -243,7 +243,7 @@ def markdown(rows: list[Row]) -> str:
     """Give the rows as a Markdown table."""
     return "\n".join(
         [
-            "<!-- Made by tools/bench.py -->",
+            "<!-- Made by tools/benchmarks/bench.py -->",
             "",
             "| task | beside | time over that | rate | largest error |",
             "|---|---|---|---|---|",
@@ -262,7 +262,7 @@ def markdown(rows: list[Row]) -> str:
 
 def main(arguments: list[str]) -> int:
     """Run, print, and write the files if asked; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="bench.py", description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(prog="dev.py bench", description=__doc__.partition("\n")[0])
     parser.add_argument("--write", action="store_true", help="replace the manual's table by this")
     options = parser.parse_args(arguments)
     extension: Any = sys.modules["rough_spectra"]

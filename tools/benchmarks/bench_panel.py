@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure what the panel costs: first use, drawing among 500 materials, and dragging σ.
 
-    python tools/bench_panel.py
+    python -m tools.benchmarks.bench_panel
 
 Needs the bpy module. Processor time, which other programs disturb less than wall time; the least
 and the median of many runs. Drawing goes onto a layout that does nothing, so that what is measured

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure which block size suits the core: `PYTHONPATH=. python tools/block_size.py`.
+"""Measure which block size suits the core: `python -m tools.benchmarks.block_size`.
 
 Prints, for each block size, the time of a million geometries by 31 bands in float32 as a multiple
 of the plain matmul and trigonometry, and of inverting a million spectra as a multiple of a copy.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure what the panel's pictures cost, at interface scale 1 and 2.
 
-    python tools/bench_preview.py
+    python -m tools.benchmarks.bench_preview
 
 Needs the bpy module. σ differs from run to run, as when it is dragged: what does not depend on it
 may be kept, the rest has to be drawn. The least of many runs and the median, in the thread's own

@@ -14,14 +14,11 @@ import sys
 import time
 import traceback
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-import screenshots_states as states
+from tools import screenshots_states as states
 
 [ZIP] = sys.argv[sys.argv.index("--") + 1 :]
 MATERIALS = 500
@@ -133,7 +130,3 @@ def _timed(panel: str, which: str, function: Callable[..., Any]) -> Callable[...
                 _redraws[-1][panel] = _redraws[-1].get(panel, 0.0) + spent
 
     return call
-
-
-if __name__ == "__main__":
-    start()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the processor time of the verb `assign` grows with the number of materials.
 
-    bench_assign.py [--few N] [--times N] [--profile STEP]
+    python -m tools.benchmarks.bench_assign [--few N] [--times N] [--profile STEP]
 
 One process, first few materials and then several times as many, each in a file of its own:
 materials that are there, materials that `--create` makes, and samples of a measurement file by

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure what drawing the panel and dragging σ cost in a real window.
 
-    python tools/bench_window.py --blender BLENDER --zip build/rough_spectra-….zip
+    python -m tools.benchmarks.bench_window --blender BLENDER --zip build/rough_spectra-….zip
 
 BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there. The
 file has 500 materials with a spectrum, and all panels of the Material tab are open. Of drawing,
@@ -16,9 +16,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import desktop
+from tools.run import desktop
 
-INSIDE = Path(__file__).with_name("bench_window_inside.py")
+INSIDE = "tools.benchmarks.bench_window_inside"
 SIZE = (1200, 1500)
 
 
