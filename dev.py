@@ -238,8 +238,8 @@ def command_demo(_options: argparse.Namespace) -> int:
     wheels.ensure(ROOT, blender.python)
     output = BUILD / "demo"
     output.mkdir(parents=True, exist_ok=True)
-    status = call(tool(blender.python, "tools/demo.py", output))
-    return status or call(tool(tools.python, "tools/contact_sheet.py", output))
+    status = call(tool(blender.python, "tools/demo/demo.py", output))
+    return status or call(tool(tools.python, "tools/demo/contact_sheet.py", output))
 
 
 def command_bench(options: argparse.Namespace) -> int:

@@ -15,7 +15,8 @@ from .arrays import Array
 
 ELEMENTS = 1 << 17
 """Elements of a block. By tools/benchmarks/block_size.py evaluation is fastest from 2^12 to 2^16
-and inversion from 2^18 on; here neither loses more than a fifth. Below, calls cost; above, memory does."""
+and inversion from 2^18 on; here neither loses more than a fifth. Below, calls cost; above, memory
+does."""
 
 Index = tuple[int | slice, ...]
 

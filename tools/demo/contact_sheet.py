@@ -4,7 +4,7 @@
 
 Needs matplotlib and no Blender:
 
-    contact_sheet.py FOLDER
+    python -m tools.demo.contact_sheet FOLDER
 """
 
 from __future__ import annotations

@@ -4,18 +4,20 @@
 
 `dev.py demo` starts this file in an environment that has bpy, and `contact_sheet.py` after it:
 
-    demo.py FOLDER
+    python -m tools.demo.demo FOLDER
 """
 
 from __future__ import annotations
 
-import importlib
 import math
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import bpy
+
+from tools.demo import demo_scene
 from tools.run.run_command_line import load_extension
 
 if TYPE_CHECKING:
@@ -34,7 +36,6 @@ PICTURE = "demo-scene.png"
 def main(folder: Path) -> int:
     """Make everything but the contact sheet; returns the exit status."""
     extension = load_extension()
-    importlib.import_module("bpy")
     extension.register()
     say("Rough Spectra demo: 24 ColorChecker presets at σ = 0°, 15°, 30° and 45°")
     try:
@@ -49,7 +50,6 @@ def main(folder: Path) -> int:
 
 def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
     """Assign every preset at every roughness, build the scene and save it."""
-    import bpy
     from rough_spectra.addon.blender import blend_file
     from rough_spectra.addon.matching.solve import Request
     from rough_spectra.addon.material import derive
@@ -67,14 +67,13 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
         strips.append((label, row))
     solutions = derive.assign(pairs)
     say(f"1/4  assigned {len(solutions)} materials in {time.monotonic() - start:.1f} s")
-    scene = importlib.import_module("demo_scene")
-    scene.build(
+    demo_scene.build(
         strips,
         [f"{'σ = ' if degrees == 0 else ''}{degrees}°" for degrees in SIGMAS],
         "The same 24 albedos at four roughnesses σ: the rougher, the darker face on and the "
         "flatter to the rim.",
     )
-    with scene.quiet():
+    with demo_scene.quiet():
         return blend_file.save(folder / BLEND), strips
 
 
@@ -108,7 +107,7 @@ def check(blend: Path, result: Readings) -> int:
     words = ["check", "--blend", str(blend), "--max-delta-e", str(LIMIT)]
     for name in sound:
         words += ["--material", name]
-    with importlib.import_module("demo_scene").quiet():
+    with demo_scene.quiet():
         status = command_line.main(words)
     outcome = "passed" if status == 0 else f"failed with exit status {status}"
     say(
@@ -122,14 +121,12 @@ def check(blend: Path, result: Readings) -> int:
 
 def picture(folder: Path) -> None:
     """Render the scene of the open file."""
-    import bpy
     from rough_spectra.addon.support import atomic_files
 
     start = time.monotonic()
-    scene = importlib.import_module("demo_scene")
-    say(f"4/4  rendering {scene.WIDTH} x {scene.HEIGHT} in Cycles on the CPU")
+    say(f"4/4  rendering {demo_scene.WIDTH} x {demo_scene.HEIGHT} in Cycles on the CPU")
     with atomic_files.publication() as files:
-        scene.render(bpy.context.scene, files.stage(folder / PICTURE))
+        demo_scene.render(bpy.context.scene, files.stage(folder / PICTURE))
     say(f"     rendered in {time.monotonic() - start:.1f} s")
 
 
