@@ -256,7 +256,7 @@ def command_chart(_options: argparse.Namespace) -> int:
     """Measure cost and error of every model, shortcut and peer, and draw the chart into docs/."""
     blender, tools = prepare_blender(), prepare_tools()
     wheels.ensure(ROOT, blender.python)
-    command = module(blender, "tools.chart", "--draw", tools.python)
+    command = module(blender, "tools.chart.chart", "--draw", tools.python)
     try:
         if environments.prepare(CHART, say):
             command += ["--peers", CHART.python]

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw the chart from its numbers and write its tables: `python -m tools.chart_draw FOLDER`.
+"""Draw the chart from its numbers and write its tables: `python -m tools.chart.chart_draw FOLDER`.
 
-Needs matplotlib. The numbers are those that tools.chart left in FOLDER.
+Needs matplotlib. The numbers are those that tools.chart.chart left in FOLDER.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.transforms import Bbox
 
-from . import chart_labels, chart_tables
-from .chart_work import COST_NOISE, ROOT, pareto_front, read_json
+from tools.chart import chart_labels, chart_tables
+from tools.chart.chart_work import COST_NOISE, ROOT, pareto_front, read_json
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt

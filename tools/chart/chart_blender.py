@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What roughness costs in Cycles and what it gains: `python -m tools.chart_blender FOLDER`.
+"""What roughness costs in Cycles and what it gains: `python -m tools.chart.chart_blender FOLDER`.
 
 The readings that a 45°a:0° instrument takes of the reference surface are assigned to materials, as
 a user would: matched Diffuse, and a Lambertian material with the same reading. The virtual
@@ -18,17 +18,21 @@ from typing import Any
 
 import bpy
 import numpy as np
+
+from tools.chart.chart_judge import Judge
+from tools.chart.chart_timing import best_of_turns
+from tools.chart.chart_work import BANDS, SIGMAS, Array, Work, summary, write_json
+from tools.run.run_command_line import load_extension
+
+if "rough_spectra" not in sys.modules:
+    load_extension()
+
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.instrument.measure import Geometry, measure
 from rough_spectra.addon.matching import solve
 from rough_spectra.addon.material import derive
-
-from .chart_judge import Judge
-from .chart_timing import best_of_turns
-from .chart_work import BANDS, SIGMAS, Array, Work, summary, write_json
-
-from rough_spectra.addon.blender import working_space  # isort: skip
-from rough_spectra.addon.samples.sample import Sample  # isort: skip
-from rough_spectra.addon.instrument.measure import Geometry, measure  # isort: skip
-from rough_spectra.core.color import color_difference  # isort: skip
+from rough_spectra.addon.samples.sample import Sample
+from rough_spectra.core.color import color_difference
 
 EVERY = 2
 """Of the work's geometries every second one is rendered."""

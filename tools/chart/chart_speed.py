@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The core against plain numpy on the same bytes: `python -m tools.chart_speed FOLDER`.
+"""The core against plain numpy on the same bytes: `python -m tools.chart.chart_speed FOLDER`.
 
 Ratios of times within one run, memory against the size of the output, and what each computation
 gives away for it: its error. A million geometries and spectra of 31 bands, float32, one thread.
@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from core import closure, oren_nayar, reading
-
-from .chart_timing import best_of_turns
-from .chart_work import BANDS, Array, write_json
+from tools.chart.chart_timing import best_of_turns
+from tools.chart.chart_work import BANDS, Array, write_json
 
 COUNT = 10**6
 SIGMA = 0.5

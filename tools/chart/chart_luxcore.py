@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""LuxCore's roughmatte on the chart's work: `python -m tools.chart_luxcore FOLDER`.
+"""LuxCore's roughmatte on the chart's work: `python -m tools.chart.chart_luxcore FOLDER`.
 
 pyluxcore evaluates no material by itself, so it renders: flat samples side by side, a light without
 width, a camera without perspective, one picture for each geometry. Its colors have three channels,
@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from .chart_work import BANDS, RING, SIGMAS, Array, Work, write_json
+from tools.chart.chart_work import BANDS, RING, SIGMAS, Array, Work, write_json
 
 PIXELS = 4
 """Width of a sample."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .chart_work import GEOMETRIES, PANELS, ROOT, SIGMAS
+from tools.chart.chart_work import GEOMETRIES, PANELS, ROOT, SIGMAS
 
 PAGE = ROOT / "docs" / "chart.md"
 DATA = ROOT / "docs" / "data"

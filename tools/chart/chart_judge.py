@@ -15,9 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from tools.chart.chart_work import BANDS, Array, relative_error, summary
 from tools.run.run_command_line import load_extension
-
-from .chart_work import BANDS, Array, relative_error, summary
 
 if "rough_spectra" not in sys.modules:
     load_extension()

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure every method against the reference, peers included, and draw the chart into docs/.
 
-`python3 dev.py chart` starts it: python -m tools.chart --draw PYTHON [--peers PYTHON]. Each part
-runs in a process of its own, one after the other, and leaves its numbers in build/chart.
+`python3 dev.py chart` starts it: python -m tools.chart.chart --draw PYTHON [--peers PYTHON]. Each
+part runs in a process of its own, one after the other, and leaves its numbers in build/chart.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from .chart_timing import SINGLE_THREAD, load
-from .chart_work import ROOT, write_json
+from tools.chart.chart_timing import SINGLE_THREAD, load
+from tools.chart.chart_work import ROOT, write_json
 
 FOLDER = ROOT / "build" / "chart"
 
@@ -27,18 +27,18 @@ PEERS: dict[str, tuple[str, list[tuple[str, ...]]]] = {
     "mitsuba-diffuse": (
         "Mitsuba diffuse",
         [
-            ("tools.chart_mitsuba", "diffuse", variant)
+            ("tools.chart.chart_mitsuba", "diffuse", variant)
             for variant in ("llvm_ad_spectral", "scalar_spectral")
         ],
     ),
     "mitsuba-principled": (
         "Mitsuba principled",
         [
-            ("tools.chart_mitsuba", "principled", variant)
+            ("tools.chart.chart_mitsuba", "principled", variant)
             for variant in ("llvm_ad_spectral", "scalar_spectral")
         ],
     ),
-    "luxcore-roughmatte": ("LuxCore roughmatte", [("tools.chart_luxcore",)]),
+    "luxcore-roughmatte": ("LuxCore roughmatte", [("tools.chart.chart_luxcore",)]),
 }
 """Label of each peer, and the ways to run it, best first. Mitsuba's vectorized variants need an
 LLVM library on the machine that is not too old, and end the process where it is."""
@@ -87,7 +87,7 @@ def processor() -> str:
 
 def main(argv: Sequence[str]) -> int:
     """Run all parts; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="tools.chart", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools.chart.chart", description=__doc__)
     parser.add_argument("--draw", required=True, type=Path, help="Python that has matplotlib")
     parser.add_argument("--peers", type=Path, help="Python that has Mitsuba and pyluxcore")
     options = parser.parse_args(argv)
@@ -100,16 +100,16 @@ def main(argv: Sequence[str]) -> int:
 
     loads = [load()]
     step("the reference")
-    status = run(sys.executable, "tools.chart_measure", "work", FOLDER)
+    status = run(sys.executable, "tools.chart.chart_measure", "work", FOLDER)
     if status:
         return status
     for key, (label, _) in PEERS.items():
         step(label)
         run_peer(key, options.peers)
     for what, name in (
-        ("our methods", ("tools.chart_measure", "methods")),
-        ("speed of the core", ("tools.chart_speed",)),
-        ("Blender", ("tools.chart_blender",)),
+        ("our methods", ("tools.chart.chart_measure", "methods")),
+        ("speed of the core", ("tools.chart.chart_speed",)),
+        ("Blender", ("tools.chart.chart_blender",)),
     ):
         step(what)
         loads.append(load())
@@ -124,7 +124,7 @@ def main(argv: Sequence[str]) -> int:
     machine |= {"python": platform.python_version(), "system": platform.system()}
     write_json(FOLDER / "machine.json", machine)
     step("figures and tables")
-    status = run(options.draw, "tools.chart_draw", FOLDER)
+    status = run(options.draw, "tools.chart.chart_draw", FOLDER)
     step("done" if status == 0 else f"drawing failed with exit status {status}")
     return status
 

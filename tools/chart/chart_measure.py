@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure our methods, and judge theirs and the peers' answers against the reference.
 
-    python -m tools.chart_measure work FOLDER       makes the work and the reference's answers
-    python -m tools.chart_measure methods FOLDER    times our methods, judges all
+    python -m tools.chart.chart_measure work FOLDER       makes the work and the reference's answers
+    python -m tools.chart.chart_measure methods FOLDER    times our methods, judges all
 
 Runs where colour-science is. Peers answer in between, each in an environment of its own.
 """
@@ -22,11 +22,10 @@ import numpy as np
 from core import vcavity
 from core.numerics import direction_grid
 from core.vcavity import bounce_series
-
-from .chart_judge import Judge, all_at_once, one_by_one
-from .chart_methods import Method, methods
-from .chart_timing import best_of_turns
-from .chart_work import (
+from tools.chart.chart_judge import Judge, all_at_once, one_by_one
+from tools.chart.chart_methods import Method, methods
+from tools.chart.chart_timing import best_of_turns
+from tools.chart.chart_work import (
     GEOMETRIES,
     PANELS,
     RING,

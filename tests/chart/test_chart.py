@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import oren_nayar, reading
-from tools import chart, chart_methods, chart_tables, chart_timing, chart_work
+from tools.chart import chart, chart_methods, chart_tables, chart_timing, chart_work
 
 SIGMA = float(np.radians(30))
 

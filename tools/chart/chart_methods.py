@@ -22,8 +22,7 @@ from core import (
     reading,
 )
 from core.vcavity import tabulated as yardstick
-
-from .chart_work import Array
+from tools.chart.chart_work import Array
 
 ForAnyAngle = Callable[[Array, Array, Any], Array]
 ForReading = Callable[[Array, Any], Array]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mitsuba 3 on the chart's work: `python -m tools.chart_mitsuba BSDF VARIANT FOLDER`.
+"""Mitsuba 3 on the chart's work: `python -m tools.chart.chart_mitsuba BSDF VARIANT FOLDER`.
 
 Mitsuba has no Oren-Nayar. Its `diffuse` is Lambert's law; the diffuse part of its `principled` has
 a roughness that darkens or brightens grazing light, for which the value that comes closest to the
@@ -18,8 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from .chart_timing import best_of_turns
-from .chart_work import (
+from tools.chart.chart_timing import best_of_turns
+from tools.chart.chart_work import (
     BANDS,
     RING,
     SIGMAS,
