@@ -249,7 +249,7 @@ def command_bench(options: argparse.Namespace) -> int:
 
 def command_figures(options: argparse.Namespace) -> int:
     """Draw the figures of the manual."""
-    return call([prepare_tools().python, script("docs/figures.py"), *options.arguments])
+    return call(tool(prepare_tools().python, "tools/manual/figures.py", *options.arguments))
 
 
 def command_chart(_options: argparse.Namespace) -> int:
@@ -279,7 +279,7 @@ def command_screenshots(options: argparse.Namespace) -> int:
     if status:
         return status
     arguments = ("--zip", zips[-1], *options.arguments)
-    return call(tool(sys.executable, "tools/screenshots.py", *arguments))
+    return call(tool(sys.executable, "tools/manual/screenshots.py", *arguments))
 
 
 def command_docs(_options: argparse.Namespace) -> int:
@@ -321,9 +321,9 @@ COMMANDS = {
 TAKES_ARGUMENTS = {
     "test": "pytest",
     "bench": "tools/benchmarks/bench.py",
-    "figures": "docs/figures.py",
+    "figures": "tools/manual/figures.py",
     "fuzz": "tools/checks/fuzz.py",
-    "screenshots": "tools/screenshots.py",
+    "screenshots": "tools/manual/screenshots.py",
 }
 
 

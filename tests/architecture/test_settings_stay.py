@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("addon", "core", "docs", "tools")
+FOLDERS = ("addon", "core", "tools")
 RESETTING = {"read_factory_settings", "read_factory_userpref", "disable_all", "reset_all"}
 """Each sets the enabled add-ons anew, and Blender deletes the wheels that none of them needs."""
 

@@ -69,7 +69,7 @@ USE = """
     def reads(model, instrument):
         return reading.from_albedo([0.6], 0.5, model, instrument).tolist()
 
-    table = importlib.import_module("instruments_table").described()
+    table = importlib.import_module("tools.manual.instruments_table").described()
     print(json.dumps({
         "core": [extension.__file__, command_line.__file__, models.__file__],
         "names": models.NAMES,

@@ -18,7 +18,7 @@ from typing import Any
 
 import bpy
 
-from tools import screenshots_states as states
+from tools.manual import screenshots_states as states
 
 [ZIP] = sys.argv[sys.argv.index("--") + 1 :]
 MATERIALS = 500

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of docs/report-2007.md: tables of the page and CSV files in docs/data.
 
-Needs colour-science, so `docs/report_2007.py` starts this file in an environment that has bpy and
-draws the figures afterwards in one that has matplotlib.
+Needs colour-science, so `report_2007_figures.py` starts this file in an environment that has bpy
+and draws the figures afterwards in one that has matplotlib.
 """
 
 from __future__ import annotations

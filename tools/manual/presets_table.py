@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write the manual's table of everyday presets: swatch, σ and what it matters, source.
 
-    python tools/presets_table.py [FILE]
+    python -m tools.manual.presets_table [FILE]
 
 Needs the packages that the extension bundles, and no Blender.
 """
@@ -10,7 +10,6 @@ Needs the packages that the extension bundles, and no Blender.
 from __future__ import annotations
 
 import argparse
-import importlib
 import re
 import sys
 from pathlib import Path
@@ -20,17 +19,20 @@ import numpy as np
 
 from tools.run.run_command_line import ROOT, load_extension
 
+if "rough_spectra" not in sys.modules:
+    load_extension()
+
+from rough_spectra.addon.colorimetry import srgb, tristimulus
+from rough_spectra.addon.samples import presets
+from rough_spectra.core import ladder, reading
+from rough_spectra.core.color import color_difference
+from rough_spectra.core.numerics import direction_grid
+
 FILE = ROOT / "docs" / "presets-table.md"
 COLLECTION = "everyday"
 
 HEAD = "| | id | name | σ, estimated | ΔE00 of ±10° | because | spectrum |"
 RULE = "|---|---|---|---|---|---|---|"
-
-# XYZ with D65 white to linear Rec.709, IEC 61966-2-1
-_TO_SRGB = np.array(
-    [[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]]
-)
-
 
 STEP = np.radians(10)
 """One step of the estimates."""
@@ -42,13 +44,8 @@ def difference_of_a_step(sample: Any) -> float:
 
     Over `DIRECTIONS` of light and view below 80°, all bounces counted, under D65.
     """
-    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry.tristimulus")
-    color_difference, geometry, ladder, reading = (
-        importlib.import_module(f"rough_spectra.core.{name}")
-        for name in ("color_difference", "geometry", "ladder", "reading")
-    )
-    weights = colorimetry.weights(sample.wavelengths, "D65", 2)
-    directions = geometry.hemisphere(DIRECTIONS)
+    weights = tristimulus.weights(sample.wavelengths, "D65", 2)
+    directions = direction_grid.hemisphere(DIRECTIONS)
 
     def seen(sigma: float) -> Any:
         albedo = reading.to_albedo(sample.reflectance, sigma, "closure", sample.instrument)
@@ -79,12 +76,10 @@ def row(name: str, sample: Any, hexadecimal: str) -> str:
 
 def swatches(samples: list[Any]) -> list[str]:
     """Return the samples' colors under D65 for the 2° observer, as ``#rrggbb``."""
-    colorimetry = importlib.import_module("rough_spectra.addon.colorimetry.tristimulus")
     found = []
     for sample in samples:
-        xyz = sample.reflectance @ colorimetry.weights(sample.wavelengths, "D65", 2)
-        linear = np.clip(_TO_SRGB @ xyz, 0, 1)
-        encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+        xyz = sample.reflectance @ tristimulus.weights(sample.wavelengths, "D65", 2)
+        encoded = srgb.encode(np.clip(srgb.FROM_XYZ @ xyz, 0, 1))
         found.append("#" + "".join(f"{round(255 * value):02x}" for value in encoded))
     return found
 
@@ -94,8 +89,6 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("file", type=Path, nargs="?", default=FILE)
     file = parser.parse_args(arguments).file
-    load_extension()
-    presets = importlib.import_module("rough_spectra.addon.samples.presets")
     names = presets.names_of(COLLECTION)
     samples = presets.load_all(COLLECTION)
     lines = [HEAD, RULE]

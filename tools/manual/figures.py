@@ -11,33 +11,28 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import sys
-from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[1]
+from core import reading
+from tools.manual import figure_style
+from tools.manual.figure_style import BLACK, BLUE, GRAY, ORANGE, TEAL, VERMILION
+from tools.run.run_command_line import ROOT, load_extension
+
+mpl.use("Agg")
+from matplotlib import pyplot as plt
+
+if "rough_spectra" not in sys.modules:
+    load_extension()
+
+from rough_spectra.addon.colorimetry import srgb
+
 IMAGES = ROOT / "docs" / "images"
 HEMISPHERE = ROOT / "docs" / "data" / "hemisphere.csv"
 GREEN = ROOT / "presets" / "colorchecker" / "14-green.json"
 
-sys.path.insert(0, str(ROOT))
-from core import reading  # noqa: E402
-
-mpl.use("Agg")
-from matplotlib import pyplot as plt  # noqa: E402
-
-# Okabe and Ito's colors, told apart by color-blind readers too; dashes and markers back them up.
-BLACK, ORANGE, BLUE, VERMILION, GREEN_INK, GRAY = (
-    "#000000",
-    "#E69F00",
-    "#0072B2",
-    "#D55E00",
-    "#009E73",
-    "#767676",
-)
 SIGMAS = (0, 15, 30, 45)
 
 plt.rcParams.update(
@@ -67,14 +62,12 @@ def main():
     if HEMISPHERE.is_file():
         hemisphere()
     else:
-        print(f"{HEMISPHERE} is missing, so its figure is left out; run tools/hemisphere_table.py.")
+        missing = f"{HEMISPHERE} is missing, so its figure is left out"
+        print(f"{missing}; run python -m tools.manual.hemisphere_table.")
 
 
 def save(figure, name):
-    for ending, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
-        part = IMAGES / f".{name}.{ending}.part"
-        figure.savefig(part, format=ending, metadata=metadata)
-        os.replace(part, IMAGES / f"{name}.{ending}")
+    figure_style.save(figure, IMAGES / name)
     plt.close(figure)
     print(f"{IMAGES / name}.svg and .png")
 
@@ -135,7 +128,7 @@ def models():
         label="reference (simulated grooves)",
     )
     for model, color, dash in (
-        ("closure", GREEN_INK, (0, (1, 1))),
+        ("closure", TEAL, (0, (1, 1))),
         ("two-bounce", BLUE, "-"),
         ("first-order", VERMILION, (0, (5, 2))),
     ):
@@ -154,12 +147,12 @@ def green():
         1, 2, figsize=(9, 4.4), layout="constrained", width_ratios=(5, 1)
     )
     dashes = ("-", (0, (6, 1.5)), (0, (3, 1.5)), (0, (1, 1)))
-    colors = (BLACK, BLUE, VERMILION, GREEN_INK)
+    colors = (BLACK, BLUE, VERMILION, TEAL)
     for place, (degrees, color, dash) in enumerate(zip(SIGMAS, colors, dashes, strict=True)):
         values = reading.from_albedo(albedo, np.radians(degrees))
         label = "σ = 0°: the albedo itself" if degrees == 0 else f"σ = {degrees}°"
         axes.plot(nm, values, color=color, linestyle=dash, label=label)
-        chips.add_patch(plt.Rectangle((0, -place), 1, 1, color=srgb(values, nm), linewidth=0))
+        chips.add_patch(plt.Rectangle((0, -place), 1, 1, color=swatch(values, nm), linewidth=0))
         chips.text(1.12, 0.5 - place, f"{degrees}°", va="center")
     axes.set(xlim=(380, 780), ylim=(0, 0.4), xlabel="wavelength (nm)")
     axes.set_ylabel("reading r at 45°/0° (1 = perfect white)")
@@ -204,7 +197,7 @@ def hemisphere():
     save(figure, "hemisphere")
 
 
-def srgb(values, nm):
+def swatch(values, nm):
     """Color for the screen: D65, 2°, from Wyman, Sloan and Shirley's fits (JCGT 2013)."""
 
     def lobe(middle, below, above):
@@ -223,10 +216,8 @@ def srgb(values, nm):
     )
     # Equal energy, scaled to D65's white: a swatch in a figure, not a measurement.
     xyz = values @ matching / matching.sum(axis=0) * (0.9505, 1.0, 1.089)
-    to_rgb = ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570))
-    linear = np.clip(np.array(to_rgb) @ xyz, 0, 1)
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return tuple(encoded.tolist())
+    linear = np.clip(srgb.FROM_XYZ @ xyz, 0, 1)
+    return tuple(srgb.encode(linear).tolist())
 
 
 if __name__ == "__main__":

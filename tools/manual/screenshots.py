@@ -19,7 +19,7 @@ from pathlib import Path
 from tools.run import desktop
 from tools.run.run_command_line import ROOT
 
-INSIDE = "tools.screenshots_inside"
+INSIDE = "tools.manual.screenshots_inside"
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -2,30 +2,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers and figures of report-2007.md, all of them by one command in any Python from 3.9 on:
 
-    python3 docs/report_2007.py
+    python3 -m tools.manual.report_2007_figures
 
-It runs tools/report_2007.py where colour-science is, then itself again where matplotlib is. Equal
-numbers give equal bytes.
+It runs tools/manual/report_2007.py where colour-science is, then itself again where matplotlib is.
+Equal numbers give equal bytes.
 """
 
 from __future__ import annotations
 
 import csv
 import json
-import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.manual import figure_style
+from tools.manual.figure_style import (
+    BLACK,
+    BLUE,
+    GRAY,
+    ORANGE,
+    SKY,
+    VERMILION,
+)
+from tools.run.run_command_line import ROOT
+
 DATA = ROOT / "docs" / "data"
 IMAGES = ROOT / "docs" / "images"
 GREEN = ROOT / "presets" / "colorchecker" / "14-green.json"
 
-sys.path.insert(0, str(ROOT))
-
-# Okabe and Ito's colors, told apart by color-blind readers too.
-BLACK, ORANGE, SKY, TEAL = "#000000", "#E69F00", "#56B4E9", "#009E73"
-BLUE, VERMILION, PURPLE, GRAY = "#0072B2", "#D55E00", "#CC79A7", "#767676"
 COLORS = {"first-order": GRAY, "two-bounce": BLUE, "closure": ORANGE, "reference": VERMILION}
 MARKERS = {"two-bounce": "o", "closure": "s", "reference": "D"}
 
@@ -396,15 +399,13 @@ def draw():
             "figure.constrained_layout.use": True,
             "hatch.linewidth": 0.6,
             "savefig.bbox": "tight",
-            "savefig.dpi": 120,
             "svg.hashsalt": "rough-spectra",  # else every run names its clip paths anew
         }
     )
     IMAGES.mkdir(parents=True, exist_ok=True)
     for name, function in FIGURES.items():
         figure = function(plt)
-        for ending, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
-            figure.savefig(IMAGES / f"report-2007-{name}.{ending}", metadata=metadata)
+        figure_style.save(figure, IMAGES / f"report-2007-{name}", dpi=120)
         plt.close(figure)
 
 
@@ -412,15 +413,10 @@ def main(arguments):
     if arguments == ["--draw"]:
         draw()
         return 0
-    import dev
+    from tools.manual import two_pythons
 
-    numbers = [dev.prepare_blender().python, ROOT / "tools" / "report_2007.py"]
-    figures = [dev.prepare_tools().python, Path(__file__).resolve(), "--draw"]
-    for command in (numbers, figures):
-        status = subprocess.run([str(word) for word in command], check=False).returncode
-        if status:
-            return status
-    return 0
+    drawing = ("tools/manual/report_2007_figures.py", "--draw")
+    return two_pythons.run(("tools/manual/report_2007.py",), drawing)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which instruments there are, and how far apart they read: tables, data and figure of the manual.
 
-    python3 tools/instruments_table.py
+    python3 -m tools.manual.instruments_table
 
 runs itself where colour-science is, to write docs/data/instruments.csv and the two tables of
 docs/instruments.md, and then where matplotlib is, for the figure. Equal numbers give equal bytes.
@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import csv
 import io
-import subprocess
 import sys
 from typing import Any
 
+from tools.manual import figure_style
+from tools.manual.figure_style import GRAY, ORANGE, SKY, VERMILION
 from tools.run.run_command_line import ROOT, load_extension
 
 PAGE = ROOT / "docs" / "instruments.md"
@@ -156,7 +157,7 @@ def draw() -> None:
     names = [n for n in dict.fromkeys(r["instrument"] for r in found) if n != "45a:0"]
     figure, axes = plt.subplots(figsize=(8, 5.6), layout="constrained")
     # Okabe and Ito's colors, told apart by color-blind readers too; so are the marks.
-    looks = ((15, "#56B4E9", "o", -0.24), (30, "#E69F00", "s", 0.0), (45, "#D55E00", "D", 0.24))
+    looks = ((15, SKY, "o", -0.24), (30, ORANGE, "s", 0.0), (45, VERMILION, "D", 0.24))
     for degrees, color, marker, shift in looks:
         chosen = {r["instrument"]: r for r in found if int(r["sigma_degrees"]) == degrees}
         places = [place + shift for place in range(len(names))]
@@ -173,7 +174,7 @@ def draw() -> None:
             label=f"σ = {degrees}°",
             zorder=3,
         )
-    axes.axvline(1, color="#767676", linestyle=":", linewidth=1.5)
+    axes.axvline(1, color=GRAY, linestyle=":", linewidth=1.5)
     axes.text(1.06, -0.62, "ΔE00 1: just seen", color="#555555", va="center")
     axes.set_xscale("symlog", linthresh=0.1, linscale=0.6)
     axes.set_xlim(-0.01, 30)
@@ -190,8 +191,7 @@ def draw() -> None:
     )
     axes.set_title("Directions matter; apertures hardly do")
     axes.legend(loc="upper right", frameon=True, edgecolor="none")
-    for ending, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
-        figure.savefig(f"{FIGURE}.{ending}", dpi=120, metadata=metadata)
+    figure_style.save(figure, FIGURE, dpi=120)
 
 
 def main(arguments: list[str]) -> int:
@@ -206,17 +206,10 @@ def main(arguments: list[str]) -> int:
     if arguments == ["--draw"]:
         draw()
         return 0
-    sys.path.insert(0, str(ROOT))
-    import dev
+    from tools.manual import two_pythons
 
-    for python, part in (
-        (dev.prepare_blender().python, "--numbers"),
-        (dev.prepare_tools().python, "--draw"),
-    ):
-        command = [str(python), __file__, part]
-        if status := subprocess.run(command, check=False).returncode:
-            return status
-    return 0
+    name = "tools/manual/instruments_table.py"
+    return two_pythons.run((name, "--numbers"), (name, "--draw"))
 
 
 if __name__ == "__main__":

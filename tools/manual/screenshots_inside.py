@@ -23,7 +23,7 @@ bpy.utils.expose_bundled_modules()
 
 import numpy as np  # noqa: E402
 
-from tools import palette_png, screenshots_states  # noqa: E402
+from tools.manual import palette_png, screenshots_states  # noqa: E402
 
 ZIP, OUT, SCALE, WIDTH, THEME, GRAB, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 SETTLE_SECONDS = 1.5

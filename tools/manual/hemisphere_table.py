@@ -9,7 +9,7 @@ Beside each stands a Lambertian material with the same reading at 45°/0°, whic
 picked from a chart amounts to. Writes docs/data/hemisphere.csv and docs/hemisphere-table.md. Needs
 an environment with bpy:
 
-    hemisphere_table.py
+    python -m tools.manual.hemisphere_table
 """
 
 from __future__ import annotations
@@ -228,7 +228,7 @@ def markdown(rows: list[Row]) -> str:
     """Give the rows as a Markdown table."""
     return "\n".join(
         [
-            "<!-- Made by tools/hemisphere_table.py -->",
+            "<!-- Made by tools/manual/hemisphere_table.py -->",
             "",
             "| σ | truth | material | mean ΔE00 | 95th percentile | maximum |",
             "|---|---|---|---|---|---|",

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draw the figures of stability.md: what the textbook's form does and what the core's does.
 
-Run from anywhere with matplotlib and numpy: `python docs/stability_figures.py`. The textbook's
-forms are those that tests/stability holds against the same checks as the core.
+    python -m tools.manual.stability_figures
+
+Needs matplotlib and numpy. The textbook's forms are those that tests/stability holds against the
+same checks as the core.
 """
 
-import sys
 import warnings
-from pathlib import Path
 
 import matplotlib as mpl
 
@@ -16,21 +16,20 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-
-from core import (  # noqa: E402
+from core import (
     cycles,
     oren_nayar,
     reading,
     vcavity,
 )
-from core.numerics import wavelength_grid  # noqa: E402
-from tests.stability import exact, textbook  # noqa: E402
+from core.numerics import wavelength_grid
+from tests.stability import exact, textbook
+from tools.manual import figure_style
+from tools.manual.figure_style import BLUE, GRAY, TEAL, VERMILION
+from tools.run.run_command_line import ROOT
 
 IMAGES = ROOT / "docs" / "images"
-# Okabe and Ito's colors, told apart by all common kinds of color vision.
-TEXTBOOK, OURS, THIRD, GRAY = "#D55E00", "#0072B2", "#009E73", "#777777"
+TEXTBOOK, OURS, THIRD = VERMILION, BLUE, TEAL
 
 STYLE = {
     "figure.figsize": (7.0, 3.7),
@@ -52,8 +51,7 @@ STYLE = {
 
 
 def save(figure, name):
-    figure.savefig(IMAGES / f"stability-{name}.svg", metadata={"Date": None})
-    figure.savefig(IMAGES / f"stability-{name}.png", dpi=120)
+    figure_style.save(figure, IMAGES / f"stability-{name}", dpi=120)
     plt.close(figure)
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draw the panel's pictures for the manual into docs/images, with the extension's own code.
 
-    python docs/preview_figures.py
+    python -m tools.manual.preview_figures
 
 Needs the bpy module, no matplotlib. Equal numbers give equal bytes.
 """
@@ -12,17 +12,14 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from tools.run.run_command_line import ROOT, load_extension
+
 IMAGES = ROOT / "docs" / "images"
 PRESETS = ROOT / "presets" / "colorchecker"
 THEMES = {"dark": ((0.239,) * 3, (0.902,) * 3), "light": ((0.8,) * 3, (0.102,) * 3)}
 SCALE = 2
 SHEET, PAIR, GAP = 300, 110, 10
-
-sys.path.insert(0, str(ROOT))
-from tools.run.run_command_line import load_extension  # noqa: E402
 
 
 def main():
