@@ -19,10 +19,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tools.ground import environments, package, side_by_side, wheels
-from tools.ground.environments import Environment
-from tools.ground.errors import GroundError
-from tools.ground.side_by_side import Result, Step
+from tools.environment import environments, package, side_by_side, wheels
+from tools.environment.environments import Environment
+from tools.environment.errors import SetupError
+from tools.environment.side_by_side import Result, Step
 
 ROOT = Path(__file__).resolve().parent
 BUILD = ROOT / "build"
@@ -68,7 +68,7 @@ def prepare_blenders(wanted: Sequence[str]) -> dict[str, Environment]:
     """Prepare the Blender versions asked for and return those whose Python exists."""
     ready = {name: BLENDERS[name] for name in wanted if environments.prepare(BLENDERS[name], say)}
     if not ready and len(wanted) == len(BLENDERS):
-        raise GroundError(NO_PYTHON)
+        raise SetupError(NO_PYTHON)
     return ready
 
 
@@ -77,13 +77,13 @@ def prepare_blender() -> Environment:
     for environment in BLENDERS.values():
         if environments.prepare(environment, say):
             return environment
-    raise GroundError(NO_PYTHON)
+    raise SetupError(NO_PYTHON)
 
 
 def prepare_tools() -> Environment:
     """Prepare ruff, mypy and the rest."""
     if not environments.prepare(TOOLS, say):
-        raise GroundError(NO_PYTHON)
+        raise SetupError(NO_PYTHON)
     return TOOLS
 
 
@@ -115,8 +115,14 @@ def script(name: str) -> Path:
     """Return a script of the repository or say that it isn't there."""
     path = ROOT / name
     if not path.is_file():
-        raise GroundError(f"{name} does not exist in this version of the repository yet.")
+        raise SetupError(f"{name} does not exist in this version of the repository yet.")
     return path
+
+
+def tool(python: str | Path, name: str, *arguments: str | Path) -> list[str | Path]:
+    """Return the command that runs a script of tools/: as a module, so that it finds the others."""
+    script(name)
+    return [python, "-m", name.removesuffix(".py").replace("/", "."), *arguments]
 
 
 # Commands ----------------------------------------------------------------------------------------
@@ -219,7 +225,7 @@ def command_run(arguments: Sequence[str]) -> int:
     # What a verb prints may be piped on: set-up talks elsewhere.
     with contextlib.redirect_stdout(sys.stderr):
         python = prepare_blender().python
-    command = [str(python), str(script("tools/run_command_line.py")), *arguments]
+    command = [str(python), str(script("tools/run/run_command_line.py")), *arguments]
     if sys.platform != "win32":
         # Give our place to the child, so that a signal to this process reaches the work itself.
         os.execv(command[0], command)
@@ -228,33 +234,33 @@ def command_run(arguments: Sequence[str]) -> int:
 
 def command_demo(_options: argparse.Namespace) -> int:
     """Make the demo scene, its readings and its pictures in build/demo."""
-    demo, sheet = script("tools/demo.py"), script("tools/contact_sheet.py")
     blender, tools = prepare_blender(), prepare_tools()
     wheels.ensure(ROOT, blender.python)
     output = BUILD / "demo"
     output.mkdir(parents=True, exist_ok=True)
-    return call([blender.python, demo, output]) or call([tools.python, sheet, output])
+    status = call(tool(blender.python, "tools/demo/demo.py", output))
+    return status or call(tool(tools.python, "tools/demo/contact_sheet.py", output))
 
 
 def command_bench(options: argparse.Namespace) -> int:
     """Measure speed against copies and peers."""
-    return call([prepare_blender().python, script("tools/bench.py"), *options.arguments])
+    return call(tool(prepare_blender().python, "tools/benchmarks/bench.py", *options.arguments))
 
 
 def command_figures(options: argparse.Namespace) -> int:
     """Draw the figures of the manual."""
-    return call([prepare_tools().python, script("docs/figures.py"), *options.arguments])
+    return call(tool(prepare_tools().python, "tools/manual/figures.py", *options.arguments))
 
 
 def command_chart(_options: argparse.Namespace) -> int:
     """Measure cost and error of every model, shortcut and peer, and draw the chart into docs/."""
     blender, tools = prepare_blender(), prepare_tools()
     wheels.ensure(ROOT, blender.python)
-    command = module(blender, "tools.chart", "--draw", tools.python)
+    command = module(blender, "tools.chart.chart", "--draw", tools.python)
     try:
         if environments.prepare(CHART, say):
             command += ["--peers", CHART.python]
-    except GroundError as error:
+    except SetupError as error:
         say(f"{error} The chart is made without the renderers it compares with.")
     return call(command)
 
@@ -262,16 +268,18 @@ def command_chart(_options: argparse.Namespace) -> int:
 def command_fuzz(options: argparse.Namespace) -> int:
     """Fuzz the readers of measurement files; what breaks one is kept in build/fuzz/."""
     if not environments.prepare(FUZZ, say):
-        raise GroundError(NO_PYTHON)
-    return call([FUZZ.python, script("tools/fuzz.py"), *options.arguments])
+        raise SetupError(NO_PYTHON)
+    return call(tool(FUZZ.python, "tools/checks/fuzz.py", *options.arguments))
 
 
 def command_screenshots(options: argparse.Namespace) -> int:
     """Take the manual's pictures in the window of a desktop Blender."""
     status = command_build(options)
     zips = sorted(BUILD.glob("rough_spectra-*.zip"))
-    tool = script("tools/screenshots.py")
-    return status or call([sys.executable, tool, "--zip", zips[-1], *options.arguments])
+    if status:
+        return status
+    arguments = ("--zip", zips[-1], *options.arguments)
+    return call(tool(sys.executable, "tools/manual/screenshots.py", *arguments))
 
 
 def command_docs(_options: argparse.Namespace) -> int:
@@ -312,10 +320,10 @@ COMMANDS = {
 }
 TAKES_ARGUMENTS = {
     "test": "pytest",
-    "bench": "tools/bench.py",
-    "figures": "docs/figures.py",
-    "fuzz": "tools/fuzz.py",
-    "screenshots": "tools/screenshots.py",
+    "bench": "tools/benchmarks/bench.py",
+    "figures": "tools/manual/figures.py",
+    "fuzz": "tools/checks/fuzz.py",
+    "screenshots": "tools/manual/screenshots.py",
 }
 
 
@@ -356,7 +364,7 @@ def main(argv: Sequence[str]) -> int:
 if __name__ == "__main__":
     try:
         sys.exit(main(sys.argv[1:]))
-    except GroundError as error:
+    except SetupError as error:
         print(error, file=sys.stderr)
         sys.exit(UNUSABLE)
     except OSError as error:

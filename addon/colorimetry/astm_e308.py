@@ -5,7 +5,7 @@
 Importing colour-science and computing one matrix takes half a second, in which a panel would stand
 still at its first use. At 5 and 10 nm the weights of every grid follow from those of the whole
 visible range: bands that were not measured count as equal to the nearest one that was.
-`tools/make_e308_weights.py` writes the file.
+`tools/tables/make_e308_weights.py` writes the file.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Color of Blender's sky textures, from a table that `tools/fit_sky.py` measured in renders."""
+"""Color of Blender's sky textures, from a table that `tools/tables/fit_sky.py` rendered."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Constants of `core.closure`, written by tools/fit_closure.py; do not edit by hand."""
+"""Constants of `core.closure`, written by tools/tables/fit_closure.py; not by hand."""
 
 import numpy as np
 

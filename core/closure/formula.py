@@ -22,7 +22,7 @@ r grows with ρ because b + a/2 > 0 and a ≥ 0, and its inverse is a quadratic 
 Above ρ = 1 there is no physics; there r goes on as r(1) ρ, so that a reading 5 % above that of
 white facets gives the albedo 1.05.
 
-`tools/fit_closure.py` derives the constants and prints the errors stated here.
+`tools/tables/fit_closure.py` derives the constants and prints the errors stated here.
 """
 
 from __future__ import annotations

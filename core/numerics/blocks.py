@@ -14,8 +14,9 @@ from math import prod
 from .arrays import Array
 
 ELEMENTS = 1 << 17
-"""Elements of a block. By tools/block_size.py evaluation is fastest from 2^12 to 2^16 and inversion
-from 2^18 on; here neither loses more than a fifth. Below, calls cost; above, memory does."""
+"""Elements of a block. By tools/benchmarks/block_size.py evaluation is fastest from 2^12 to 2^16
+and inversion from 2^18 on; here neither loses more than a fifth. Below, calls cost; above, memory
+does."""
 
 Index = tuple[int | slice, ...]
 

@@ -13,8 +13,8 @@ azimuth: at Δφ = 0 the answer has a kink where light and view meet, and with t
 the border of the table. B is interpolated by cubics over σ, and by one polynomial over
 1 - √(1 - ρ), in which the bounces of steep grooves are smooth up to ρ = 1.
 
-`tools/fit_yardstick.py` makes the table, and measures the error against the solver in directions
-between the nodes; `bound` gives the largest it found nearby, times 1.3.
+`tools/tables/fit_yardstick.py` makes the table, and measures the error against the solver in
+directions between the nodes; `bound` gives the largest it found nearby, times 1.3.
 """
 
 from __future__ import annotations

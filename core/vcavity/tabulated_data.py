@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Table of `core.vcavity.tabulated`, written by tools/fit_yardstick.py; do not edit by hand."""
+"""Table of `core.vcavity.tabulated`, written by tools/tables/fit_yardstick.py; not by hand."""
 
 # Nodes: larger polar angle in degrees, smaller over larger, azimuth in degrees.
 POLAR = (0, 3, 8, 16, 24, 32, 40, 48, 55, 62, 68, 73, 77, 81, 85)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from rough_spectra.core.numerics import direction_grid
 
-from tools import hemisphere_table
+from tools.manual import hemisphere_table
 
 LIMIT = 0.6
 """Mean ΔE00 that the project promises for each σ up to 45°."""

@@ -3,20 +3,15 @@
 """The tables of docs/instruments.md are what this code computes, and the instruments there are."""
 
 import csv
-import importlib.util
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-AGAIN = "The page is out of date: run python3 tools/instruments_table.py"
+from tools.manual import instruments_table as table
+
+AGAIN = "The page is out of date: run python3 -m tools.manual.instruments_table"
 
 
 def test_table_and_data_are_those_of_this_code():
-    path = ROOT / "tools" / "instruments_table.py"
-    spec = importlib.util.spec_from_file_location("instruments_table", path)
-    table = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(table)
     found = table.rows()
     with table.DATA.open(encoding="utf-8", newline="") as file:
         next(file)

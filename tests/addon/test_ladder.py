@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The choice of a model in CIEDE2000, on scenes that tools/check_ladder.py draws.
+"""The choice of a model in CIEDE2000, on scenes that tools/checks/check_ladder.py draws.
 
 The tool takes 1,000 of another seed; docs/ladder.md states what it finds.
 """
@@ -8,7 +8,7 @@ The tool takes 1,000 of another seed; docs/ladder.md states what it finds.
 import numpy as np
 import pytest
 
-from tools import check_ladder
+from tools.checks import check_ladder
 
 SCENES = 60
 

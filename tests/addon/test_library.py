@@ -505,8 +505,8 @@ def child(folder, lines):
     """Start a Python of its own with the extension's modules, and `add(name, level)`."""
     code = f"""
 import sys
-sys.path.insert(0, {str(ROOT / "tools")!r})
-from run_command_line import load_extension
+sys.path.insert(0, {str(ROOT)!r})
+from tools.run.run_command_line import load_extension
 load_extension()
 import os, signal
 from pathlib import Path

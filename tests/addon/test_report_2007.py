@@ -3,9 +3,7 @@
 """The 2007 report: numbers of docs/report-2007.md against the design notes and colour-science."""
 
 import csv
-import importlib.util
 import math
-import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,24 +11,14 @@ import numpy as np
 import pytest
 from rough_spectra.addon.support.colour_science import colour
 
+from tools.manual import report_2007 as report
+
 ROOT = Path(__file__).resolve().parents[2]
-AGAIN = "The page is out of date: run python3 docs/report_2007.py"
+AGAIN = "The page is out of date: run python3 -m tools.manual.report_2007_figures"
 
 
 @pytest.fixture(scope="module")
-def report():
-    path = ROOT / "tools" / "report_2007.py"
-    spec = importlib.util.spec_from_file_location("report_2007_numbers", path)
-    module = importlib.util.module_from_spec(spec)
-    # dataclasses look their module up there.
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(sys.modules, spec.name, module)
-        spec.loader.exec_module(module)
-        yield module
-
-
-@pytest.fixture(scope="module")
-def rows(report):
+def rows():
     return report.rows()
 
 
@@ -105,7 +93,7 @@ def test_interreflection_works_against_darkening(rows):
         assert row.ab < row.ab_darkening
 
 
-def test_numbers_at_the_largest_roughness(report):
+def test_numbers_at_the_largest_roughness():
     s2 = Fraction(math.pi / 2) ** 2
     f1 = 1 - s2 / (2 * (s2 + Fraction(33, 100)))
     f2 = Fraction(17, 100) * s2 / (s2 + Fraction(13, 100))
@@ -115,13 +103,13 @@ def test_numbers_at_the_largest_roughness(report):
 
 
 @pytest.mark.parametrize(("peak", "degrees"), [(0.8, 48.9), (0.9, 28.0), (0.95, 19.5)])
-def test_bounds_on_roughness(report, peak, degrees):
+def test_bounds_on_roughness(peak, degrees):
     assert round(report.largest_sigma(peak, "two-bounce"), 1) == degrees
     assert report.largest_sigma(peak, "closure") == 90
     assert report.largest_sigma(peak, "reference") == 90
 
 
-def test_tables_of_the_page_and_files_are_those_of_this_code(report, rows):
+def test_tables_of_the_page_and_files_are_those_of_this_code(rows):
     for name, text in (
         ("report-2007.csv", report.colors_csv(rows)),
         ("report-2007-curves.csv", report.curves_csv()),
@@ -138,7 +126,7 @@ def test_tables_of_the_page_and_files_are_those_of_this_code(report, rows):
                 assert old == new or float(old) == pytest.approx(float(new), abs=2e-6), AGAIN
 
 
-def test_sentences_of_the_page_quote_what_is_computed(report, rows, green):
+def test_sentences_of_the_page_quote_what_is_computed(rows, green):
     page = report.PAGE.read_text("utf-8")
     text = " ".join(report.fill(page, dict.fromkeys(report_tables(page), "")).split())
     two, ten = green[2, "two-bounce"], green[10, "two-bounce"]

@@ -28,7 +28,7 @@ from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import InputError, MaterialError
 from rough_spectra.core.numerics import direction_grid
 
-from tools import judge_scene, make_room
+from tools.checks import judge_scene, make_room
 
 SIGMA = math.radians(30)
 

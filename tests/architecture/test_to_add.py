@@ -149,7 +149,7 @@ USE = """
     from pathlib import Path
 
     home, folder = Path(sys.argv[1]), Path(sys.argv[2])
-    sys.path += {str(path.parent) for path in (home / "tools").rglob("*.py")}
+    sys.path.insert(0, str(home))
     import bpy
     spec = importlib.util.spec_from_file_location(
         "rough_spectra", home / "__init__.py", submodule_search_locations=[str(home)]
@@ -259,7 +259,7 @@ USE = """
         "error": group.error,
         "notes": list(request.sample.notes),
         "told": [readers.read(folder / f"{n}.csv")[0].instrument for n in range(3)],
-        "table": importlib.import_module("instruments_table").described().splitlines()[-1],
+        "table": importlib.import_module("tools.manual.instruments_table").described().splitlines()[-1],
         "node": [surface.shader, material.node_tree.nodes[surface.node].bl_idname, group.shader],
         "shown": surface.color,
         "obstacle": str(settled.obstacle(surface)),

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The fitted closure against the V-cavity reference, its limits and the cost it may have."""
 
-import importlib.util
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +15,7 @@ from core import (
 )
 from core.closure import fitted
 from core.errors import DomainError
+from tools.tables import fit_closure
 
 SIGMAS = np.radians(np.concatenate(([0.0, 1e-6, 0.1], np.linspace(1.3, 50, 60))))
 ALBEDOS = np.concatenate((np.geomspace(1e-4, 0.1, 10), np.linspace(0.11, 0.99, 60), [0.999, 1.0]))
@@ -157,15 +156,9 @@ def test_cost_against_two_bounces():
 
 
 def test_fit_can_be_run_again(monkeypatch):
-    path = Path(__file__).resolve().parents[2] / "tools" / "fit_closure.py"
-    spec = importlib.util.spec_from_file_location("fit_closure", path)
-    assert spec is not None
-    assert spec.loader is not None
-    script = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(script)
     before = closure.from_albedo(ALBEDOS, SIGMAS)
     names = ("RING_WHITE", "RING_WALK", "RING_RATIO")
-    for name, values in zip(names, script.fit_ring(), strict=True):
+    for name, values in zip(names, fit_closure.fit_ring(), strict=True):
         monkeypatch.setattr(fitted, name, values)
     # Between versions of numpy the constants move by 1e-6 along a valley of equal errors.
     np.testing.assert_allclose(closure.from_albedo(ALBEDOS, SIGMAS), before, rtol=1e-5)

@@ -11,7 +11,7 @@ from rough_spectra.addon.samples.readers.formats import cxf, spdx
 from rough_spectra.addon.samples.readers.parts.document import Document
 from rough_spectra.core.errors import InputError
 
-from tools import promises
+from tools.checks import promises
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 CXF = (FIXTURES / "cxf" / "two.cxf").read_bytes()

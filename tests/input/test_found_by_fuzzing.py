@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from rough_spectra.addon.samples import readers
 
-from tools import promises
+from tools.checks import promises
 
 FOUND = Path(__file__).resolve().parents[1] / "fixtures" / "fuzz"
 FILES = [path for path in sorted(FOUND.glob("*/*")) if path.is_file()]

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A large file made of a small one takes time and memory in proportion, whatever is repeated.
 
-`tools/growth.py` does the same at 1 MB with all fixtures, and in all its ways.
+`tools/checks/growth.py` does the same at 1 MB with all fixtures, and in all its ways.
 """
 
 import pytest
 from rough_spectra.addon.samples import readers
 
 from tests import pace
-from tools import growth, promises
+from tools.checks import growth, promises
 
 SIZE = growth.SIZE // 4
 SLACK = 3

@@ -14,7 +14,7 @@ from rough_spectra.addon.samples.sample import BRIGHTEST, DEEPEST_NOISE
 from rough_spectra.core.errors import InputError
 
 from tests import pace
-from tools import growth
+from tools.checks import growth
 
 BY_READER = growth.by_reader(readers)
 FIXTURES = [path for paths in BY_READER.values() for path in paths]

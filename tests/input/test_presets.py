@@ -25,7 +25,8 @@ print(json.dumps({k: [v.wavelengths.tolist(), v.values.tolist()] for k, v in pat
 
 
 def run(*arguments):
-    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=True)
+    command = [sys.executable, *arguments]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     return done.stdout
 
 
@@ -46,7 +47,7 @@ def test_numbers_are_exactly_those_of_colour_science():
 
 
 def test_the_tool_writes_the_same_bytes_again(tmp_path):
-    run(str(ROOT / "tools" / "make_presets.py"), str(tmp_path))
+    run("-m", "tools.tables.make_presets", str(tmp_path))
     written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     committed = (ROOT / "presets" / "colorchecker").glob("*.json")
     assert written == {path.name: path.read_bytes() for path in committed}

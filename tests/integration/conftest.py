@@ -68,7 +68,7 @@ def blender(environment):
     """Run lines in a fresh Blender and give the JSON that they print last."""
 
     def blender(lines, **extra):
-        code = START.format(tools=str(ROOT / "tools")) + textwrap.dedent(lines)
+        code = START.format(root=str(ROOT)) + textwrap.dedent(lines)
         done = subprocess.run(
             [sys.executable, "-c", code],
             env=environment | extra,
@@ -85,9 +85,9 @@ def blender(environment):
 
 START = """
 import importlib, json, sys, time
-sys.path.insert(0, {tools!r})
+sys.path.insert(0, {root!r})
 import bpy
-from run_command_line import load_extension
+from tools.run.run_command_line import load_extension
 """
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 
 ROOT = Path(__file__).resolve().parents[2]
-COMMAND = [sys.executable, str(ROOT / "tools" / "run_command_line.py")]
+COMMAND = [sys.executable, str(ROOT / "tools" / "run" / "run_command_line.py")]
 SECONDS = 120
 
 ODD_NAME = '#1 "Ä" red\there'

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The forms one writes down first, each without one remedy of the core.
 
-docs/stability_figures.py draws them and test_remedies_matter.py holds them against the same checks
+tools/manual/stability_figures.py draws them; test_remedies_matter.py holds them against the checks
 as the core. Each takes what the core's function takes.
 """
 

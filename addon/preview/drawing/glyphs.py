@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2016 The Inter Project Authors (https://github.com/rsms/inter)
 # SPDX-License-Identifier: OFL-1.1
-"""Outlines of Inter 4.001;git-9221beed3, written by tools/make_glyphs.py; do not edit by hand.
+"""Outlines of Inter 4.001;git-9221beed3, written by tools/tables/make_glyphs.py; not by hand.
 
 This Font Software is licensed under the SIL Open Font License, Version 1.1: see OFL-1.1.txt.
 `preview.text` reads it.

@@ -106,6 +106,6 @@ def _table() -> dict[str, tuple[int, Array, Array]]:
 
 
 def _unpack(text: str) -> Array:
-    """Read what tools/make_glyphs.py packed: 16-bit integers, low bytes first."""
+    """Read what tools/tables/make_glyphs.py packed: 16-bit integers, low bytes first."""
     planes = np.frombuffer(zlib.decompress(base64.b85decode(text)), np.uint8).reshape(2, -1)
     return np.asarray(planes.T.copy().view("<i2").ravel(), np.int64)

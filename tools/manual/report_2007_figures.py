@@ -1,0 +1,423 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers and figures of report-2007.md, all of them by one command in any Python from 3.9 on:
+
+    python3 -m tools.manual.report_2007_figures
+
+It runs tools/manual/report_2007.py where colour-science is, then itself again where matplotlib is.
+Equal numbers give equal bytes.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+
+from tools.manual import figure_style
+from tools.manual.figure_style import (
+    BLACK,
+    BLUE,
+    GRAY,
+    ORANGE,
+    SKY,
+    VERMILION,
+)
+from tools.run.run_command_line import ROOT
+
+DATA = ROOT / "docs" / "data"
+IMAGES = ROOT / "docs" / "images"
+GREEN = ROOT / "presets" / "colorchecker" / "14-green.json"
+
+COLORS = {"first-order": GRAY, "two-bounce": BLUE, "closure": ORANGE, "reference": VERMILION}
+MARKERS = {"two-bounce": "o", "closure": "s", "reference": "D"}
+
+REPORTED = 3.83
+SIGMA = 45
+
+
+def table(name):
+    """Give the lines of a CSV file under its comment, numbers as numbers."""
+    with (DATA / name).open(encoding="utf-8", newline="") as file:
+        next(file)
+        return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def curves():
+    import numpy as np
+
+    lines = table("report-2007-curves.csv")
+    return {key: np.array([line[key] for line in lines]) for key in lines[0]}
+
+
+def sigma_axis(axes):
+    axes.set_xlim(0, 90)
+    axes.set_xticks(range(0, 91, 15))
+    axes.set_xlabel("roughness σ (degrees)")
+
+
+def coefficients(plt):
+    """Figure 1: what is left of the first bounce, and what the second one adds."""
+    data = curves()
+    figure, axes = plt.subplots(figsize=(7, 4.2))
+    both = data["f1"] + data["f2"]
+    for values, color, style, label, place in (
+        (both, BLACK, "--", "f1 + f2: white facets (ρ = 1)", (45, 0.86)),
+        (data["f1"], BLUE, "-", "f1: weight of ρ, the first bounce", (10, 0.55)),
+        (data["f2"], VERMILION, "-", "f2: weight of ρ², the second bounce", (41, 0.19)),
+    ):
+        axes.plot(data["sigma_deg"], values, style, color=color, linewidth=2.2)
+        axes.text(*place, label, color=color)
+        axes.text(91, values[-1], f"{values[-1]:.4f}", color=color, va="center")
+    axes.set_ylim(0, 1.02)
+    axes.set_ylabel("weight in r = f1 ρ + f2 ρ²")
+    axes.set_title("Roughness takes more from the first bounce than the second gives back")
+    sigma_axis(axes)
+    return figure
+
+
+def feasible(plt):
+    """Figure 2: readings that two bounces can explain."""
+    import numpy as np
+
+    from core import reading
+
+    data = curves()
+    figure, axes = plt.subplots(figsize=(7, 4.4))
+    bound = data["white_two-bounce"]
+    axes.fill_between(data["sigma_deg"], 0, bound, color=SKY, alpha=0.3, linewidth=0)
+    axes.fill_between(
+        data["sigma_deg"], bound, 1.02, facecolor="#f2f2f2", edgecolor="#cccccc", hatch="//"
+    )
+    axes.plot(data["sigma_deg"], bound, color=BLUE, linewidth=2.2)
+    for peak in (0.8, 0.9, 0.95):
+        largest = float(np.degrees(reading.sigma_max(peak)))
+        axes.plot([0, largest, largest], [peak, peak, 0], ":", color=GRAY, linewidth=1.2)
+        axes.plot(largest, peak, "o", color=BLUE)
+        axes.text(
+            largest + 1.5,
+            peak + 0.017,
+            f"r = {peak:g}: σ ≤ {largest:.1f}°",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+        )
+    axes.axhline(bound[-1], color=GRAY, linestyle="--", linewidth=1.2)
+    axes.text(69.5, bound[-1] - 0.045, f"below {bound[-1]:.4f}: any σ", ha="center", va="center")
+    axes.text(69.5, 0.35, "feasible:\nsome albedo ρ ≤ 1\ngives this reading", ha="center")
+    axes.text(
+        88,
+        0.925,
+        "not feasible: would need ρ > 1",
+        ha="right",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+    )
+    axes.set_ylim(0, 1.02)
+    axes.set_ylabel("reading r at 45°/0° (1 = white diffuser)")
+    axes.set_title("With two bounces, the peak of a reading bounds the roughness")
+    sigma_axis(axes)
+    return figure
+
+
+def albedo(plt):
+    """Figure 3: the albedo behind a reading."""
+    import numpy as np
+
+    from core import reading
+
+    figure, axes = plt.subplots(figsize=(6.2, 5.2))
+    shades = plt.get_cmap("viridis")(np.linspace(0, 0.85, 6))
+    for degrees, color in zip((0, 15, 30, 45, 60, 90), shades, strict=True):
+        sigma = np.radians(degrees)
+        values = np.linspace(0, float(reading.white_reading(sigma)), 200)
+        axes.plot(values, reading.to_albedo(values, sigma), color=color, linewidth=2)
+        axes.plot(values[-1], 1, "o", color=color, clip_on=False, zorder=3)
+        place = (1.03, 0.985) if degrees == 0 else (values[-1] - 0.005, 1.02)
+        turn = 0 if degrees == 0 else 55
+        axes.text(*place, f"σ = {degrees}°", color=color, ha="left", rotation=turn)
+    axes.set_xlim(0, 1.02)
+    axes.set_ylim(0, 1)
+    axes.set_aspect("equal")
+    axes.set_xlabel("reading r at 45°/0°")
+    axes.set_ylabel("albedo ρ = 2 r / (f1 + √(f1² + 4 f2 r))")
+    axes.set_title("The rougher the surface, the lighter its facets must be", pad=52)
+    return figure
+
+
+def green(plt):
+    """Figure 4: the spectrum of patch #14 and its place in the a*b* plane."""
+    import numpy as np
+
+    from core import reading
+
+    preset = json.loads(GREEN.read_text("utf-8"))
+    band, rho = np.array(preset["wavelengths"]), np.array(preset["values"])
+    sigma = np.radians(SIGMA)
+    row = green_rows()[2, "two-bounce"]
+    read = reading.from_albedo(rho, sigma)
+
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(11, 4.8), gridspec_kw={"width_ratios": [1.25, 1]}
+    )
+    left.plot(band, rho, color=BLACK, linewidth=2.2)
+    left.plot(band, read, color=BLUE, linewidth=2.2)
+    left.plot(band, read / row["k"], "--", color=VERMILION, linewidth=1.8)
+    left.text(566, 0.335, "albedo ρ (level surface)", color=BLACK)
+    left.text(566, 0.305, "reading / k, luminance as before", color=VERMILION)
+    left.text(566, 0.275, "reading r at σ = 45°", color=BLUE)
+    left.set_xlim(380, 780)
+    left.set_ylim(0, 0.4)
+    left.set_xlabel("wavelength λ (nm)")
+    left.set_ylabel("reflectance factor")
+    left.set_title("Darker, and a little steeper")
+
+    start = np.array([row["a"], row["b"]])
+    end = np.array([row["a_reading"], row["b_reading"]])
+    # a* and b* scale with the cube root of luminance far from black.
+    dark = start * np.cbrt(row["k"])
+    aside = np.array([0.22, 0.27])
+    for tail, head, color, side in (
+        (start, dark, BLACK, 0),
+        (dark, end, VERMILION, 1),
+        (start, end, BLUE, -1),
+    ):
+        right.annotate(
+            "",
+            head + side * aside,
+            tail + side * aside,
+            arrowprops={
+                "arrowstyle": "-|>,head_width=0.35,head_length=0.7",
+                "color": color,
+                "linewidth": 2.2,
+                "shrinkA": 0,
+                "shrinkB": 0,
+            },
+        )
+    for place in (start, dark, end):
+        right.plot(*place, "o", color=BLACK, markersize=6, zorder=3)
+    right.text(start[0], start[1] + 0.55, "albedo ρ", ha="center")
+    right.text(dark[0] + 0.1, dark[1] - 0.75, "albedo × k", ha="center")
+    right.text(-39.1, 33.9, f"darkening {row['ab_darkening']:.2f}", color=BLACK)
+    right.text(-37.2, 32.0, f"interreflection {row['ab_interreflection']:.2f}", color=VERMILION)
+    right.text(-40.7, 32.5, f"in all {row['ab']:.2f}", color=BLUE, ha="right")
+    right.text(end[0] - 0.6, end[1] - 0.75, "reading r", ha="right")
+    right.set_xlim(-43.5, -33.8)
+    right.set_ylim(29, 37)
+    right.set_aspect("equal")
+    right.set_xlabel("a* (← greener)")
+    right.set_ylabel("b* (yellower →)")
+    right.set_title("Less colorful; interreflection works against it")
+    figure.suptitle("ColorChecker #14, σ = 45°, two bounces, D65, 2° observer")
+    return figure
+
+
+def green_rows():
+    rows = table("report-2007.csv")
+    return {(int(r["observer"]), r["model"]): r for r in rows if r["patch"].startswith("14 ")}
+
+
+def apart(plt):
+    """Figure 5: darkening and interreflection, model by model."""
+    rows = green_rows()
+    figure, panels = plt.subplots(1, 2, figsize=(11, 3.9), sharey=True, sharex=True)
+    models = ("first-order", "two-bounce", "closure", "reference")
+    names = ("first bounce only", "two bounces", "all: closure", "all: V-cavity reference")
+    for axes, observer in zip(panels, (2, 10), strict=True):
+        for place, model in enumerate(models):
+            row = rows[observer, model]
+            dark, back, total = row["ab_darkening"], row["ab_interreflection"], row["ab"]
+            axes.barh(place + 0.19, dark, 0.36, color="#555555")
+            axes.barh(place - 0.19, back, 0.36, left=dark - back, color=VERMILION, hatch="//")
+            axes.plot([total] * 2, [place - 0.42, place + 0.42], color=BLUE, linewidth=3)
+            axes.text(0.12, place + 0.19, f"darkening {dark:.2f}", color="white", va="center")
+            if back:
+                axes.text(dark + 0.1, place - 0.19, f"−{back:.2f}", color=VERMILION, va="center")
+            paper = {"facecolor": "white", "edgecolor": "none", "pad": 1}
+            left_of = {"ha": "right", "va": "center", "color": BLUE, "bbox": paper}
+            axes.text(total - 0.1, place - 0.23, f"{total:.2f}", **left_of)
+        axes.axvline(REPORTED, color=BLACK, linestyle=":", linewidth=1.5)
+        axes.text(REPORTED - 0.08, -0.62, f"report: {REPORTED}", ha="right", va="center")
+        axes.set_title(f"{observer}° observer")
+        axes.set_xlabel("distance from the albedo in the a*b* plane")
+        axes.set_xlim(0, 7.9)
+    panels[0].set_yticks(range(len(models)), names)
+    panels[0].set_ylim(3.6, -0.85)
+    handles = [
+        plt.Rectangle((0, 0), 1, 1, color="#555555"),
+        plt.Rectangle((0, 0), 1, 1, facecolor=VERMILION, hatch="//"),
+        plt.Line2D([], [], color=BLUE, linewidth=3),
+    ]
+    labels = ("darkening: away from the albedo", "interreflection: back", "what is left")
+    figure.legend(
+        handles, labels, loc="lower center", ncols=3, bbox_to_anchor=(0.5, -0.1), frameon=False
+    )
+    figure.suptitle(
+        "Patch #14, σ = 45°, D65: interreflection takes back ¼ to ⅓ of what darkening does"
+    )
+    return figure
+
+
+def all_bounces(plt):
+    """Figure 6: the bound of figure 2 once every bounce counts."""
+    data = curves()
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(11, 4.4), gridspec_kw={"width_ratios": [1.3, 1]}
+    )
+    names = {
+        "two-bounce": "two bounces: white facets lose up to 28 %",
+        "closure": "closure",
+        "reference": "V-cavity reference, all bounces",
+    }
+    styles = {"two-bounce": "-", "closure": "--", "reference": "-"}
+    for axes in (left, right):
+        for model, name in names.items():
+            axes.plot(
+                data["sigma_deg"],
+                data[f"white_{model}"],
+                styles[model],
+                color=COLORS[model],
+                linewidth=2.2,
+                label=name,
+                # The closure lies on the reference: dashes on top leave both to be seen.
+                zorder=4 if model == "closure" else 2,
+            )
+        sigma_axis(axes)
+    left.fill_between(
+        data["sigma_deg"],
+        data["white_two-bounce"],
+        1,
+        facecolor="#fff4e5",
+        edgecolor="#f3c58a",
+        hatch="//",
+        linewidth=0,
+    )
+    left.text(
+        62,
+        0.87,
+        "ruled out by two bounces,\nreached by all bounces",
+        ha="center",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 2},
+    )
+    left.set_ylim(0.6, 1.03)
+    left.set_ylabel("reading r of white facets (ρ = 1)")
+    left.set_title("The bound on (σ, r) all but vanishes")
+    left.legend(loc="lower left", frameon=False)
+    peak = int(data["white_reference"].argmax())
+    for place, height, across in ((peak, 0.0007, "left"), (90, -0.0011, "right")):
+        value = data["white_reference"][place]
+        right.plot(place, value, "o", color=VERMILION, clip_on=False)
+        label = f"{value:.4f} at {place}°"
+        right.text(place, value + height, label, color=VERMILION, ha=across, va="center")
+    right.set_ylim(0.99, 1.01)
+    right.set_yticks([0.99, 0.995, 1.0, 1.005, 1.01])
+    right.set_title("The same, about 20 times enlarged")
+    return figure
+
+
+def patches(plt):
+    """Figure 7: all 24 patches."""
+    rows = [row for row in table("report-2007.csv") if row["observer"] == 2]
+    names = list(dict.fromkeys(row["patch"] for row in rows))
+    colors = {row["patch"]: row["srgb"] for row in rows}
+    figure, panels = plt.subplots(1, 2, figsize=(11, 7.6), sharey=True)
+    for axes, key, title in zip(
+        panels,
+        ("de00", "de00_equal"),
+        ("As read: mostly darkening", "Luminance held equal: interreflection alone"),
+        strict=True,
+    ):
+        for model, marker in MARKERS.items():
+            values = {row["patch"]: row[key] for row in rows if row["model"] == model}
+            axes.plot(
+                [values[name] for name in names],
+                range(len(names)),
+                marker,
+                color=COLORS[model],
+                markeredgecolor="black",
+                markeredgewidth=0.5,
+                markersize=7,
+                label={"two-bounce": "two bounces", "reference": "V-cavity reference"}.get(
+                    model, model
+                ),
+                zorder=3,
+            )
+        axes.set_title(title)
+        axes.set_xlabel("ΔE00 between the level and the rough surface")
+        axes.grid(axis="y", color="#e4e4e4")
+        axes.set_xlim(left=0)
+    labels = [name.split(" (")[0] for name in names]
+    panels[0].set_yticks(range(len(names)), labels)
+    panels[0].tick_params(axis="y", pad=28, length=0)
+    panels[0].set_ylim(len(names) - 0.4, -0.6)
+    for place, name in enumerate(names):
+        panels[0].add_patch(
+            plt.Rectangle(
+                (-0.065, place - 0.36),
+                0.05,
+                0.72,
+                transform=panels[0].get_yaxis_transform(),
+                facecolor=colors[name],
+                edgecolor="#555555",
+                linewidth=0.5,
+                clip_on=False,
+            )
+        )
+    panels[1].legend(loc="lower right", frameon=False)
+    figure.suptitle("ColorChecker at σ = 45°, read at 45°/0° under D65, 2° observer")
+    return figure
+
+
+FIGURES = {
+    "1-coefficients": coefficients,
+    "2-feasible": feasible,
+    "3-albedo": albedo,
+    "4-green": green,
+    "5-apart": apart,
+    "6-all-bounces": all_bounces,
+    "7-patches": patches,
+}
+
+
+def draw():
+    """Draw every figure as SVG and PNG."""
+    import matplotlib as mpl
+
+    mpl.use("agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update(
+        {
+            "font.size": 11,
+            "axes.titlesize": 12,
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "figure.constrained_layout.use": True,
+            "hatch.linewidth": 0.6,
+            "savefig.bbox": "tight",
+            "svg.hashsalt": "rough-spectra",  # else every run names its clip paths anew
+        }
+    )
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    for name, function in FIGURES.items():
+        figure = function(plt)
+        figure_style.save(figure, IMAGES / f"report-2007-{name}", dpi=120)
+        plt.close(figure)
+
+
+def main(arguments):
+    if arguments == ["--draw"]:
+        draw()
+        return 0
+    from tools.manual import two_pythons
+
+    drawing = ("tools/manual/report_2007_figures.py", "--draw")
+    return two_pythons.run(("tools/manual/report_2007.py",), drawing)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

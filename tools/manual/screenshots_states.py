@@ -1,0 +1,417 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The states that the manual's pictures show; see `screenshots_inside`."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from tools.run.run_command_line import ROOT
+
+BANDS = range(400, 701, 20)
+PLASTER = "\n".join(
+    [
+        "name," + ",".join(f"R{nm} nm" for nm in BANDS),
+        "Plaster," + ",".join(f"{0.6 + (nm - 400) / 2000:.3f}" for nm in BANDS),
+        "Plaster with noise," + ",".join(f"{(nm - 404) / 1000:.3f}" for nm in BANDS),
+    ]
+)
+LAMP = "wavelength,irradiance\n" + "\n".join(f"{nm},{nm / 10}" for nm in BANDS)
+"""Invented numbers, for pictures alone."""
+
+TERRACOTTA = ROOT / "tests" / "fixtures" / "nix" / "terracotta.csv"
+
+KEY = "F19"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A state of the window.
+
+    Parameters
+    ----------
+    show
+        Puts the window into the state.
+    part
+        "panel", "sidebar", "dialog", "status", "preferences" or "window": what is saved.
+    ready
+        Whether what takes its time is there.
+    """
+
+    show: Callable[[], Any]
+    part: str
+    ready: Callable[[], bool]
+
+
+PICTURES: dict[str, Picture] = {}
+
+
+def picture(part: str, ready: Callable[[], bool] = lambda: True) -> Callable[..., Any]:
+    """Register what puts the window into a state."""
+
+    def register(show: Callable[[], Any]) -> Callable[[], Any]:
+        PICTURES[show.__name__.replace("_", "-")] = Picture(show, part, ready)
+        return show
+
+    return register
+
+
+# The window --------------------------------------------------------------------------------------
+
+
+def split_window(width: float) -> None:
+    """Make the window a text editor beside the Material tab: a viewport would draw for minutes."""
+    window = bpy.context.window_manager.windows[0]
+    for area in sorted(window.screen.areas, key=lambda area: area.width * area.height)[:-1]:
+        with bpy.context.temp_override(window=window, area=area):
+            bpy.ops.screen.area_close()
+    area = window.screen.areas[0]
+    area.type = "TEXT_EDITOR"
+    with bpy.context.temp_override(window=window, area=area):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=1 - width / area.width)
+
+
+def show_material_tab() -> None:
+    """Turn the narrow area, whose place is known after a redraw, into the Material tab."""
+    window = bpy.context.window_manager.windows[0]
+    panel = max(window.screen.areas, key=lambda area: area.x)
+    panel.type = "PROPERTIES"
+    # A script cannot fold panels, so the others of the tab are hidden.
+    for cls in bpy.types.Panel.__subclasses__():
+        in_tab = getattr(cls, "bl_context", "") == "material" and getattr(cls, "bl_label", "")
+        if in_tab and cls.is_registered and "rough_spectra" not in cls.__module__:
+            cls.poll = classmethod(lambda _cls, _context: False)
+    with bpy.context.temp_override(window=window, area=panel):
+        panel.spaces.active.context = "MATERIAL"
+
+
+def _fresh() -> Any:
+    """Leave one plane, without a material, and no light."""
+    if _wide_area().type != "TEXT_EDITOR":
+        _wide_area().type = "TEXT_EDITOR"
+    bpy.ops.wm.set_working_color_space(convert_colors=True, working_space="Linear Rec.709")
+    things = [thing for thing in bpy.data.objects if thing.type != "CAMERA"]
+    bpy.data.batch_remove([*things, *bpy.data.materials, *bpy.data.lights])
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    mesh = bpy.data.meshes.new("Wall")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    thing = bpy.data.objects.new("Wall", mesh)
+    scene.collection.objects.link(thing)
+    thing.select_set(True)
+    bpy.context.view_layer.objects.active = thing
+    return thing
+
+
+def _wide_area() -> Any:
+    return min(bpy.context.window_manager.windows[0].screen.areas, key=lambda area: area.x)
+
+
+def _assigned(preset: str = "colorchecker/14-green", degrees: float = 30.0) -> Any:
+    thing = _fresh()
+    bpy.ops.rough_spectra.assign_preset("EXEC_DEFAULT", preset=preset, sigma=math.radians(degrees))
+    return thing.active_material
+
+
+def _color_socket(material: Any) -> Any:
+    node = next(node for node in material.node_tree.nodes if node.type.startswith("BSDF"))
+    return node.inputs[0]
+
+
+def _invoke(operator: Callable[..., Any], **options: Any) -> None:
+    """Open an operator's dialog in the middle of the text editor."""
+    window = bpy.context.window_manager.windows[0]
+    area = _wide_area()
+    window.cursor_warp(area.x + area.width // 2, area.y + area.height // 2)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        operator("INVOKE_DEFAULT", **options)
+
+
+def _press(operator: str, **options: Any) -> None:
+    """Have the user press a key for an operator: only then does Blender show its messages."""
+    window = bpy.context.window_manager.windows[0]
+    keys = bpy.context.window_manager.keyconfigs.addon.keymaps.new("Window")
+    for item in [item for item in keys.keymap_items if item.type == KEY]:
+        keys.keymap_items.remove(item)
+    item = keys.keymap_items.new(operator, KEY, "PRESS")
+    for name, value in options.items():
+        setattr(item.properties, name, value)
+    area = _wide_area()
+    where = {"x": area.x + area.width * 3 // 4, "y": area.y + area.height // 2}
+
+    def strike() -> None:
+        window.event_simulate(type="MOUSEMOVE", value="NOTHING", **where)
+        for value in ("PRESS", "RELEASE"):
+            window.event_simulate(type=KEY, value=value, **where)
+
+    bpy.app.timers.register(strike, first_interval=0.3)  # when Blender knows of the key
+
+
+def _folder() -> Path:
+    """Where pictures show that files are."""
+    folder = Path(tempfile.gettempdir(), "measured")
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+def _write(name: str, text: str) -> Path:
+    path = _folder() / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+# States of the panel -----------------------------------------------------------------------------
+
+
+@picture("panel")
+def empty() -> None:
+    """Show a mesh without a material."""
+    _fresh()
+
+
+@picture("panel")
+def without_spectrum() -> None:
+    """Show a material that stores no spectrum."""
+    _fresh().data.materials.append(bpy.data.materials.new("Paint"))
+
+
+@picture("panel")
+def assigned() -> None:
+    """Show a preset at 30°."""
+    _assigned()
+
+
+@picture("panel")
+def smooth() -> None:
+    """Show a preset as it is assigned first, at 0°."""
+    _assigned(degrees=0.0)
+
+
+@picture("panel")
+def out_of_gamut() -> None:
+    """Show a color that the working space cannot hold."""
+    _assigned("colorchecker/18-cyan")
+
+
+@picture("panel")
+def reading() -> None:
+    """Show a reading of a ring light."""
+    material = _assigned("colorchecker/19-white-9-5", 20.0)
+    material.rough_spectra.kind = "reading"
+
+
+@picture("panel")
+def infeasible() -> None:
+    """Show a reading that is brighter than white facets of this roughness would give."""
+    thing = _fresh()
+    path = _write("chalk.csv", "wavelength,Chalk\n" + "\n".join(f"{nm},0.94" for nm in BANDS))
+    bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(65))
+    thing.active_material.rough_spectra.model = "two-bounce"
+
+
+@picture("panel")
+def edited() -> None:
+    """Show a color that was edited by hand."""
+    _color_socket(_assigned()).default_value = (0.4, 0.1, 0.1, 1)
+
+
+@picture("panel")
+def kept() -> None:
+    """Show an edit by hand that the user keeps."""
+    _color_socket(_assigned()).default_value = (0.08, 0.25, 0.1, 1)
+    bpy.ops.rough_spectra.keep()
+
+
+@picture("panel")
+def working_space() -> None:
+    """Show what a change of the working space does."""
+    _assigned()
+    bpy.ops.wm.set_working_color_space(convert_colors=True, working_space="ACEScg")
+
+
+@picture("panel")
+def not_derived() -> None:
+    """Show a setting with which the color cannot be derived."""
+    material = _assigned()
+    links = material.node_tree.links
+    noise = material.node_tree.nodes.new("ShaderNodeTexNoise")
+    links.new(noise.outputs["Color"], _color_socket(material))
+    material.rough_spectra.sigma = math.radians(20)
+
+
+@picture("panel")
+def linked() -> None:
+    """Show a material of another file."""
+    material = _assigned()
+    path = str(_folder() / "library.blend")
+    bpy.data.libraries.write(path, {material}, fake_user=True)
+    thing = _fresh()
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.materials = ["Wall"]
+    thing.data.materials.append(wanted.materials[0])
+
+
+@picture("panel")
+def eevee() -> None:
+    """Show that Eevee leaves the roughness out."""
+    _assigned()
+    bpy.context.scene.render.engine = "BLENDER_EEVEE"
+
+
+@picture("panel")
+def lit_by_the_scene() -> None:
+    """Show a material that follows one incandescent lamp."""
+    _assigned("colorchecker/09-moderate-red")
+    _lights(("AREA", (1.5, -1.0, 2.0), 150.0, 2856.0))
+    bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT")
+
+
+@picture("panel")
+def lit_by_several() -> None:
+    """Show a material that no color makes right under all of its lights."""
+    _assigned("colorchecker/09-moderate-red")
+    _lights(("AREA", (1.5, -1.0, 2.0), 150.0, 2856.0), ("SUN", (-2.0, 2.0, 3.0), 1.0, 6500.0))
+    bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT")
+
+
+def _lights(*lights: tuple[str, tuple[float, float, float], float, float]) -> None:
+    scene = bpy.context.scene
+    scene.world = None
+    for kind, place, energy, kelvin in lights:
+        light = bpy.data.lights.new("Lamp" if kind == "AREA" else "Sun", kind)
+        light.energy, light.use_temperature, light.temperature = energy, True, kelvin
+        thing = bpy.data.objects.new(light.name, light)
+        thing.location = place
+        scene.collection.objects.link(thing)
+    camera = scene.camera
+    camera.location, camera.rotation_euler = (0.0, 0.0, 6.0), (0.0, 0.0, 0.0)
+
+
+@picture("panel")
+def source() -> None:
+    """Show where a spectrum comes from: an instrument's file, with all that it says."""
+    _fresh()
+    path = _write("terracotta.csv", TERRACOTTA.read_text(encoding="utf-8"))
+    bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(15))
+    open_source()
+    bpy.app.timers.register(_close_source, first_interval=4.0)
+
+
+def open_source() -> None:
+    """Show the Source panel open, which a script cannot do: a twin that is so by default."""
+    closed = bpy.types.ROUGHSPECTRA_PT_source
+    options = {"bl_options": set(), "bl_parent_id": closed.bl_parent_id, "bl_label": "Source"}
+    bpy.utils.register_class(type("ROUGHSPECTRA_PT_source_open", closed.__bases__, options))
+    closed.poll = classmethod(lambda _cls, _context: False)
+
+
+def _close_source() -> None:
+    bpy.utils.unregister_class(bpy.types.ROUGHSPECTRA_PT_source_open)
+    del bpy.types.ROUGHSPECTRA_PT_source.poll
+
+
+# Measuring ---------------------------------------------------------------------------------------
+
+
+def _is_measured() -> bool:
+    material = bpy.context.view_layer.objects.active.active_material
+    return bool(material.rough_spectra.measured)
+
+
+@picture("status")
+def measuring() -> None:
+    """Show how far a measurement is."""
+    _assigned()
+    _press("rough_spectra.measure", scope="ACTIVE")
+
+
+@picture("panel", ready=_is_measured)
+def measured() -> None:
+    """Show a measurement beside the prediction."""
+    _assigned()
+    _press("rough_spectra.measure", scope="ACTIVE")
+
+
+@picture("panel")
+def measured_before() -> None:
+    """Show a measurement that is of earlier settings: in the state that `measured` left."""
+    if not _is_measured_here():
+        return
+    material = bpy.context.view_layer.objects.active.active_material
+    material.rough_spectra.sigma = math.radians(20)
+
+
+def _is_measured_here() -> bool:
+    thing = bpy.context.view_layer.objects.active
+    return thing is not None and thing.active_material is not None and _is_measured()
+
+
+# Dialogs, menus and messages ---------------------------------------------------------------------
+
+
+@picture("dialog")
+def choose_sample() -> None:
+    """Show the search among presets and library."""
+    _fresh()
+    _invoke(bpy.ops.rough_spectra.choose_sample)
+
+
+@picture("dialog")
+def find_nearest() -> None:
+    """Show the samples nearest to a color."""
+    _fresh()
+    _invoke(bpy.ops.rough_spectra.find_nearest, color=(0.55, 0.35, 0.25))
+
+
+@picture("dialog")
+def import_review() -> None:
+    """Show what is in files before anything is kept."""
+    _fresh()
+    paths = (_write("plaster.csv", PLASTER), _write("lamp.csv", LAMP))
+    files = [{"name": path.name} for path in paths]
+    _invoke(bpy.ops.rough_spectra.import_samples, directory=str(paths[0].parent), files=files)
+
+
+@picture("dialog")
+def file_refused() -> None:
+    """Show what is said of a file that cannot be used."""
+    _fresh()
+    _press("rough_spectra.import_samples", filepath=str(_write("lamp.csv", LAMP)))
+
+
+@picture("dialog")
+def context_menu() -> None:
+    """Show the entry in a right-click menu."""
+    _assigned()
+    _invoke(bpy.ops.wm.call_menu, name="MATERIAL_MT_context_menu")
+
+
+@picture("sidebar")
+def shader_editor() -> None:
+    """Show the panel in the shader editor's sidebar."""
+    _assigned()
+    area = _wide_area()
+    area.ui_type = "ShaderNodeTree"
+    area.spaces.active.show_region_ui = True
+    bpy.app.timers.register(_choose_tab, first_interval=0.5)  # when the sidebar has tabs
+
+
+def _choose_tab() -> None:
+    [region] = [region for region in _wide_area().regions if region.type == "UI"]
+    region.active_panel_category = "Rough Spectra"
+    region.tag_redraw()
+
+
+@picture("preferences")
+def preferences() -> None:
+    """Show what new materials begin with."""
+    _fresh()
+    bpy.ops.preferences.addon_show(module="bl_ext.user_default.rough_spectra")
