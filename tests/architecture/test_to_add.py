@@ -231,6 +231,7 @@ USE = """
         if cls.poll("Rome"):
             cls.draw(this, "Rome")
 
+    instruments_table = importlib.import_module("tools.manual.instruments_table")
     found = {
         "ours": [extension.__file__, command_line.__file__, models.__file__],
         "at_start": at_start,
@@ -259,7 +260,7 @@ USE = """
         "error": group.error,
         "notes": list(request.sample.notes),
         "told": [readers.read(folder / f"{n}.csv")[0].instrument for n in range(3)],
-        "table": importlib.import_module("tools.manual.instruments_table").described().splitlines()[-1],
+        "table": instruments_table.described().splitlines()[-1],
         "node": [surface.shader, material.node_tree.nodes[surface.node].bl_idname, group.shader],
         "shown": surface.color,
         "obstacle": str(settled.obstacle(surface)),
