@@ -6,6 +6,7 @@ import dataclasses
 import doctest
 import inspect
 from math import radians
+from pathlib import Path
 
 import bpy
 import pytest
@@ -74,6 +75,15 @@ def test_names_and_arguments_stay_as_they_are():
     assert {*api.__all__} == {*SIGNATURES, *FIELDS, *OTHERS}
     assert {name: called(getattr(api, name)) for name in SIGNATURES} == SIGNATURES
     assert {name: fields_of(getattr(api, name)) for name in FIELDS} == FIELDS
+
+
+def test_the_manual_calls_every_function_so():
+    page = Path(__file__).resolve().parents[2] / "docs" / "scripting.md"
+    text = page.read_text(encoding="utf-8").replace('"', "'")
+    rows = [f"| `{name}{arguments}` |" for name, arguments in SIGNATURES.items()]
+    # What an expert needs is left to `help`.
+    rows = [row.replace("read(path, region=None)", "read(path)") for row in rows]
+    assert [row for row in rows if row not in text] == []
 
 
 def test_what_a_module_says_is_all_it_has():

@@ -9,6 +9,8 @@ import doctest
 import importlib
 import inspect
 import pkgutil
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -29,15 +31,24 @@ def public_functions():
 FUNCTIONS = [*public_functions()]
 
 
+def run_example(text, names, name):
+    example = doctest.DocTestParser().get_doctest(text, names, name, None, 0)
+    said = []
+    doctest.DocTestRunner(verbose=False).run(example, out=said.append)
+    assert not said, "".join(said)
+
+
 @pytest.mark.parametrize(("module", "function"), FUNCTIONS)
 def test_the_example_of(module, function):
     text = inspect.getdoc(function) or ""
     assert "\nExamples\n--------\n>>> " in text, "give it an example that runs"
-    names = vars(module) | {"np": np}
-    example = doctest.DocTestParser().get_doctest(text, names, function.__name__, None, 0)
-    said = []
-    doctest.DocTestRunner(verbose=False).run(example, out=said.append)
-    assert not said, "".join(said)
+    run_example(text, vars(module) | {"np": np}, function.__name__)
+
+
+def test_the_example_of_the_page_for_scripts():
+    page = Path(core.__file__).parents[1] / "docs" / "scripting.md"
+    [text] = re.findall(r"```pycon\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    run_example(text, {}, page.name)
 
 
 def test_the_core_has_functions():

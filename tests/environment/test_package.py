@@ -50,15 +50,6 @@ print("RESULT " + json.dumps({
 """
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("package")
-    python = Path(sys.executable)
-    output = folder / "rough_spectra.zip"
-    package.build(ROOT, python, wheels.shipped(ROOT, python), folder / "stage", output)
-    return output
-
-
 def test_zip_holds_what_ships_and_nothing_else(built):
     names = zipfile.ZipFile(built).namelist()
     assert {name for name in names if "/" not in name} == ALLOWED

@@ -69,6 +69,23 @@ def test_use_leaves_no_stand_ins_in_sys_modules(blender):
     assert found == {"fakes": [], "usual": False, "colour": True}
 
 
+def test_needs_none_of_blenders_own_add_ons(blender):
+    """Of Blender 4.5, the Asset Browser's menu Asset belongs to the Pose Library."""
+    found = blender("""
+        import addon_utils
+        for name in list(bpy.context.preferences.addons.keys()):
+            addon_utils.disable(name)
+        extension = load_extension()
+        extension.register()
+        kept = ("ASSETBROWSER_MT_library", "ASSETBROWSER_MT_catalog")
+        menus = [getattr(bpy.types, name) for name in kept if hasattr(bpy.types, name)]
+        drawn = [f.__module__ for m in menus for f in getattr(m.draw, "_draw_funcs", [])]
+        extension.unregister()
+        print(json.dumps(drawn))
+    """)
+    assert "rough_spectra.addon.interface.operators.build_assets" in found
+
+
 def test_unregister_leaves_nothing_and_register_works_again(blender):
     found = blender("""
         extension = load_extension()

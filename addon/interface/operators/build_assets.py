@@ -125,8 +125,8 @@ def unregister_menu() -> None:
 
 
 def _menu() -> Any:
-    # Blender 4.5 has no menu Library.
-    return getattr(bpy.types, "ASSETBROWSER_MT_library", None) or bpy.types.ASSETBROWSER_MT_asset
+    # Blender 4.5 has no menu Library; what it calls Asset is of an add-on, which may be off.
+    return getattr(bpy.types, "ASSETBROWSER_MT_library", None) or bpy.types.ASSETBROWSER_MT_catalog
 
 
 def _draw_entry(menu: Any, _context: Any) -> None:
