@@ -69,7 +69,7 @@ class ROUGHSPECTRA_PT_nodes(_Main, _Sidebar, bpy.types.Panel):
     """Measured spectrum of the material"""
 
 
-def _panel(box: Box, name: str, place: type, around: type) -> type:
+def _panel(box: Box, name: str, place: type, around: type) -> Any:
     """Make the class that Blender wants of a box in one of its places."""
 
     def poll(_cls: Any, context: Any) -> bool:
@@ -89,7 +89,7 @@ def _panel(box: Box, name: str, place: type, around: type) -> type:
     return type(f"ROUGHSPECTRA_PT_{name}", (place, bpy.types.Panel), content)
 
 
-def _inside(prefix: str, found: list[Box], place: type, around: type) -> list[type]:
+def _inside(prefix: str, found: list[Box], place: type, around: type) -> list[Any]:
     names = [box.__name__.rpartition(".")[2] for box in found]
     return [
         _panel(box, prefix + name, place, around) for box, name in zip(found, names, strict=True)
