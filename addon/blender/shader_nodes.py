@@ -199,6 +199,8 @@ def _refuse_unpredictable(material: Any, node: Any) -> None:
 
 
 def _is_animated(tree: Any, socket: Any) -> bool:
+    if tree.animation_data is None:
+        return False
     path = socket.path_from_id("default_value")
     return any(curve.data_path == path for curve in curves(tree.animation_data))
 

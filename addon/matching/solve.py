@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -165,7 +166,7 @@ def _solve(
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert], met[is_lambert] = lambert[is_lambert], met_smooth[is_lambert]
-    high = np.percentile(over_hemisphere, 95, axis=1)
+    high = _percentile(over_hemisphere, 0.95)
     return [
         Solution(
             color=color[i],
@@ -272,9 +273,22 @@ def _colors(
     return readings, targets
 
 
+def _percentile(values: Array, share: float) -> Array:
+    """Give what `numpy.percentile` does of each row, at a tenth of its cost for a few numbers."""
+    place = share * (values.shape[-1] - 1)
+    below = int(place)
+    ordered = np.sort(values, axis=-1)
+    low, high = ordered[..., below], ordered[..., min(below + 1, values.shape[-1] - 1)]
+    return np.asarray(low + (high - low) * (place - below))
+
+
+@lru_cache(maxsize=4)
 def _everywhere(count: int) -> tuple[Array, Array, Array]:
-    """Give directions all over the hemisphere, and the virtual instrument's."""
-    return _with_instrument(direction_grid.hemisphere(count))
+    """Give directions all over the hemisphere, and the virtual instrument's; read-only."""
+    found = _with_instrument(direction_grid.hemisphere(count))
+    for angles in found:
+        angles.setflags(write=False)
+    return found
 
 
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:

@@ -9,6 +9,7 @@ evaluation, whatever the number of directions, and one inverse for all instrumen
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,7 @@ def reflectance(color: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str)
     return reflected(c, lobe(s, *mean_direction(instrument, c.dtype)))
 
 
+@lru_cache(maxsize=32)
 def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]:
     """Give tilt and spread of an instrument: the weighted means over its directions.
 
@@ -71,7 +73,7 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
 
     Returns
     -------
-    Two arrays without axes, for `core.cycles.lobe`.
+    Two arrays without axes, read-only, for `core.cycles.lobe`.
 
     Raises
     ------
@@ -88,7 +90,8 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
     # One direction without an axis, because numpy 1.26 computes those in another precision.
     angles = of.angles or (of.theta_i, of.theta_r, of.delta_phi)
     tilt, spread = directions(*(np.asarray(angle, dtype) for angle in angles))
-    if of.angles is not None:
-        return tilt, spread
-    mean_tilt, mean_spread = (of.weights @ each for each in (tilt, spread))
-    return np.asarray(mean_tilt, dtype), np.asarray(mean_spread, dtype)
+    if of.angles is None:
+        tilt, spread = (np.asarray(of.weights @ each, dtype) for each in (tilt, spread))
+    tilt.setflags(write=False)
+    spread.setflags(write=False)
+    return tilt, spread

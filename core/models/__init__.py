@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol, cast
@@ -75,7 +76,7 @@ class Model:
     description: str
     number: int
 
-    @property
+    @cached_property
     def formulas(self) -> Formulas:
         """The functions of its file."""
         file = f".{self.name.replace('-', '_')}"

@@ -79,6 +79,10 @@ def apply_in_blocks(formula: Callable[..., None], out: Array, *arrays: Array) ->
     >>> out.tolist()
     [[10.0, 11.0, 12.0], [20.0, 21.0, 22.0]]
     """
+    if out.size <= ELEMENTS:
+        if out.size:
+            formula(out, *arrays)
+        return
     for index in blocks(out.shape):
         # A view even where the index is a single element of a one-dimensional array.
         formula(out[index], *(part(array, index, out.ndim) for array in arrays))

@@ -145,7 +145,7 @@ def patch(rgb: Array, space: WorkingSpace) -> Patch:
     """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
     linear = _to_screen(space.key) @ rgb
     encoded = srgb.encode(linear)
-    shown = np.clip(encoded, 0, 1)
+    shown = np.minimum(np.maximum(encoded, 0), 1)
     red, green, blue = shown.tolist()
     return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
 
