@@ -42,9 +42,9 @@ class Settings:
     Parameters
     ----------
     model, illuminant, observer
-        As in `target.Request`.
+        As in `request.Request`.
     shader
-        Node that is made, as in `nodes.find`.
+        Node that is made, as in `shader_nodes.find`.
     author
         Of the assets.
     """

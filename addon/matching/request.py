@@ -15,7 +15,7 @@ VIRTUAL = "45a:0"
 """Instrument that materials are matched and measured with, whichever gave the reading."""
 
 AUTO = "auto"
-"""Model of a request that leaves the choice to `target.choose`."""
+"""Model of a request that leaves the choice to `solve.choose`."""
 
 TOLERANCE = 1.0
 """Largest ΔE00 from the reference that a model may have to be chosen."""

@@ -26,7 +26,7 @@ def assign(
     pairs
         Each a `bpy.types.Material` and what it is to become.
     shader
-        Which node to set; see `nodes.find`.
+        Which node to set; see `shader_nodes.find`.
 
     Returns
     -------

@@ -186,7 +186,7 @@ def rgb_bars(
 
 
 def spectra_of(request: Request) -> tuple[Array, Array]:
-    """Give reading at the virtual instrument and albedo, each (bands,), as `target` matches."""
+    """Give reading at the virtual instrument and albedo, each (bands,), as `solve` matches."""
     [seen], [rho] = surface_spectra.readings_and_albedos([request])
     return seen, rho
 
