@@ -40,7 +40,7 @@ class Settings:
     Parameters
     ----------
     model, illuminant, observer
-        As in `target.Request`.
+        As in `request.Request`.
     shader
         Node that is made, as in `shader_nodes.find`.
     author

@@ -3,7 +3,7 @@
 """Run a job in a second Blender, so that this one stays free and its file untouched.
 
 The job is a JSON file in a temporary folder of its own. The worker, a script, leaves its results
-beside it and tells its progress there; see `instrument.worker` for what it owes this side.
+beside it and tells its progress there; see `instrument/worker.py` for what it owes this side.
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ def like(xyz: npt.ArrayLike, temperature: float | None = None) -> tuple[Array, s
 def weights(wavelengths: tuple[float, ...], spd: tuple[float, ...]) -> Array:
     """Give the matrix, shape (bands, 3), that turns reflectance into XYZ under a light.
 
-    As `colorimetry.weights`, for a light of any spectrum at `GRID`; by the plain sum at 1 nm.
+    As `tristimulus.weights`, for a light of any spectrum at `GRID`; by the plain sum at 1 nm.
     """
     measured = np.asarray(wavelengths)
     to_fine = wavelength_grid.resample(

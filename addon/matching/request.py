@@ -18,7 +18,7 @@ VIRTUAL = "45a:0"
 """Instrument that materials are matched and measured with, whichever gave the reading."""
 
 AUTO = "auto"
-"""Model of a request that leaves the choice to `target.choose`."""
+"""Model of a request that leaves the choice to `solve.choose`."""
 
 
 @dataclass(frozen=True)

@@ -286,14 +286,14 @@ class _Places:
         return np.asarray(xyz / self.whites[: len(xyz)])
 
     def perceive(self, parameters: list[least_mean_fit.Numbers]) -> Array:
-        """Lab, shape (materials, places, 3), of materials as `cycles_slopes` takes them."""
+        """Lab, shape (materials, places, 3), of materials as `derivatives` takes them."""
         parts = derivatives.coefficients(parameters)
         relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
         relative = relative.reshape(len(parameters), -1, 3)
         return color_difference.roots_to_lab(color_difference.roots(relative)[0])
 
     def distance_to(self, roots: Array, lab: Array) -> least_mean_fit.Distance:
-        """Give what `compromise.fit` searches: how far materials are from wanted colors.
+        """Give what `least_mean_fit.fit` searches: how far materials are from wanted colors.
 
         Parameters
         ----------
@@ -384,5 +384,5 @@ def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Arra
     light, view, azimuth = places.angles
     spread = ladder.reflectance(model, np.minimum(albedo, 1), light, view, azimuth, sigma)
     # The published model turns negative at grazing opposite directions; no surface does. Facets
-    # that return more light than reaches them are kept in proportion, as in `target`.
+    # that return more light than reaches them are kept in proportion, as in `solve`.
     return np.maximum(spread * np.maximum(albedo, 1), np.minimum(albedo, 0))

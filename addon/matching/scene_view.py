@@ -37,7 +37,7 @@ class SceneLight:
     words
         What its spectrum was taken for.
     spd
-        Spectrum at `light_spectrum.GRID`, with a luminance Y of 1.
+        Spectrum at `illuminant_spectra.GRID`, with a luminance Y of 1.
     share
         Its part in the light that falls on the material, 0 to 1; all lights' add up to 1.
     """

@@ -265,7 +265,7 @@ def _colors(
             spread = ladder.reflectance(
                 first.model, np.minimum(albedo, 1), *geometries, sigma[chunk, np.newaxis]
             )
-            # No model holds for facets that return more light than reaches them: see `spectra`.
+            # No model holds for facets that return more than reaches them: see `surface_spectra`.
             targets[members[chunk]] = (spread * np.maximum(albedo, 1)) @ weights
     # The published model turns negative at grazing opposite directions; no surface does. A channel
     # that is negative in the reading itself is out of gamut, which is another matter.

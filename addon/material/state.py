@@ -3,7 +3,7 @@
 """Tell whether the color in a material's shader node still follows from its spectrum.
 
 Only compares what is stored, without numpy or color science: cheap enough for a panel to draw.
-What takes a material reads its `facts` and asks what takes those.
+What takes a material reads its `snapshot` and asks what takes those.
 """
 
 from __future__ import annotations

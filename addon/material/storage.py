@@ -3,7 +3,7 @@
 """Read and write what a material stores.
 
 The truth is the spectrum; color and roughness in the shader node are derived from it. The stamp
-says from what; `stamp` tells whether that still holds.
+says from what; `state` tells whether that still holds.
 """
 
 from __future__ import annotations

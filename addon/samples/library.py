@@ -76,7 +76,7 @@ class Entry:
     lab
         CIE L*a*b* of the same, unclipped.
     warnings
-        Sentences of `judgement`.
+        Sentences of `quality`.
     path
         The file that holds it.
     is_preset

@@ -5,7 +5,7 @@
 A `Sample` that exists is valid: its wavelengths increase, its values are finite and could be
 reflectance. Whatever breaks that is refused here in one sentence that names the file, the place and
 the remedy, so that no later code has to ask again. What a surface cannot do but an instrument can
-print, such as a little noise below 0, is kept as measured; `judgement` names it.
+print, such as a little noise below 0, is kept as measured; `quality` names it.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ class Sample:
     def reflectance(self) -> NDArray[np.float64]:
         """The values to compute with, shape (bands,): noise below 0 counts as 0.
 
-        An albedo above 1 counts as 1. `judgement` says so of every sample that it happens to.
+        An albedo above 1 counts as 1. `quality` says so of every sample that it happens to.
         """
         return np.clip(self.values, 0.0, 1.0 if self.kind == "albedo" else None)
 

@@ -105,7 +105,7 @@ def follow(report: SceneReport, materials: Sequence[Any] | None = None) -> list[
     Parameters
     ----------
     report
-        What `scene_analysis.analyze` gave.
+        What `analysis.analyze` gave.
     materials
         The only ones that are to follow; None for all in view that store a spectrum.
 

@@ -19,7 +19,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tools.chart.chart_timing import SINGLE_THREAD, load
-from tools.chart.chart_work import ROOT, write_json
+from tools.chart.chart_work import write_json
+from tools.run.run_command_line import ROOT
 
 FOLDER = ROOT / "build" / "chart"
 

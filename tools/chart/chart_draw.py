@@ -17,7 +17,8 @@ import matplotlib as mpl
 from matplotlib.transforms import Bbox
 
 from tools.chart import chart_labels, chart_tables
-from tools.chart.chart_work import COST_NOISE, ROOT, pareto_front, read_json
+from tools.chart.chart_work import COST_NOISE, pareto_front, read_json
+from tools.run.run_command_line import ROOT
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt

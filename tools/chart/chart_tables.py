@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from tools.chart.chart_work import GEOMETRIES, PANELS, ROOT, SIGMAS
+from tools.chart.chart_work import GEOMETRIES, PANELS, SIGMAS
+from tools.run.run_command_line import ROOT
 
 PAGE = ROOT / "docs" / "chart.md"
 DATA = ROOT / "docs" / "data"

@@ -42,7 +42,7 @@ def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="dev.py fuzz", description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=10.0, help="in all, over all readers")
     parser.add_argument("--jobs", type=int, default=2, help="readers fuzzed at once")
-    parser.add_argument("readers", nargs="*", metavar="READER", help="modules of addon/readers")
+    parser.add_argument("readers", nargs="*", metavar="READER", help="of samples/readers/formats")
     options = parser.parse_args(arguments)
     readers = _load()
     names = [promises.short(module) for module in readers.readers()]

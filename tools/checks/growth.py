@@ -136,7 +136,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--size", type=int, default=SIZE, help="bytes of each file")
     parser.add_argument("--fixtures", type=int, default=2, help="of each reader")
-    parser.add_argument("readers", nargs="*", metavar="READER", help="modules of addon/readers")
+    parser.add_argument("readers", nargs="*", metavar="READER", help="of samples/readers/formats")
     options = parser.parse_args(arguments)
     load_extension()
     from rough_spectra.addon.samples import readers

@@ -23,6 +23,7 @@ import numpy as np
 
 from core import closure, oren_nayar
 from core.closure import fitted as closure_coefficients
+from core.closure import formula
 from core.numerics.arrays import Array
 from core.vcavity import (
     bounce_series,
@@ -119,7 +120,7 @@ def fit_geometry() -> Array:
     first, white, ratio = best_of_form(rows, readings)
     t = closure.roughness_variable(SIGMAS)
     later = white - first
-    steepest = closure._STEEPEST
+    steepest = formula._STEEPEST
     share = np.minimum(ratio / steepest, steepest)
     weight = np.where(geometry[:, :1] > np.radians(77), NEAR_GRAZING, 1.0)
     later_weight = (np.minimum(later / white, 1) + LATER_FLOOR) * weight

@@ -40,7 +40,7 @@ HEADER = '''# SPDX-FileCopyrightText: 2016 The Inter Project Authors (https://gi
 """Outlines of Inter {version}, written by tools/tables/make_glyphs.py; not by hand.
 
 This Font Software is licensed under the SIL Open Font License, Version 1.1: see OFL-1.1.txt.
-`preview.text` reads it.
+`preview.drawing.text` reads it.
 """
 
 # Units an em; heights above the baseline.

@@ -3,7 +3,7 @@
 """Outlines of Inter 4.001;git-9221beed3, written by tools/tables/make_glyphs.py; not by hand.
 
 This Font Software is licensed under the SIL Open Font License, Version 1.1: see OFL-1.1.txt.
-`preview.text` reads it.
+`preview.drawing.text` reads it.
 """
 
 # Units an em; heights above the baseline.

@@ -3,7 +3,7 @@
 """CGATS.17 (ISO 28178) text and its dialects.
 
 ArgyllCMS's .ti3 and .sp, exports of i1Profiler, ColorPort, MeasureTool and ProfileMaker, Barbieri
-Gateway, Spectrolino, and this package's own readings. See `_cgats_columns` on scales.
+Gateway, Spectrolino, and this package's own readings. See `cgats_columns` on scales.
 """
 
 from __future__ import annotations

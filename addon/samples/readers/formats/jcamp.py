@@ -4,7 +4,7 @@
 
 Records ``##LABEL= value``, comments from ``$$`` on; spaces, dashes, slashes and underscores in
 labels do not count. YUNITS= REFLECTANCE is a fraction unless it says percent. Ordinates in all
-forms of the standard (`_ordinates`); what its checkpoints find is refused.
+forms of the standard (`jcamp_ordinates`); what its checkpoints find is refused.
 """
 
 from __future__ import annotations

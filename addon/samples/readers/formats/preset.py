@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets: one material a JSON file, whose fields `_preset_fields` lists."""
+"""Presets: one material a JSON file, whose fields `preset_fields` lists."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def sniff(document: Document) -> bool:
         return False
     if _COUNT.fullmatch(top[0]):
         return bool(_NUMBERS.fullmatch(top[1]))
-    # A title that is commented out is none: `_table.rows` would not show it.
+    # A title that is commented out is none: `tables.rows` would not show it.
     titled = bool(_TITLE.search(top[0])) and not top[0].lstrip().startswith("#")
     return titled and label_words.is_wavelength(top[1])
 

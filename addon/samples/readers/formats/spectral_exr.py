@@ -75,8 +75,8 @@ def read(document: Document) -> list[Sample]:
     Raises
     ------
     InputError
-        The image cannot be read (`_exr.open_image`), it has no channels of reflectance, the region
-        is not within it, or the mean is no spectrum (`check_spectrum`).
+        The image cannot be read (`exr_header.open_image`), it has no channels of reflectance, the
+        region is not within it, or the mean is no spectrum (`check_spectrum`).
     """
     image = exr_header.open_image(document)
     bands, skipped = _reflective(document, image)
