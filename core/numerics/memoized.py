@@ -58,7 +58,7 @@ def remembered(function: Directions) -> Directions:
         alike = shapes[0] == shapes[1] == shapes[2]
         if (light.size if alike else prod(np.broadcast_shapes(*shapes))) > FEW:
             return function(light, view, azimuth)
-        kinds = light.dtype.char, view.dtype.char, azimuth.dtype.char
+        kinds = light.dtype.str, view.dtype.str, azimuth.dtype.str  # the order of bytes, too
         return of_bytes(light.tobytes(), view.tobytes(), azimuth.tobytes(), *shapes, *kinds)
 
     return of_arrays
