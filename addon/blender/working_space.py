@@ -29,14 +29,21 @@ def current() -> WorkingSpace:
     Up to Blender 4.5 the name is that of the role in the OCIO configuration; from 5.0 the file
     says it.
     """
+    units = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    columns = tuple(tuple(Color(unit).from_xyz_d65_to_scene_linear()) for unit in units)
+    return _space(working_space_name(), columns, ocio.warning())
+
+
+@lru_cache(maxsize=16)
+def _space(name: str, columns: tuple[tuple[float, ...], ...], warning: str) -> WorkingSpace:
+    """Make the space once: what is derived from its matrix is kept with it."""
     import numpy as np
 
     from ..colorimetry.rgb_space import WorkingSpace
 
-    unit_colors = (Color(unit).from_xyz_d65_to_scene_linear() for unit in np.eye(3).tolist())
-    matrix = np.array([list(color) for color in unit_colors], np.float64).T
-    name = working_space_name()
-    return WorkingSpace(name=name, from_xyz=matrix, warning=ocio.warning())
+    matrix = np.array(columns, np.float64).T
+    matrix.setflags(write=False)
+    return WorkingSpace(name=name, from_xyz=matrix, warning=warning)
 
 
 def working_space_name() -> str:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -32,12 +32,12 @@ class WorkingSpace:
     from_xyz: Array
     warning: str = ""
 
-    @property
+    @cached_property
     def white(self) -> Array:
         """XYZ of RGB (1, 1, 1), shape (3,)."""
         return np.asarray(np.linalg.solve(self.from_xyz, np.ones(3)))
 
-    @property
+    @cached_property
     def key(self) -> bytes:
         """Key of what is kept for a space; `matrix_of` gives `from_xyz` back."""
         return np.asarray(self.from_xyz, np.float64).tobytes()

@@ -140,7 +140,8 @@ def match(
         def cost(tried: Array, of_chunk: Array = of_chunk, goal: Array = goal) -> Array:
             color = _color(of_chunk, lobe(tried, *read_at))
             seen = reflected(color[..., np.newaxis, :], lobe(tried[..., np.newaxis], *others))
-            return np.asarray(delta_e(perceive(seen), goal).mean(axis=-1))
+            apart = delta_e(perceive(seen), goal)
+            return np.asarray(np.add.reduce(apart, axis=-1) / apart.shape[-1])
 
         roughness[chunk] = _least(cost, len(of_chunk), r.dtype)
     return _color(r, lobe(roughness, *read_at)), roughness

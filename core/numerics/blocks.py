@@ -57,6 +57,8 @@ def part(array: Array, index: Index, dimensions: int) -> Array:
     >>> part(row[:, np.newaxis], (slice(0, 2),), dimensions=2).tolist()
     [[0], [1]]
     """
+    if not index:
+        return array
     aligned = array.reshape((1,) * (dimensions - array.ndim) + array.shape)
     own = tuple(
         which if aligned.shape[axis] > 1 else (0 if isinstance(which, int) else slice(None))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache, wraps
 from math import prod
+from typing import Any
 
 import numpy as np
 
@@ -22,8 +23,6 @@ FEW = 256
 
 _KEPT = 32
 """Sets of directions that are remembered of one function, the latest."""
-
-_Key = tuple[bytes, tuple[int, ...], str]
 
 Directions = Callable[[Array, Array, Array], tuple[Array, ...]]
 """A function of θi, θr and Δφ that depends on nothing else."""
@@ -44,22 +43,22 @@ def remembered(function: Directions) -> Directions:
     """
 
     @lru_cache(maxsize=_KEPT)
-    def of_bytes(*keys: _Key) -> tuple[Array, ...]:
-        light, view, azimuth = (
-            np.frombuffer(data, dtype).reshape(shape) for data, shape, dtype in keys
-        )
-        found = function(light, view, azimuth)
+    def of_bytes(*keys: Any) -> tuple[Array, ...]:
+        """Of the bytes of the three, their shapes and their types."""
+        angles = zip(keys[:3], keys[3:6], keys[6:], strict=True)
+        found = function(*(np.frombuffer(data, of).reshape(shape) for data, shape, of in angles))
         for array in found:
             array.setflags(write=False)
         return found
 
     @wraps(function)
     def of_arrays(light: Array, view: Array, azimuth: Array) -> tuple[Array, ...]:
-        angles = (light, view, azimuth)
-        shapes = {angle.shape for angle in angles}
+        shapes = light.shape, view.shape, azimuth.shape
         # Of angles that broadcast against each other, the results are what would be kept.
-        if prod(shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)) > FEW:
-            return function(*angles)
-        return of_bytes(*((angle.tobytes(), angle.shape, angle.dtype.str) for angle in angles))
+        alike = shapes[0] == shapes[1] == shapes[2]
+        if (light.size if alike else prod(np.broadcast_shapes(*shapes))) > FEW:
+            return function(light, view, azimuth)
+        kinds = light.dtype.str, view.dtype.str, azimuth.dtype.str  # the order of bytes, too
+        return of_bytes(light.tobytes(), view.tobytes(), azimuth.tobytes(), *shapes, *kinds)
 
     return of_arrays

@@ -124,9 +124,10 @@ def of_request(
         target, blender = under_main_light(request.scene, seen, bands, blender, space)
         luminance = main.weights(bands)[:, 1]
         curve = scene_match.to_xyz(shown, main, space)[:, 1]
+    wanted, shown_there = patches(np.array((target, blender)), space)
     return Data(
-        target=patch(target, space),
-        blender=patch(blender, space),
+        target=wanted,
+        blender=shown_there,
         wavelengths=bands,
         albedo=rho,
         reading=seen,
@@ -143,11 +144,19 @@ def of_request(
 
 def patch(rgb: Array, space: WorkingSpace) -> Patch:
     """Show a scene-linear color as sRGB: the color itself, without the scene's view transform."""
-    linear = _to_screen(space.key) @ rgb
-    encoded = srgb.encode(linear)
+    [found] = patches(rgb[np.newaxis], space)
+    return found
+
+
+def patches(colors: Array, space: WorkingSpace) -> list[Patch]:
+    """Show several, (colors, 3), as `patch` does one."""
+    encoded = srgb.encode(colors @ _to_screen(space.key).T)
     shown = np.minimum(np.maximum(encoded, 0), 1)
-    red, green, blue = shown.tolist()
-    return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
+    outside = np.abs(encoded - shown).max(axis=-1) > _OUTSIDE
+    return [
+        Patch((red, green, blue), beyond)
+        for (red, green, blue), beyond in zip(shown.tolist(), outside.tolist(), strict=True)
+    ]
 
 
 @lru_cache(maxsize=16)
