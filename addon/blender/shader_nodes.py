@@ -16,6 +16,7 @@ from typing import Any, Literal, NamedTuple
 import bpy
 
 from ...core.errors import MaterialError
+from ...core.numerics.memoized import kept
 
 Shader = Literal["AUTO", "DIFFUSE", "PRINCIPLED"]
 
@@ -244,7 +245,7 @@ def _layout(node: Any) -> tuple[dict[str, int], int]:
     return _layouts[node.bl_idname]
 
 
-_layouts: dict[str, tuple[dict[str, int], int]] = {}
+_layouts: dict[str, tuple[dict[str, int], int]] = kept(__name__, "_layouts")
 
 
 def color_socket(node: Any) -> Any:
@@ -279,7 +280,9 @@ def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int
     return _numbers[shader]
 
 
-_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = {}
+_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = kept(
+    __name__, "_numbers"
+)
 
 
 def disturbing_sockets(node: Any) -> list[str]:

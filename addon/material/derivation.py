@@ -7,9 +7,9 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from functools import lru_cache
 from typing import Any, NamedTuple
 
+from ...core.numerics.memoized import memoized
 from . import snapshot
 from .snapshot import Inputs
 
@@ -93,7 +93,7 @@ def settings(found: Inputs) -> dict[str, str]:
     }
 
 
-@lru_cache(maxsize=2048)
+@memoized(maxsize=2048)
 def analyzed_scene(scene_view: str) -> str:
     """Name of the scene that an analysis is of, from its text; empty if it cannot be read."""
     try:
@@ -124,7 +124,7 @@ _TEXTS = (
 )
 
 
-@lru_cache(maxsize=2048)
+@memoized(maxsize=2048)
 def parse(text: str) -> Stamp | None:
     """Read a stored stamp; None where it cannot be read."""
     try:

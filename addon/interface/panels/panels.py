@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import bpy
 
+from ....core.numerics.memoized import memoized
 from ..operators import common
 from . import menus
 
@@ -45,7 +45,7 @@ class _Sidebar:
         return common.is_material_tree(context)
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _drawing() -> Any:
     """Import what draws: most sessions of Blender never show these panels."""
     from . import drawing

@@ -15,13 +15,13 @@ Modules whose name begins with an underscore are help for the readers, not forma
 
 from __future__ import annotations
 
-import functools
 import importlib
 import os
 import pkgutil
 from typing import Protocol, cast
 
 from ....core.errors import InputError
+from ....core.numerics.memoized import memoized
 from ..sample import Sample
 from . import formats
 from .parts.document import Document, open_document
@@ -72,7 +72,7 @@ def read(
     raise _unrecognized(document)
 
 
-@functools.cache
+@memoized(maxsize=None)
 def readers() -> tuple[Reader, ...]:
     """Return the format modules in the order in which they are asked."""
     found = []
