@@ -15,7 +15,6 @@ from pathlib import Path
 import numpy as np
 
 from ...core.numerics.arrays import Array
-from ...core.numerics.memoized import memoized
 from ..support.colour_science import colour
 
 ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3")
@@ -95,7 +94,6 @@ def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
     return np.asarray(found)
 
 
-@memoized(maxsize=1)
 def _file() -> Array:
     """Weights, shape (observers, illuminants, bands of all steps in a row, 3)."""
     return np.asarray(np.load(FILE, allow_pickle=False))

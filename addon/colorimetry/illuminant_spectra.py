@@ -170,7 +170,6 @@ def _matching() -> Array:
     return np.asarray(observer.align(science.SpectralShape(_FINE[0], _FINE[-1], 1)).values)
 
 
-@memoized(maxsize=1)
 def _to_fine() -> Array:
     return wavelength_grid.resample(np.eye(GRID.size), GRID, _FINE, method="cubic", ends="hold")
 
@@ -180,7 +179,6 @@ def _integration() -> Array:
     return np.asarray(_to_fine() @ _matching())
 
 
-@memoized(maxsize=1)
 def _daylight_parts() -> Array:
     """S0, S1 and S2 of CIE daylight at `GRID`, shape (3, wavelengths)."""
     parts = colour().colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES

@@ -112,7 +112,6 @@ def _to_space(rec709: Array, space: WorkingSpace) -> Array:
     return np.maximum(space.from_xyz @ np.linalg.solve(_rec709(), rec709), 0)
 
 
-@memoized(maxsize=1)
 def _rec709() -> Array:
     """XYZ to Linear Rec.709 (ITU-R BT.709, D65)."""
     xy = np.array([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]])

@@ -88,14 +88,12 @@ def _gauss(count: int) -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(count)
 
 
-@memoized(maxsize=8)
 def _panels(per_panel: int) -> tuple[Array, Array]:
     """Nodes of the first panel, which has the level surface too, and of the others, (panels, n)."""
     slopes = nodes(per_panel)
     return slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
 
 
-@memoized(maxsize=8)
 def _gaps(per_panel: int) -> tuple[Array, Array]:
     """Give what the products of `_lagrange` are at their own nodes, in the shapes of `_panels`."""
     level, inner = (

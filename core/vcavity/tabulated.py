@@ -127,7 +127,6 @@ def _bins(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]
     return _bin(table.BOUND_POLAR, larger), _bin(table.BOUND_AZIMUTH, azimuth), beyond
 
 
-@memoized(maxsize=1)
 def _known_bounds() -> Array:
     return np.array(table.BOUND) * 1e-5 * _SAFETY
 
@@ -182,7 +181,6 @@ def _local(nodes: Sequence[float], at: Array) -> tuple[Array, Array]:
     return index, weight
 
 
-@memoized(maxsize=8)
 def _cubics(nodes: tuple[float, ...]) -> tuple[Array, Array]:
     """Nodes, and what Lagrange's weights of each four in a row are divided by: shape (n - 3, 4)."""
     places = np.array(nodes)

@@ -133,7 +133,6 @@ def _pieces(word: str, most: float, size: float) -> list[tuple[str, float]]:
     return [(piece, _width(piece, size)) for piece in pieces]
 
 
-@memoized(maxsize=2048)
 def _width(word: str, size: float) -> float:
     """Pixels that a word takes; sentences have few that are new."""
     blf.size(_FONT, size)

@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb
 
 if TYPE_CHECKING:
@@ -66,7 +65,6 @@ class Look:
         return _FONT * self.scale
 
 
-@memoized(maxsize=8)
 def look(background: Color, text: Color, scale: float = 1.0) -> Look:
     """Choose colors that are readable on a background, both display-encoded."""
     target, blender = (readable(color, background, _LETTERS) for color in (_BLUE, _VERMILION))

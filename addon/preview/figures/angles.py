@@ -69,7 +69,6 @@ def angles(
     ]
 
 
-@memoized(maxsize=8)
 def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
     return (
         Key("Target", look.target, 2.6),

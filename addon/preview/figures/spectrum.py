@@ -74,7 +74,6 @@ def spectrum(
     ]
 
 
-@memoized(maxsize=8)
 def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     return (
         Key("Reading", look.target, 1.6),
