@@ -41,6 +41,18 @@ if "rough_spectra" not in sys.modules:
     spec.loader.exec_module(package)
 
 
+@pytest.fixture(scope="module", autouse=True)
+def nothing_remembered():
+    """Forget what earlier files' tests left in the extension's caches: none depends on another's.
+
+    What `core` remembers stays: it knows neither Blender nor files but those it ships, and its
+    tables of instruments take seconds.
+    """
+    memoized = sys.modules.get("rough_spectra.core.numerics.memoized")
+    if memoized is not None:
+        memoized.clear_all("addon.")
+
+
 @pytest.fixture(scope="session")
 def extension():
     """Register the extension once for all folders of tests that need Blender.

@@ -5,16 +5,16 @@
 from __future__ import annotations
 
 import os
-from functools import lru_cache
 
 from ...core.errors import InputError
+from ...core.numerics.memoized import memoized
 from ..support import user_files
 
 _ROLE = "aces_interchange"
 """With this role Blender knows a space's XYZ. Without it takes scene linear for Rec.709."""
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def warning() -> str:
     """Say that Blender only assumes Rec.709, because a custom configuration does not tell."""
     path = os.environ.get("OCIO", "")  # Blender sets it to its own configuration, or leaves it

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...core.errors import MaterialError
+from ...core.numerics.memoized import kept
 from ..matching import shaders
 from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
 from .surface import (
@@ -148,7 +149,7 @@ def _layout(node: Any) -> tuple[dict[str, int], int]:
     return _layouts[node.bl_idname]
 
 
-_layouts: dict[str, tuple[dict[str, int], int]] = {}
+_layouts: dict[str, tuple[dict[str, int], int]] = kept(__name__, "_layouts")
 
 
 def _refuse_read_only(material: Any) -> None:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...core.numerics.memoized import kept
 from .sockets import OF_NODE
 
 _DISPLACEMENT = "Displacement"
@@ -123,7 +124,9 @@ def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int
     return _numbers[shader]
 
 
-_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = {}
+_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = kept(
+    __name__, "_numbers"
+)
 
 
 def disturbing_sockets(node: Any) -> list[str]:

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import bpy
 from mathutils import Color
 
+from ...core.numerics.memoized import memoized
 from . import ocio
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def current() -> WorkingSpace:
     return _space(working_space_name(), columns, ocio.warning())
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _space(name: str, columns: tuple[tuple[float, ...], ...], warning: str) -> WorkingSpace:
     """Make the space once: what is derived from its matrix is kept with it."""
     import numpy as np
@@ -56,7 +56,7 @@ def working_space_name() -> str:
     return _space_of(*Color(_ASKED).from_scene_linear_to_xyz_d65())
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _space_of(_x: float, _y: float, _z: float) -> str:
     """Name of the working space in which a color has this XYZ: asking for it takes Blender long."""
     return str(bpy.data.colorspace.working_space)

@@ -10,7 +10,6 @@ visible range: bands that were not measured count as equal to the nearest one th
 
 from __future__ import annotations
 
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -94,7 +93,6 @@ def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
     return np.asarray(found)
 
 
-@lru_cache(maxsize=1)
 def _file() -> Array:
     """Weights, shape (observers, illuminants, bands of all steps in a row, 3)."""
     return np.asarray(np.load(FILE, allow_pickle=False))

@@ -11,14 +11,13 @@ per-channel albedo is exact.
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import numpy.typing as npt
 
 from ...core.limits import E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..support.colour_science import colour
 
 GRID = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
@@ -84,7 +83,7 @@ def like(xyz: npt.ArrayLike, temperature: float | None = None) -> tuple[Array, s
     return _tilted(base, wanted), words
 
 
-@lru_cache(maxsize=512)
+@memoized(maxsize=512)
 def weights(wavelengths: tuple[float, ...], spd: tuple[float, ...]) -> Array:
     """Give the matrix, shape (bands, 3), that turns reflectance into XYZ under a light.
 
@@ -157,7 +156,7 @@ def _distance(uv: Array, other: Array) -> Array:
     return np.asarray(np.linalg.norm(uv - other, axis=-1))
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _loci() -> Array:
     spectra = np.stack(
         [planck(t) if t < DAYLIGHT_FROM else daylight(t) for t in _TEMPERATURES.tolist()]
@@ -165,24 +164,22 @@ def _loci() -> Array:
     return to_uv(to_xyz(spectra))
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _matching() -> Array:
     science = colour()
     observer = science.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy()
     return np.asarray(observer.align(science.SpectralShape(_FINE[0], _FINE[-1], 1)).values)
 
 
-@lru_cache(maxsize=1)
 def _to_fine() -> Array:
     return wavelength_grid.resample(np.eye(GRID.size), GRID, _FINE, method="cubic", ends="hold")
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _integration() -> Array:
     return np.asarray(_to_fine() @ _matching())
 
 
-@lru_cache(maxsize=1)
 def _daylight_parts() -> Array:
     """S0, S1 and S2 of CIE daylight at `GRID`, shape (3, wavelengths)."""
     parts = colour().colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES

@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
 from ...core.color import color_difference
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from . import tristimulus
 
 
@@ -69,7 +70,7 @@ def matrix_of(key: bytes) -> Array:
     return np.frombuffer(key).reshape(3, 3)
 
 
-@lru_cache(maxsize=32)
+@memoized(maxsize=32)
 def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
     """Matrix of `rgb_weights`, for the bytes of wavelengths and a space's key."""
     weights = tristimulus.weights(np.frombuffer(wavelengths), illuminant, observer=2)
@@ -80,7 +81,7 @@ def _rgb_weights(wavelengths: bytes, key: bytes, illuminant: str) -> Array:
     return found
 
 
-@lru_cache(maxsize=32)
+@memoized(maxsize=32)
 def _to_xyz(key: bytes, illuminant: str) -> Array:
     """Matrix of `to_xyz`, for a space's key: a match asks for it at every step."""
     back = np.linalg.inv(matrix_of(key))

@@ -10,7 +10,6 @@ XYZ here has Y = 1 for the perfect white diffuser.
 from __future__ import annotations
 
 import warnings
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +19,7 @@ from ...core.errors import DomainError
 from ...core.limits import COLOR_NM, E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from . import astm_e308
 
 ILLUMINANTS = astm_e308.ILLUMINANTS
@@ -59,7 +59,7 @@ def weights(wavelengths: npt.ArrayLike, illuminant: str = "D65", observer: int =
     return _sufficient_weights(bands, _known_illuminant(illuminant), observer)
 
 
-@lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int) -> Array:
     measured = wavelength_grid.check_wavelengths(bands)
     # Before the weights: colour-science fails on the few bands of such grids.
@@ -73,7 +73,7 @@ def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int
     return _weights(bands, illuminant, observer)
 
 
-@lru_cache(maxsize=32)
+@memoized(maxsize=32)
 def white(illuminant: str = "D65", observer: int = 2) -> Array:
     """XYZ of the perfect white diffuser, Y = 1, from the 5 nm weights. Shape (3,), read-only."""
     full = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
@@ -106,7 +106,7 @@ def _known_illuminant(illuminant: str) -> str:
     return illuminant
 
 
-@lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _weights(wavelengths: tuple[float, ...], illuminant: str, observer: int) -> Array:
     if observer not in OBSERVERS:
         msg = f"Observer {observer!r} is not known; choose 2 or 10 degrees."

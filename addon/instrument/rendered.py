@@ -9,10 +9,11 @@ looked at, only which ones are used.
 from __future__ import annotations
 
 import hashlib
-from functools import lru_cache
 from typing import Any
 
 import bpy
+
+from ...core.numerics.memoized import memoized
 
 _OF_SOCKETS = "default_value"
 _LEFT_OUT = {"rna_type", "color_mapping", "use_auto_update", "bytecode"}
@@ -56,7 +57,7 @@ def _properties(thing: Any, around: tuple[Any, ...]) -> Any:
     ]
 
 
-@lru_cache(maxsize=1024)
+@memoized(maxsize=1024)
 def _names(kind: str) -> tuple[str, ...]:
     """Properties of what nodes hold, or of a kind of node: those that not every node has."""
     asked, left_out = getattr(bpy.types, kind), set(_LEFT_OUT)

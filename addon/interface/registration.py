@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import bpy
 
+from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
@@ -42,3 +43,4 @@ def unregister() -> None:
     properties.unregister_pointer()
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)
+    memoized.clear_all()

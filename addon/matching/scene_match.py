@@ -10,7 +10,6 @@ at 45°/0° is then no longer met by itself: what the material reads there follo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from ...core.cycles import (
 )
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..colorimetry.perceptibility import SIDE_BY_SIDE
 from ..colorimetry.rgb_space import WorkingSpace, matrix_of
 from .request import VIRTUAL
@@ -225,7 +225,7 @@ def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     return np.asarray(rgb @ _rendered(light, space.key))
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def _rendered(light: SceneLight, key: bytes) -> Array:
     """Matrix of `to_xyz`, for a working space's key."""
     matrix = matrix_of(key)
@@ -315,7 +315,7 @@ class _Places:
         return distance
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
     """Make them, for the bytes of wavelengths and a working space's key."""
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)

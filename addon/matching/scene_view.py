@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
 from ...core.errors import InputError
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..colorimetry import illuminant_spectra
 
 SCHEMA = 1
@@ -132,7 +133,7 @@ def make_light(name: str, words: str, spd: Array, share: float) -> SceneLight:
     return SceneLight(name, words, rounded, round(share, 6))
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def from_json(text: str) -> SceneView:
     """Read back what `SceneView.to_json` gave.
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +19,7 @@ from ...core.color import color_difference
 from ...core.cycles import matching
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
 from ..samples import quality
@@ -282,7 +282,7 @@ def _percentile(values: Array, share: float) -> Array:
     return np.asarray(low + (high - low) * (place - below))
 
 
-@lru_cache(maxsize=4)
+@memoized(maxsize=4)
 def _everywhere(count: int) -> tuple[Array, Array, Array]:
     """Give directions all over the hemisphere, and the virtual instrument's; read-only."""
     found = _with_instrument(direction_grid.hemisphere(count))

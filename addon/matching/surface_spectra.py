@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import lru_cache
 
 import numpy as np
 
 from ...core import instruments, limits, reading
 from ...core.errors import DomainError
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..samples.sample import Sample
 from .request import VIRTUAL, Request
 
@@ -28,7 +28,7 @@ def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
     return _of_all(requests)
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _of_one(request: Request) -> tuple[Array, Array]:
     """Compute one material once: while a slider is dragged, its pictures need the same again."""
     found = _of_all([request])
@@ -84,7 +84,7 @@ def albedos(requests: list[Request], model: str) -> Array:
     return _albedos_of_all(requests, model)
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _albedo_of_one(sample: Sample, sigma: float, model: str) -> Array:
     """Compute it once: choosing a model takes it by one, and matching by the one chosen."""
     found = _albedos_of_all([Request(sample, sigma, model)], model)
@@ -139,7 +139,7 @@ def naming(sample: Sample) -> Iterator[None]:
         raise DomainError(msg) from error
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def _white(model: str, instrument: str) -> tuple[Array, Array]:
     degrees = np.linspace(0, limits.LARGEST_SIGMA_DEGREES, 361)
     return degrees, reading.white_reading(np.radians(degrees), model, instrument)

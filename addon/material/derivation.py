@@ -8,9 +8,9 @@ import hashlib
 import json
 import math
 from collections import OrderedDict
-from functools import lru_cache
 from typing import Any, NamedTuple
 
+from ...core.numerics.memoized import enlist, memoized
 from . import snapshot
 from .snapshot import Inputs
 
@@ -97,7 +97,7 @@ def settings(found: Inputs) -> dict[str, str]:
     }
 
 
-@lru_cache(maxsize=2048)
+@memoized(maxsize=2048)
 def analyzed_scene(scene_view: str) -> str:
     """Name of the scene that an analysis is of, from its text; empty if it cannot be read."""
     try:
@@ -148,6 +148,7 @@ def parse(text: str) -> Stamp | None:
 
 _known: OrderedDict[str, Stamp | None] = OrderedDict()
 """Stamps by their texts, those used last: who drags a slider writes one a step, and reads it."""
+enlist(__name__, "_known", _known.__len__, _known.clear)
 
 
 def _numbers(stamp: Stamp) -> list[float]:

@@ -11,9 +11,9 @@ import hashlib
 import json
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
+from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from . import snapshot
 from .snapshot import Facts
@@ -47,7 +47,7 @@ def fingerprint(material: Any) -> str:
     return _fingerprint(snapshot.of(material))
 
 
-@lru_cache(maxsize=1024)
+@memoized(maxsize=1024)
 def _fingerprint(found: Facts) -> str:
     surface = found.surface
     sockets = () if surface is None else (*surface.color, surface.roughness)
@@ -103,7 +103,7 @@ def get(material: Any, known: Facts | None = None) -> Measured | None:
     return Measured(rgb, delta_e, current, predicted)
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def _parsed(
     text: str,
 ) -> tuple[str, tuple[float, float, float], float | None, float | None] | None:

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...core.errors import MaterialError
+from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..matching import shaders
 from . import derivation, snapshot, state
@@ -207,7 +207,7 @@ def predicted(
     return assess.differences(request, (read, albedo), what, space)
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def _choose(request: Request) -> Settled:
     """Choose the model; once, while a color is edited by hand and its pictures follow."""
     from ..matching import solve

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import hashlib
 import math
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import bpy
 
+from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..blender.working_space import working_space_name
 
@@ -161,7 +161,7 @@ def elsewhere(material: Any) -> str:
     return ""
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def digest(found: Inputs) -> str:
     """Digest of spectrum and settings; stored in files, so that it has to stay the same."""
     told: tuple[str, ...] = (

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, Literal
 
+from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from . import snapshot
 from .derivation import (
@@ -58,7 +58,7 @@ def state(material: Any) -> State:
     return judge(snapshot.of(material)) if has_spectrum(material) else _NONE
 
 
-@lru_cache(maxsize=1024)
+@memoized(maxsize=1024)
 def judge(found: Facts) -> State:
     """Tell the same from a material's facts."""
     if not found.inputs.spectrum:

@@ -11,11 +11,11 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any
 
 from ...core import limits
 from ...core.errors import InputError, MaterialError, RoughSpectraError
+from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes, working_space
 from ..colorimetry import tristimulus
 from ..matching import scene_view
@@ -144,7 +144,7 @@ def fault(material: Any, view: SceneView | None = None) -> str:
     return ""
 
 
-@lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _sample(
     name: str, spectrum: str, details: str, kind: Any, instrument: str, about_sigma: str, cited: str
 ) -> Sample:

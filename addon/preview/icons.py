@@ -27,6 +27,7 @@ import bpy
 from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
+from ...core.numerics import memoized
 from ..material import changes, snapshot
 from ..material.snapshot import Facts
 from ..support import events
@@ -218,6 +219,9 @@ def clear() -> None:
         _collection = None
         changes.derived.unsubscribe(_on_derived)
         events.unregistering.unsubscribe(clear)
+
+
+memoized.enlist(__name__, "_pictures", lambda: len(_pictures) + len(_swatches), clear)
 
 
 def _previews() -> Any:

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ...core.numerics.memoized import memoized
 from .drawing.looks import Look, look
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def current(preferences: Any) -> Look:
     return _look((red, green, blue), alpha, behind, tuple(text[:3]), scale(preferences))
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
 def _look(back: Color, alpha: float, behind: Color, text: Color, scale: float) -> Look:
     """Round once and not at every draw."""
     over = zip(back, behind, strict=True)

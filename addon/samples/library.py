@@ -20,6 +20,7 @@ import numpy.typing as npt
 from ...core.color import color_difference
 from ...core.errors import InputError, OutputError
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import kept, memoized
 from ..support import journal
 from . import (
     library_files,
@@ -128,9 +129,8 @@ class _File:
     fault: str = ""
 
 
-_files: dict[Path, tuple[_Stamp, _File]] = {}
-_contents: dict[Path, tuple[object, str, Contents]] = {}
-_presets: list[_File] = []
+_files: dict[Path, tuple[_Stamp, _File]] = kept(__name__, "_files")
+_contents: dict[Path, tuple[object, str, Contents]] = kept(__name__, "_contents")
 
 
 def contents(folder: Path) -> Contents:
@@ -146,13 +146,9 @@ def contents(folder: Path) -> Contents:
     known = _contents.get(folder)
     if known is not None and known[:2] == (stamps, left):
         return known[2]
-    if not _presets:
-        _presets.extend(
-            _read(path, path.parent.name, is_preset=True)
-            for path in (presets.folder() / f"{name}.json" for name in presets.names())
-        )
-    reserved = {entry.collection.casefold() for file in _presets for entry in file.entries}
-    found, taken = [*_presets, _File(fault=left)], set[str]()
+    shipped = _presets()
+    reserved = {entry.collection.casefold() for file in shipped for entry in file.entries}
+    found, taken = [*shipped, _File(fault=left)], set[str]()
     for path, collection, stamp in stamps:
         if path not in _files or _files[path][0] != stamp:
             _files[path] = (stamp, _read(path, collection, is_preset=False))
@@ -266,6 +262,12 @@ def _finished(folder: Path) -> str:
     except OutputError as error:
         return str(error)
     return ""
+
+
+@memoized(maxsize=1)
+def _presets() -> tuple[_File, ...]:
+    paths = (presets.folder() / f"{name}.json" for name in presets.names())
+    return tuple(_read(path, path.parent.name, is_preset=True) for path in paths)
 
 
 def _library_files(folder: Path) -> Iterator[tuple[Path, str, _Stamp]]:

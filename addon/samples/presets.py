@@ -13,11 +13,11 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
 from ...core.errors import InputError
+from ...core.numerics.memoized import memoized
 from . import readers
 from .readers.formats import preset as preset_file
 from .sample import Sample
@@ -146,7 +146,7 @@ def _listed() -> _Listed:
     return _list(root, tuple(inner))
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
 def _list(root: Path, _changed: tuple[tuple[str, int], ...]) -> _Listed:
     files = root.glob("*/*.json")
     names = sorted(path.relative_to(root).with_suffix("").as_posix() for path in files)

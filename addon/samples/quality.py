@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -20,6 +19,7 @@ from ...core.color import color_difference
 from ...core.errors import DomainError
 from ...core.limits import COLOR_NM, EYE_NM
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
 from .sample import Sample
 
@@ -69,7 +69,7 @@ def judge_each(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     return _judge_all(samples)
 
 
-@lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _judge_one(sample: Sample) -> tuple[str, ...]:
     """Judge a sample once: while a slider is dragged, it stays the same."""
     return _judge_all([sample])[0]

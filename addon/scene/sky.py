@@ -7,13 +7,13 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...core.numerics.arrays import Array
+from ...core.numerics.memoized import memoized
 from ..colorimetry.rgb_space import WorkingSpace
 
 _KINDS = {"NISHITA": "SINGLE_SCATTERING"}
@@ -112,7 +112,6 @@ def _to_space(rec709: Array, space: WorkingSpace) -> Array:
     return np.maximum(space.from_xyz @ np.linalg.solve(_rec709(), rec709), 0)
 
 
-@lru_cache(maxsize=1)
 def _rec709() -> Array:
     """XYZ to Linear Rec.709 (ITU-R BT.709, D65)."""
     xy = np.array([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]])
@@ -124,7 +123,7 @@ def _rec709() -> Array:
     return np.linalg.inv(primaries.T * np.linalg.solve(primaries.T, whole))
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _table() -> dict[str, Any]:
     path = Path(__file__).with_name("sky_table.json")
     return dict(json.loads(path.read_text(encoding="utf-8")))

@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 import tomllib
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from ...core.numerics.memoized import memoized
 
-@lru_cache(maxsize=1)
+
+@memoized(maxsize=1)
 def version() -> str:
     """Give the version as in "0.1.0"."""
     return str(_manifest()["version"])

@@ -28,7 +28,6 @@ white facets gives the albedo 1.05.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 from math import comb
 from typing import Any
 
@@ -43,7 +42,7 @@ from ..numerics.arrays import (
     spectrum,
 )
 from ..numerics.blocks import apply_in_blocks
-from ..numerics.memoized import remembered
+from ..numerics.memoized import memoized, remembered
 from . import fitted
 
 RING_ERROR = 0.01
@@ -225,7 +224,7 @@ def factors(
     return single, walk, ratio
 
 
-@lru_cache(maxsize=2)
+@memoized(maxsize=2)
 def _powers(dtype: np.dtype[Any]) -> Array:
     """Give the table of the fit, the powers of t first: shape (powers, 3 functions, terms)."""
     return np.ascontiguousarray(np.moveaxis(fitted.GEOMETRY, -1, 0), dtype)

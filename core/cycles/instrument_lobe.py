@@ -9,7 +9,6 @@ evaluation, whatever the number of directions, and one inverse for all instrumen
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ import numpy.typing as npt
 
 from ..instruments import quadrature
 from ..numerics.arrays import Array, spectrum
+from ..numerics.memoized import memoized
 from .lobe import (
     check_roughness,
     directions,
@@ -60,7 +60,7 @@ def reflectance(color: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str)
     return reflected(c, lobe(s, *mean_direction(instrument, c.dtype)))
 
 
-@lru_cache(maxsize=32)
+@memoized(maxsize=32)
 def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]:
     """Give tilt and spread of an instrument: the weighted means over its directions.
 

@@ -19,13 +19,12 @@ Where light and view are 45° apart and one of them is the normal, all of this i
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
-
 import numpy as np
 import numpy.typing as npt
 
 from .. import closure, oren_nayar
 from ..numerics.arrays import Array, precision, slope_deviation
+from ..numerics.memoized import memoized
 from ..vcavity import bounce_series, sigma_tables
 from . import quadrature
 
@@ -85,7 +84,7 @@ def closure_coefficients(sigma: npt.ArrayLike, instrument: str) -> tuple[Array, 
     return single, walk, ratio
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def _closure_of_one(sigma: float, instrument: str) -> tuple[Array, Array, Array]:
     found = _closure_coefficients(np.array([sigma]), instrument)
     for coefficient in found:
@@ -106,7 +105,7 @@ def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, 
     return 1 - (1 - first) * shrink - walk / 2, walk, ratio * shrink
 
 
-@cache
+@memoized(maxsize=None)
 def series(instrument: str) -> sigma_tables.SigmaTable:
     """Table of the V-cavity's series; made on first use, which takes up to two seconds.
 
@@ -131,7 +130,7 @@ def _is_ring(instrument: str) -> bool:
     return angles is not None and sorted(angles[:2]) == [0.0, np.pi / 4]
 
 
-@cache
+@memoized(maxsize=None)
 def _published_factors(instrument: str) -> tuple[float, float]:
     """Means of what multiplies σ²/(σ² + 0.09) in F1 and of F2 over its value at the normal."""
     of = quadrature.of(instrument)
@@ -143,7 +142,7 @@ def _published_factors(instrument: str) -> tuple[float, float]:
     return float(np.sum(of.weights * tilted)), float(np.sum(of.weights * second))
 
 
-@cache
+@memoized(maxsize=None)
 def _closure_table(instrument: str) -> tuple[sigma_tables.SigmaTable, float]:
     """Table of a_1, and of r/ρ - a_1 at the meeting albedo and at 1; and that albedo.
 

@@ -17,11 +17,11 @@ symmetric about the normal, Δφ is uniform, and of the other one sin² θ alone
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
 from ..numerics.arrays import Array
+from ..numerics.memoized import memoized
 from .geometries import Beam, Instrument, find
 
 QUADRATURE_ERROR = 2e-5
@@ -90,7 +90,7 @@ def of(name: str) -> Directions:
     return _of(find(name))
 
 
-@cache
+@memoized(maxsize=None)
 def _of(instrument: Instrument) -> Directions:
     return build(instrument)
 

@@ -4,11 +4,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from .arrays import Array
+from .memoized import memoized
 
 STEEPEST = np.radians(80.0)
 """Matching and its error figures stop here; beyond, the published model itself breaks down."""
@@ -18,7 +17,7 @@ _PLASTIC = 1.2207440846057596
 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018)."""
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def hemisphere(count: int, steepest: float = STEEPEST) -> tuple[Array, Array, Array]:
     """Spread light and view directions over the hemisphere, each with density cos θ.
 

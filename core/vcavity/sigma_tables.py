@@ -9,7 +9,6 @@ polynomials on panels of σ, within `INTERPOLATION_ERROR` of the solver.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +19,7 @@ from ..numerics.arrays import (
     slope_deviation,
     spectrum,
 )
+from ..numerics.memoized import memoized
 from . import bounce_series, slope_law
 from .surface import STANDARD, Resolution, response
 
@@ -107,7 +107,7 @@ def build(
     return SigmaTable(np.asarray(cosines @ rows.reshape(*sigma.shape, -1)))
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def ring() -> SigmaTable:
     """Table of the ideal 45a:0 instrument.
 

@@ -13,11 +13,10 @@ distribution. So any σ, however small, costs one row of weights.
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from ..numerics.arrays import Array
+from ..numerics.memoized import memoized
 
 PANEL_EDGES = np.radians([0, 3, 7, 14, 22, 30, 38, 45, 52, 60, 68, 76, 83, 87.5, 90])
 """Slopes between which a groove's answer is taken as one polynomial. 45° is among them because
@@ -33,9 +32,6 @@ _WEIGHT_NODES = 24
 
 _BLOCK = 256
 """Roughnesses at a time: 4 MB an array."""
-
-_gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
-"""Nodes and weights of Gauss's quadrature; numpy computes them anew each time."""
 
 
 def nodes(per_panel: int) -> Array:
@@ -86,14 +82,18 @@ def weights(sigma: Array, per_panel: int) -> Array:
     return np.asarray(out / np.sum(out, axis=1, keepdims=True))
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
+def _gauss(count: int) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss's quadrature; numpy computes them anew each time."""
+    return np.polynomial.legendre.leggauss(count)
+
+
 def _panels(per_panel: int) -> tuple[Array, Array]:
     """Nodes of the first panel, which has the level surface too, and of the others, (panels, n)."""
     slopes = nodes(per_panel)
     return slopes[: 1 + per_panel], slopes[1 + per_panel :].reshape(-1, per_panel)
 
 
-@lru_cache(maxsize=8)
 def _gaps(per_panel: int) -> tuple[Array, Array]:
     """Give what the products of `_lagrange` are at their own nodes, in the shapes of `_panels`."""
     level, inner = (

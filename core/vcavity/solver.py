@@ -35,7 +35,6 @@ these numbers, but white facets can: integrated over the view hemisphere they re
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -48,6 +47,7 @@ from ..numerics.arrays import (
     slope_deviation,
     spectrum,
 )
+from ..numerics.memoized import memoized
 from . import bounce_series, slope_law
 from .sigma_tables import (
     SERIES_BOUNCES,
@@ -236,7 +236,7 @@ def _responses(geometries: Array, bounces: int, resolution: Resolution) -> Itera
         yield _response(geometries[start : start + _CHUNK].tobytes(), bounces, resolution)
 
 
-@lru_cache(maxsize=_REMEMBERED)
+@memoized(maxsize=_REMEMBERED)
 def _response(chunk: bytes, bounces: int, resolution: Resolution) -> Array:
     """Give `response` of geometries, float64 of shape (geometries, 3), from their bytes."""
     geometries = np.frombuffer(chunk).reshape(-1, 3)

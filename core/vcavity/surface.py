@@ -11,11 +11,11 @@ of azimuths along them, so the circle is cut once more on either side of that ra
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
 from ..numerics.arrays import Array
+from ..numerics.memoized import memoized
 from . import bounce_series, groove, slope_law
 
 _DEEP_RATIO = 6.0
@@ -107,7 +107,7 @@ def response(
     return out
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
 def _solver(bounces: int, resolution: Resolution) -> _Solver:
     grooves = groove.build(slope_law.nodes(resolution.slopes), resolution.panels, resolution.table)
     even = _powers(grooves.ratio, bounces)

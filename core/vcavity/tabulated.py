@@ -22,7 +22,6 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -33,7 +32,7 @@ from ..numerics.arrays import (
     slope_deviation,
     spectrum,
 )
-from ..numerics.memoized import remembered
+from ..numerics.memoized import memoized, remembered
 from . import tabulated_data as table
 
 LARGEST_ANGLE = np.radians(table.POLAR[-1])
@@ -128,7 +127,6 @@ def _bins(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]
     return _bin(table.BOUND_POLAR, larger), _bin(table.BOUND_AZIMUTH, azimuth), beyond
 
 
-@lru_cache(maxsize=1)
 def _known_bounds() -> Array:
     return np.array(table.BOUND) * 1e-5 * _SAFETY
 
@@ -183,7 +181,6 @@ def _local(nodes: Sequence[float], at: Array) -> tuple[Array, Array]:
     return index, weight
 
 
-@lru_cache(maxsize=8)
 def _cubics(nodes: tuple[float, ...]) -> tuple[Array, Array]:
     """Nodes, and what Lagrange's weights of each four in a row are divided by: shape (n - 3, 4)."""
     places = np.array(nodes)
@@ -197,13 +194,13 @@ def _bin(edges: tuple[float, ...], at: Array) -> Array:
     return np.asarray(np.minimum(_inner(edges).searchsorted(at), len(edges) - 2))
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
 def _inner(edges: tuple[float, ...]) -> Array:
     """Radians of the edges but for the first."""
     return np.asarray(np.radians(edges[1:]))
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _geometries() -> Array:
     """G at the nodes: shape (polar, ratio, azimuth, terms)."""
     polar, ratio, azimuth = len(table.POLAR), len(table.RATIO), len(table.AZIMUTH)
@@ -217,7 +214,7 @@ def _geometries() -> Array:
     return out
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _basis() -> Array:
     """B at the nodes of σ by powers of the albedo's place: shape (σ, terms, powers).
 

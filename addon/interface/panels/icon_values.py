@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import bpy
 
+from ....core.numerics.memoized import memoized
 
-@lru_cache(maxsize=64)
+
+@memoized(maxsize=64)
 def icon_value(name: str) -> int:
     """Give what `icon_value` has to be for the icon that `icon` calls so; KeyError for no icon."""
     parameters = bpy.types.UILayout.bl_rna.functions["label"].parameters

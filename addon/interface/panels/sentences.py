@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
+from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
 from ...material.snapshot import Facts
@@ -58,13 +58,13 @@ def style(form: Format) -> Style:
     return Style(form, locale, iface_("not visible"), tip_(_ANGLES))
 
 
-@lru_cache(maxsize=64)
+@memoized(maxsize=64)
 def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
     """Give one sentence, from a label that is to be translated."""
     return (how.format.sentence(iface_(text), icon),)
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     """Say why a material's color does not follow from its spectrum."""
     known = state.judge(found)
@@ -75,14 +75,13 @@ def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
     return tuple(sentences)
 
 
-@lru_cache(maxsize=64)
 def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
     """Say why there is no number."""
     told = tip_(found.template).format(names=found.names)
     return (how.format.sentence(_capital(told), "INFO"),)
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
     """Tell how far Blender is from the target, beside the swatches or below them."""
     inset = SWATCHES if beside else 0.0
@@ -92,7 +91,7 @@ def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
     )
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
     """Say what limits a fresh material, and why its model and shader were taken.
 
@@ -111,7 +110,7 @@ def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentenc
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def measurement(
     predicted: float | None, measured: float, current: bool, how: Style
 ) -> tuple[Sentence, ...]:
@@ -126,7 +125,7 @@ def measurement(
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     """Say how right a material is under each light of its scene; `name` is the scene's of now."""
     if not found.analyzed:
@@ -146,7 +145,7 @@ def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
-@lru_cache(maxsize=_KEPT)
+@memoized(maxsize=_KEPT)
 def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sentence, ...], ...]:
     """Say where a spectrum and its σ come from; what the file says of itself stands together."""
     about, notes = _details(details)

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import blf
 
+from ....core.numerics.memoized import memoized
 from .icon_values import icon_value
 
 _FONT = 0  # the interface's
@@ -83,7 +83,7 @@ def draw(layout: Any, sentences: Iterable[Sentence]) -> None:
             column.label(text=line, icon_value=icon, translate=False)
 
 
-@lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, ...]:
     """Wrap to a width in pixels at UI scale 1, as the font is drawn: Blender cuts what is longer.
 
@@ -133,7 +133,6 @@ def _pieces(word: str, most: float, size: float) -> list[tuple[str, float]]:
     return [(piece, _width(piece, size)) for piece in pieces]
 
 
-@lru_cache(maxsize=2048)
 def _width(word: str, size: float) -> float:
     """Pixels that a word takes; sentences have few that are new."""
     blf.size(_FONT, size)

@@ -9,9 +9,7 @@ of one pixel within 13 %, on exact diagonals. Only pixels that a line covers are
 from __future__ import annotations
 
 import math
-from collections import OrderedDict
 from collections.abc import Sequence
-from functools import lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
@@ -19,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import kept, memoized
 from .raster import Box, Color, lay
 
 _LEAST = 1e-9
@@ -75,7 +74,7 @@ class _Cover(NamedTuple):
     share: Array
 
 
-_kept: OrderedDict[_Shape, _Cover] = OrderedDict()
+_kept: dict[_Shape, _Cover] = kept(__name__, "_kept")
 """Pixels of the lines drawn last, because not all curves of a picture change while σ is dragged."""
 
 
@@ -95,7 +94,7 @@ def draw(lines: Sequence[Line]) -> None:
     """Draw lines, each over those before it; several at once take little longer than one."""
     shapes = [_shape(line) for line in lines]
     # Another thread may draw at the same time: what is kept may be gone at any moment.
-    covers = {shape: kept for shape in shapes if (kept := _kept.pop(shape, None)) is not None}
+    covers = {shape: known for shape in shapes if (known := _kept.pop(shape, None)) is not None}
     missing = [shape for shape in dict.fromkeys(shapes) if shape not in covers]
     if missing:
         with np.errstate(invalid="ignore"):  # what is no number covers nothing
@@ -236,7 +235,7 @@ def _dashes(line: Array, dash: tuple[float, ...], width: float) -> Array:
     return np.concatenate((pieces, np.concatenate((points, points))), axis=1)
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _strokes(dash: tuple[float, ...], width: float, turns: int) -> Array:
     """Where strokes start and end, (strokes, 2), without the round ends; a short one is a dot."""
     turn = np.arange(turns)[:, np.newaxis] * sum(dash)

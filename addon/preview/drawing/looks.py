@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ...colorimetry import srgb
@@ -66,7 +65,6 @@ class Look:
         return _FONT * self.scale
 
 
-@lru_cache(maxsize=8)
 def look(background: Color, text: Color, scale: float = 1.0) -> Look:
     """Choose colors that are readable on a background, both display-encoded."""
     target, blender = (readable(color, background, _LETTERS) for color in (_BLUE, _VERMILION))

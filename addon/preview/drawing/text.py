@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import base64
 import zlib
-from functools import lru_cache
 
 import numpy as np
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from . import glyphs, raster
 
 _UNKNOWN = "?"
@@ -48,7 +48,7 @@ def draw(
     raster.paint(canvas, coverage, left, round(y) - above, color, alpha)
 
 
-@lru_cache(maxsize=512)
+@memoized(maxsize=512)
 def width(text: str, size: float) -> float:
     """Length of the text, pixels."""
     return sum(_outline(c)[0] for c in text) * size / glyphs.EM
@@ -59,7 +59,7 @@ def height(size: float) -> float:
     return glyphs.CAP_HEIGHT * size / glyphs.EM
 
 
-@lru_cache(maxsize=512)
+@memoized(maxsize=512)
 def _coverage(text: str, size: float) -> tuple[Array, int]:
     """Coverage of a text that starts in its second column, and rows above the baseline."""
     scale = size / glyphs.EM
@@ -85,7 +85,7 @@ def _outline(character: str) -> tuple[int, Array, Array]:
     return table.get(character, table[_UNKNOWN])
 
 
-@lru_cache(maxsize=1)
+@memoized(maxsize=1)
 def _table() -> dict[str, tuple[int, Array, Array]]:
     advances, counts, sizes = map(_unpack, (glyphs.ADVANCES, glyphs.CONTOURS, glyphs.POINTS))
     steps = _unpack(glyphs.STEPS).reshape(2, -1).T

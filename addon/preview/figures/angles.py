@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ..drawing import lines, raster, text
 from ..drawing.lines import Line
 from ..drawing.looks import Look
@@ -69,7 +69,6 @@ def angles(
     ]
 
 
-@lru_cache(maxsize=8)
 def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
     return (
         Key("Target", look.target, 2.6),
@@ -78,7 +77,7 @@ def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
     )
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _angles_ground(axes: Axes, size: Size, look: Look, engine: str) -> Array:
     canvas = raster.blank(size[1], size[0])
     top = axes.y[1]
@@ -133,7 +132,7 @@ def polar_place(size: Size, look: Look, degrees: npt.ArrayLike, share: npt.Array
     return np.asarray(center + radius * np.asarray(share, float)[..., np.newaxis] * out)
 
 
-@lru_cache(maxsize=8)
+@memoized(maxsize=8)
 def _polar_ground(size: Size, look: Look, engine: str) -> Array:
     canvas = raster.blank(size[1], size[0])
     thin = max(1.0, look.scale)

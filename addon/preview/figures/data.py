@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
 from ....core import cycles, reading
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb, tristimulus
 from ...colorimetry.rgb_space import WorkingSpace, matrix_of
 from ...matching import scene_match, surface_spectra
@@ -159,7 +159,7 @@ def patches(colors: Array, space: WorkingSpace) -> list[Patch]:
     ]
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
     return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
@@ -185,7 +185,7 @@ def spectra_of(request: Request) -> tuple[Array, Array]:
     return seen, rho
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _spans(key: bytes, illuminant: str) -> tuple[tuple[float, float], ...]:
     """First and last wavelength where blue, green and red weigh most."""
     space = WorkingSpace("", matrix_of(key))

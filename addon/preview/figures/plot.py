@@ -7,13 +7,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ..drawing import lines, raster, text
 from ..drawing.looks import Look
 
@@ -100,7 +100,7 @@ def margin(axis: Sequence[float], look: Look) -> int:
     return math.ceil(widest + 5 * look.scale)
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def axes_of(size: Size, look: Look, x: tuple[float, float], top: float, foot: int) -> Axes:
     """Place axes from 0 to `top` between a legend above and `foot` rows below."""
     width, height = size

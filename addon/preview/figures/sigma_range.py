@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from ....core.limits import LARGEST_SIGMA_DEGREES as MOST
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ..drawing import raster, text
 from ..drawing.looks import Look, readable
 from . import plot
@@ -57,7 +56,7 @@ def _range_place(degrees: float, size: Size, look: Look) -> float:
     return left + (right - left) * min(max(degrees, 0.0), MOST) / MOST
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _range_ground(limit: float, size: Size, look: Look) -> Array:
     canvas = raster.blank(size[1], size[0])
     said = _limit_said(limit)

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb
 from ..drawing import raster, text
 from ..drawing.lines import Line
@@ -74,7 +74,6 @@ def spectrum(
     ]
 
 
-@lru_cache(maxsize=8)
 def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     return (
         Key("Reading", look.target, 1.6),
@@ -83,7 +82,7 @@ def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     )
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _spectrum_ground(axes: Axes, size: Size, look: Look) -> Array:
     canvas = raster.blank(size[1], size[0])
     top = axes.y[1]

@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 from ..drawing import raster, text
 from ..drawing.looks import Look, contrast
 from ..drawing.raster import Color
@@ -46,7 +45,7 @@ def swatch_pair(
             _mark_corner(canvas, 0 if side > 0 else width, side, color, look)
 
 
-@lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _caption(size: Size, look: Look) -> Array:
     """Name the two colors, in rows below them; none where there is no room."""
     width, height = size

@@ -16,11 +16,11 @@ Modules whose name begins with an underscore are help for the readers, not forma
 
 from __future__ import annotations
 
-import functools
 import os
 from typing import Protocol
 
 from ....core.errors import InputError
+from ....core.numerics.memoized import memoized
 from ...support import discovery
 from ..sample import Sample
 from . import formats
@@ -73,7 +73,7 @@ def read(
     raise _unrecognized(document)
 
 
-@functools.cache
+@memoized(maxsize=None)
 def readers() -> tuple[Reader, ...]:
     """Return the format modules in the order in which they are asked."""
     # The module's name breaks ties, so that the order never depends on the file system.

@@ -11,7 +11,6 @@ fields may stand beside them, and stay there when the library is written again.
 from __future__ import annotations
 
 import dataclasses
-import functools
 import json
 import math
 import re
@@ -23,6 +22,7 @@ import numpy as np
 
 from .....core.errors import InputError
 from .....core.instruments import REGISTRY
+from .....core.numerics.memoized import memoized
 from ...sample import KINDS, Sample, check_spectrum
 from ..parts.document import Document, quote
 
@@ -123,7 +123,7 @@ def record(sample: Sample) -> dict[str, Any]:
     return found
 
 
-@functools.lru_cache(maxsize=16)
+@memoized(maxsize=16)
 def _wavelengths(data: bytes) -> list[float]:
     """Return whole nanometers without ".0": the same numbers, and a line a third shorter."""
     return [int(nm) if nm.is_integer() else nm for nm in np.frombuffer(data).tolist()]

@@ -7,12 +7,12 @@ The keys stand in lines above a table, in its first column, or name its columns.
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Mapping
 from typing import Any
 
 from .....core.instruments import REGISTRY
+from .....core.numerics.memoized import memoized
 from ...sample import Sample
 from .document import Document
 from .geometry_words import instrument_of, specular_of
@@ -47,7 +47,7 @@ def field_of(key: str) -> str:
     return _KEYS.get(re.sub(r"[^a-z0-9]", "", key.lower()), "")
 
 
-@functools.lru_cache(maxsize=1024)
+@memoized(maxsize=1024)
 def stated(key: str, value: str) -> Mapping[str, Any]:
     """Return the fields of `Sample` that one key and its value give, none if it is not known.
 
@@ -113,7 +113,7 @@ def finish(fields: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-@functools.lru_cache(maxsize=256)
+@memoized(maxsize=256)
 def _instrument(geometry: str, specular: str) -> tuple[str, str, str]:
     """Return instrument, note and specular component: tables repeat them in each row."""
     specular = specular or specular_of(geometry)
