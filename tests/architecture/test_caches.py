@@ -22,6 +22,10 @@ NO_CACHES = {
     ("addon/interface/panels/redraw.py", "_last"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
+    # What is registered.
+    ("addon/interface/panels/menus.py", "_groups"),
+    # On the list, in the order of use.
+    ("addon/material/derivation.py", "_known"),
     # On the list as one, because Blender holds the pictures.
     ("addon/preview/icons.py", "_pictures"),
     ("addon/preview/icons.py", "_swatches"),

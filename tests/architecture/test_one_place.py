@@ -17,7 +17,7 @@ SUBJECTS = {
     "the curve of sRGB": (r"0\.0031308|0\.04045|12\.92", "addon/colorimetry/srgb.py"),
     "sRGB from XYZ": (r"3\.2406|0\.2126", "addon/colorimetry/srgb.py"),
     "Bradford's adaptation": (r"0\.8951", "core/color/color_difference.py"),
-    "CIEDE2000": (r"25(\.0)? ?\*\* ?7", "core/color/color_difference.py"),
+    "CIEDE2000": (r"radians\(275\)", "core/color/color_difference.py"),
     "the end of σ": (
         r"1\.5707|\bSIGMA\w* = (90|math|np)|degrees <= 90|max=(math\.|np\.)?pi / 2",
         None,
