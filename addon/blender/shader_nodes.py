@@ -30,7 +30,7 @@ from .surface import (
 )
 
 __all__ = [
-    "Place",
+    "SocketTarget",
     "Surface",
     "color_socket",
     "comparable",
@@ -51,7 +51,7 @@ _NODE_DISTANCE = 300.0
 
 
 @dataclass(frozen=True)
-class Place:
+class SocketTarget:
     """Where a material's color goes.
 
     Parameters
@@ -70,7 +70,7 @@ class Place:
     make: str
 
 
-def find(material: Any, shader: str = shaders.AUTO) -> Place:
+def find(material: Any, shader: str = shaders.AUTO) -> SocketTarget:
     """Find where the color of a material's surface is set, changing nothing.
 
     Parameters
@@ -108,10 +108,10 @@ def find(material: Any, shader: str = shaders.AUTO) -> Place:
     if shader != shaders.AUTO and node.bl_idname != wanted:
         return _place_for(material, wanted)
     _refuse_unpredictable(material, node)
-    return Place(material, node.name, "")
+    return SocketTarget(material, node.name, "")
 
 
-def write(place: Place, color: tuple[float, float, float], roughness: float) -> str:
+def write(place: SocketTarget, color: tuple[float, float, float], roughness: float) -> str:
     """Set color and roughness at a place that `find` gave; returns the node's name."""
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
     sockets = OF_NODE[node.bl_idname]
@@ -223,7 +223,7 @@ def curves(data: Any | None) -> list[Any]:
     return found
 
 
-def _place_for(material: Any, kind: str) -> Place:
+def _place_for(material: Any, kind: str) -> SocketTarget:
     """Give the place of a node of this type that is to take over the surface.
 
     The one that was set aside keeps what the user chose in it, and no tree grows with each change.
@@ -236,8 +236,8 @@ def _place_for(material: Any, kind: str) -> Place:
             _refuse_unpredictable(material, node)
         except MaterialError:
             continue
-        return Place(material, str(node.name), kind)
-    return Place(material, "", kind)
+        return SocketTarget(material, str(node.name), kind)
+    return SocketTarget(material, "", kind)
 
 
 def _is_loose(node: Any) -> bool:
@@ -246,7 +246,7 @@ def _is_loose(node: Any) -> bool:
     return all(each.bl_idname == "NodeReroute" and _is_loose(each) for each in followers)
 
 
-def _make(place: Place) -> Any:
+def _make(place: SocketTarget) -> Any:
     """Link a node to the output, one that was set aside or a new one."""
     material = place.material
     if not uses_nodes(material):

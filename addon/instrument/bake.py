@@ -32,7 +32,7 @@ from ..material import (
     storage,
 )
 from ..readings.document import (
-    Measured,
+    CyclesReading,
     Predicted,
     Reading,
     Readings,
@@ -270,18 +270,18 @@ def _measured(
     space: rgb_space.WorkingSpace,
     illuminant: str,
     scene: SceneView | None = None,
-) -> Measured:
+) -> CyclesReading:
     mean, spread = values
     if scene is not None:
         light = scene.lights[0]
-        return Measured(
+        return CyclesReading(
             rgb=_triple(mean, 6),
             spread=_triple(spread, 6),
             illuminant=f"scene: {light.name}",
             xyz=_triple(100 * scene_match.to_xyz(mean, light, space), 4),
             lab=_triple(scene_match.to_lab(mean, light, space), 4),
         )
-    return Measured(
+    return CyclesReading(
         rgb=_triple(mean, 6),
         spread=_triple(spread, 6),
         illuminant=illuminant,

@@ -43,7 +43,8 @@ _ENOUGH = 1e-4
 _FAINT = 0.01
 """Part of a light's strongest channel below which its color hangs on almost nothing."""
 _KEPT = 32
-"""Views of which `_Places` are kept, some 100 kB each: a dragged slider asks for them again."""
+"""Views of which `_ShadingPoints` are kept, some 100 kB each: a dragged slider asks for them
+again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +118,7 @@ def match(
     return rough, lambert, target
 
 
-def judge(
+def differences(
     view: SceneView,
     shader: tuple[Array, float],
     albedo: Array,
@@ -238,7 +239,7 @@ def light_rgb(white: Array, from_xyz: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class _Places:
+class _ShadingPoints:
     """Where materials are looked at in a scene, and all of it that no material changes.
 
     First come the places of the view and, with little weight, one for each of some directions all
@@ -316,7 +317,7 @@ class _Places:
 
 
 @memoized(maxsize=_KEPT)
-def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
+def _places(view: SceneView, bands: bytes, key: bytes) -> _ShadingPoints:
     """Make them, for the bytes of wavelengths and a working space's key."""
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
@@ -334,7 +335,7 @@ def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
     means = np.zeros((2, len(mixing)))
     means[0, :searched], means[1, searched:] = weights, share / share.sum()
     to_ratio = _to_ratio(matrix, mixing @ rgb) * whites[:, np.newaxis]
-    return _Places(
+    return _ShadingPoints(
         angles=angles[:, :ways],
         weights=weights,
         colors=np.concatenate([light.weights(wavelengths) for light in view.lights], axis=1),
@@ -347,7 +348,7 @@ def _places(view: SceneView, bands: bytes, key: bytes) -> _Places:
 
 
 def _ways(view: SceneView) -> tuple[Array, Array, Array]:
-    """Give the ways of light to all places of `_Places`.
+    """Give the ways of light to all places of `_ShadingPoints`.
 
     Returns
     -------
@@ -380,7 +381,7 @@ def _to_ratio(from_xyz: Array, light: Array) -> Array:
     return np.where(faint, luminance, from_xyz / np.where(faint, 1, light[..., np.newaxis]))
 
 
-def _reflected(albedo: Array, model: str, sigma: float, places: _Places) -> Array:
+def _reflected(albedo: Array, model: str, sigma: float, places: _ShadingPoints) -> Array:
     light, view, azimuth = places.angles
     spread = ladder.reflectance(model, np.minimum(albedo, 1), light, view, azimuth, sigma)
     # The published model turns negative at grazing opposite directions; no surface does. Facets

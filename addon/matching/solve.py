@@ -162,7 +162,7 @@ def _solve(
         else None
         for i, (request, reason) in enumerate(settled)
     ]
-    judged = quality.judge_each([request.sample for request in requests])
+    judged = quality.check_each([request.sample for request in requests])
     is_lambert = np.array([found is not None and found.model == "lambert" for found in shaders])
     color[is_lambert], roughness[is_lambert] = smooth[is_lambert], 0
     over_hemisphere[is_lambert], met[is_lambert] = lambert[is_lambert], met_smooth[is_lambert]
@@ -197,7 +197,7 @@ def differences(
     [(settled, _)] = settle([replace(request, scene=view)])
     [albedo] = surface_spectra.albedos([settled], settled.model)
     bands, shader = settled.sample.wavelengths, (color, roughness)
-    return scene_match.judge(view, shader, albedo, settled.model, settled.sigma, bands, space)
+    return scene_match.differences(view, shader, albedo, settled.model, settled.sigma, bands, space)
 
 
 def remarks(request: Request) -> tuple[str, ...]:
@@ -205,7 +205,7 @@ def remarks(request: Request) -> tuple[str, ...]:
 
     `request` has a settled model.
     """
-    [judged] = quality.judge_each([request.sample])
+    [judged] = quality.check_each([request.sample])
     infeasible = _infeasible(request)
     return (*request.sample.altered, *judged, *([infeasible] if infeasible else []))
 
@@ -226,7 +226,7 @@ def _solve_in_scene(
     elif reason != ASKED_FOR:
         taken, shader_reason = scene_match.choose_shader(view, lambert, rough, request.tolerance)
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
-    [judged] = quality.judge_each([sample])
+    [judged] = quality.check_each([sample])
     found = (space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space))
     return Solution(
         color=taken.color,

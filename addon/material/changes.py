@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..colorimetry.rgb_space import WorkingSpace
     from ..matching.request import Request
     from ..matching.solution import Solution
-    from .snapshot import Facts
+    from .snapshot import Snapshot
 
 
 class Solved(NamedTuple):
@@ -53,7 +53,7 @@ class Derived(NamedTuple):
     """
 
     material: Any
-    known: Facts
+    known: Snapshot
     solved: Solved | None
 
 

@@ -17,7 +17,7 @@ from ..matching.solution import Solution
 from ..matching.solve import Request
 from . import snapshot, storage
 from .changes import Derived, Solved
-from .snapshot import Facts
+from .snapshot import Snapshot
 
 
 def assign(pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO) -> list[Solution]:
@@ -123,7 +123,7 @@ def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
             follow([pair])
 
 
-def follow_setting(material: Any, known: Facts) -> Derived:
+def follow_setting(material: Any, known: Snapshot) -> Derived:
     """Do the same for one material whose setting was changed, and give what was found.
 
     Parameters
@@ -161,13 +161,13 @@ def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
 
 def _stored(
     material: Any, source: Any, view: SceneView | None = None
-) -> tuple[shader_nodes.Place, Request]:
+) -> tuple[shader_nodes.SocketTarget, Request]:
     request = storage.load(source, view)  # first: it refuses a shader that is none
     return shader_nodes.find(material, source.rough_spectra.shader), request
 
 
 def _solve(
-    work: Sequence[tuple[shader_nodes.Place, Request]],
+    work: Sequence[tuple[shader_nodes.SocketTarget, Request]],
 ) -> tuple[WorkingSpace, list[Solution]]:
     """Match every request; gives the working space too."""
     seen = set()
@@ -180,6 +180,6 @@ def _solve(
     return space, solve.solve([request for _, request in work], space)
 
 
-def _write(place: shader_nodes.Place, solution: Solution) -> str:
+def _write(place: shader_nodes.SocketTarget, solution: Solution) -> str:
     red, green, blue = solution.color.tolist()
     return shader_nodes.write(place, (red, green, blue), solution.roughness)

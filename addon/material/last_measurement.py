@@ -16,11 +16,11 @@ from typing import Any
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from . import snapshot
-from .snapshot import Facts
+from .snapshot import Snapshot
 
 
 @dataclass(frozen=True)
-class Measured:
+class LastMeasurement:
     """What the virtual spectrophotometer read.
 
     Parameters
@@ -48,7 +48,7 @@ def fingerprint(material: Any) -> str:
 
 
 @memoized(maxsize=1024)
-def _fingerprint(found: Facts) -> str:
+def _fingerprint(found: Snapshot) -> str:
     surface = found.surface
     sockets = () if surface is None else (*surface.color, surface.roughness)
     told = (
@@ -84,13 +84,13 @@ def note(
     of
         Its `fingerprint` when the measurement began.
     rgb, delta_e, predicted
-        As in `Measured`.
+        As in `LastMeasurement`.
     """
     told = {"of": of, "rgb": rgb, "delta_e_00": delta_e, "predicted_delta_e_00": predicted}
     material.rough_spectra.measured = json.dumps(told)
 
 
-def get(material: Any, known: Facts | None = None) -> Measured | None:
+def get(material: Any, known: Snapshot | None = None) -> LastMeasurement | None:
     """Give the last measurement, or None where there is none that can be read.
 
     `known` are the material's facts, for who has just read them.
@@ -100,7 +100,7 @@ def get(material: Any, known: Facts | None = None) -> Measured | None:
         return None
     of, rgb, delta_e, predicted = found
     current = of == _fingerprint(known or snapshot.of(material))
-    return Measured(rgb, delta_e, current, predicted)
+    return LastMeasurement(rgb, delta_e, current, predicted)
 
 
 @memoized(maxsize=64)

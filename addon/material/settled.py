@@ -22,7 +22,7 @@ from ..blender import shader_nodes
 from ..matching import shaders
 from . import derivation, snapshot, state
 from .derivation import Stamp
-from .snapshot import Facts
+from .snapshot import Snapshot
 
 if TYPE_CHECKING:
     from ...core.numerics.arrays import Array
@@ -95,7 +95,7 @@ def obstacle(surface: shader_nodes.Surface | None) -> Obstacle | None:
     return _ABOVE if max(surface.color) > 1 + _ROUNDING else None
 
 
-def derived(found: Facts) -> Stamp | None:
+def derived(found: Snapshot) -> Stamp | None:
     """Give the stamp where it was derived from spectrum and settings as they are, else None.
 
     The shader node may have been edited since. What was kept is of an edit and not of a target:
@@ -107,19 +107,19 @@ def derived(found: Facts) -> Stamp | None:
     return last if last.inputs == snapshot.digest(found.inputs) else None
 
 
-def numbers(found: Facts, flat: bool) -> Differences | None:
+def numbers(found: Snapshot, flat: bool) -> Differences | None:
     """Give the stamp's ΔE00 if they are those of what is shown now, else None.
 
     `flat` is whether an engine shows it that ignores roughness.
     """
-    known = state.judge(found)
+    known = state.evaluate(found)
     last = known.stamp
     if last is None or known.kind != "fresh" or (flat and not found.inputs.scene_view):
         return None
     return last.delta_e_instrument, last.delta_e_mean, last.delta_e_95
 
 
-def of(material: Any, known: Facts | None = None) -> Settled:
+def of(material: Any, known: Snapshot | None = None) -> Settled:
     """Settle what a material stores.
 
     Parameters
@@ -144,7 +144,7 @@ def of(material: Any, known: Facts | None = None) -> Settled:
     return Settled(replace(request, model=last.model), last.model_reason)
 
 
-def shader(material: Any, known: Facts | None = None) -> tuple[Array, float]:
+def shader(material: Any, known: Snapshot | None = None) -> tuple[Array, float]:
     """Color, shape (3,), and roughness that the surface shows, within 0 to 1 as Cycles takes them.
 
     Parameters as in `of`.
@@ -165,7 +165,7 @@ def shader(material: Any, known: Facts | None = None) -> tuple[Array, float]:
 
 
 def differences(
-    material: Any, space: WorkingSpace, flat: bool = False, known: Facts | None = None
+    material: Any, space: WorkingSpace, flat: bool = False, known: Snapshot | None = None
 ) -> Differences:
     """Compare what a material shows with its target.
 

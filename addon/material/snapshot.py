@@ -56,7 +56,7 @@ class Inputs(NamedTuple):
     flat: bool
 
 
-class Facts(NamedTuple):
+class Snapshot(NamedTuple):
     """A material, and what its state depends on of the file; without a spectrum that text is empty.
 
     Parameters
@@ -93,11 +93,11 @@ class Facts(NamedTuple):
         return self.engine in _FLAT_ENGINES
 
 
-def of(material: Any) -> Facts:
+def of(material: Any) -> Snapshot:
     """Read all facts of a material."""
     group = material.rough_spectra
     engine, view = _engine(), group.scene_view
-    return Facts(
+    return Snapshot(
         _inputs(group, view, engine),
         group.stamp,
         group.error,

@@ -22,7 +22,7 @@ from .derivation import (
     settings,
 )
 from .properties import SCHEMA, title
-from .snapshot import Facts, Inputs, has_spectrum
+from .snapshot import Inputs, Snapshot, has_spectrum
 
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
@@ -55,11 +55,11 @@ class State:
 
 def state(material: Any) -> State:
     """Tell whether the color still follows from the spectrum, and if not, why."""
-    return judge(snapshot.of(material)) if has_spectrum(material) else _NONE
+    return evaluate(snapshot.of(material)) if has_spectrum(material) else _NONE
 
 
 @memoized(maxsize=1024)
-def judge(found: Facts) -> State:
+def evaluate(found: Snapshot) -> State:
     """Tell the same from a material's facts."""
     if not found.inputs.spectrum:
         return _NONE
@@ -87,7 +87,7 @@ def stale_reasons(material: Any, working_space: str) -> list[str]:
     return _stale_reasons(snapshot.of(material)._replace(working_space=working_space))
 
 
-def follows(found: Facts) -> bool:
+def follows(found: Snapshot) -> bool:
     """Whether the surface shows what was derived, so that it may be derived again unasked.
 
     Settings may have changed; edits by hand, kept or not, must not be overwritten.
@@ -115,7 +115,7 @@ def edited_by_hand(material: Any) -> bool:
     return stamp.working_space == found.working_space and _edited(surface, stamp)
 
 
-def shown(surface: shader_nodes.Surface | None) -> str:
+def fingerprint(surface: shader_nodes.Surface | None) -> str:
     """Give all that a surface shows, as far as Rough Spectra sets it, in a text to compare."""
     if surface is None:
         return "no Diffuse or Principled BSDF"  # stored with what was kept: never another text
@@ -127,7 +127,7 @@ def shown(surface: shader_nodes.Surface | None) -> str:
 _NONE = State("none")
 
 
-def _stale_reasons(found: Facts) -> list[str]:
+def _stale_reasons(found: Snapshot) -> list[str]:
     stamp = parse(found.stamp)
     if stamp is None:
         return ["nothing was derived from the spectrum yet"]
@@ -162,10 +162,10 @@ def _told(label: str, *values: str) -> list[str]:
     return rounded if len(set(rounded)) == len(values) else list(values)
 
 
-def _changed_surface(found: Facts, stamp: Stamp) -> list[str]:
+def _changed_surface(found: Snapshot, stamp: Stamp) -> list[str]:
     surface, working_space = found.surface, found.working_space
     if stamp.kept and stamp.working_space == working_space:
-        if stamp.kept == shown(surface):
+        if stamp.kept == fingerprint(surface):
             return []
         return ["color or roughness was edited by hand after earlier edits were kept"]
     reasons = []

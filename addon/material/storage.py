@@ -35,7 +35,7 @@ from .snapshot import (
     sigma,
     tolerance,
 )
-from .state import shown
+from .state import fingerprint
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
@@ -291,7 +291,7 @@ def keep(material: Any) -> None:
             inputs=snapshot.digest(inputs),
             settings=tuple(settings(inputs).items()),
             working_space=working_space.working_space_name(),
-            kept=shown(shader_nodes.surface(material)),
+            kept=fingerprint(shader_nodes.surface(material)),
         )
     )
     group.error = ""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..colorimetry.rgb_space import WorkingSpace
 from ..material import settled
 from ..material.changes import Derived, Solved
-from ..material.snapshot import Facts
+from ..material.snapshot import Snapshot
 from .figures import data
 from .figures.data import Data
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def collect(
-    material: Any, space: WorkingSpace, flat: bool = False, known: Facts | None = None
+    material: Any, space: WorkingSpace, flat: bool = False, known: Snapshot | None = None
 ) -> Data:
     """Compute what a material's figures show.
 

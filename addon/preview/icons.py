@@ -29,7 +29,7 @@ from bpy.utils import previews
 from ...core.errors import RoughSpectraError
 from ...core.numerics import memoized
 from ..material import changes, snapshot
-from ..material.snapshot import Facts
+from ..material.snapshot import Snapshot
 from ..support import events
 from . import theme
 from .drawing import looks
@@ -53,7 +53,7 @@ FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
 below each other; and each plot alone."""
 
 
-Basis = tuple[Facts, looks.Look]
+Basis = tuple[Snapshot, looks.Look]
 """All that a material's pictures depend on: its facts, and how they are drawn."""
 
 

@@ -44,7 +44,7 @@ class Predicted:
 
 
 @dataclass(frozen=True)
-class Measured:
+class CyclesReading:
     """Reading of a Cycles render, in scene-linear RGB and, for the 2° observer, XYZ and Lab.
 
     `spread` is the standard deviation of RGB over the sample: 0 for an even surface.
@@ -72,7 +72,7 @@ class Reading:
     sample: str
     source: str
     predicted: Predicted | None
-    measured: Measured | None
+    measured: CyclesReading | None
     delta_e_00: float | None
     shader_reason: str
     warnings: tuple[str, ...]
@@ -227,6 +227,6 @@ def _entry(data: dict[str, Any]) -> Reading:
 
     known = dict(data)
     known["predicted"] = whole(Predicted, data["predicted"])
-    known["measured"] = whole(Measured, data["measured"])
+    known["measured"] = whole(CyclesReading, data["measured"])
     known["warnings"] = tuple(data["warnings"])
     return Reading(**known)

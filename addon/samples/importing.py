@@ -60,7 +60,7 @@ def read(paths: Iterable[str | os.PathLike[str]]) -> Batch:
         except InputError as error:
             refused.append(str(error))
             continue
-        for sample, judged in zip(samples, quality.judge(samples), strict=True):
+        for sample, judged in zip(samples, quality.check(samples), strict=True):
             found.append(Found(path, sample, judged))
     return Batch(tuple(found), tuple(refused))
 

@@ -314,7 +314,7 @@ def _read(path: Path, collection: str, is_preset: bool) -> _File:
         return _File(fault=str(error))
     rgb, lab = swatches.of_samples(samples)
     found = []
-    for i, warnings in enumerate(quality.judge(samples)):
+    for i, warnings in enumerate(quality.check(samples)):
         sample, known = samples[i], bool(np.isfinite(lab[i, 0]))
         found.append(
             Entry(

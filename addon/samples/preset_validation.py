@@ -55,7 +55,7 @@ def validate(path: Path) -> Verdict:
             f"{COLOR_NM[1]:g} nm; measure the whole range"
         )
         faults.append(str(document.error("field 'wavelengths'", sentence)))
-    remarks = () if faults else quality.judge_each([sample])[0]
+    remarks = () if faults else quality.check_each([sample])[0]
     return Verdict(tuple(faults), tuple(f"{path}: {sentence}" for sentence in remarks))
 
 

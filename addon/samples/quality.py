@@ -49,20 +49,20 @@ _Found = Iterator[tuple[int, str]]
 """Position of a sample among those judged, and the sentence."""
 
 
-def judge(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
+def check(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     """Give the sentences for samples that were read together, one by one and beside each other.
 
     Returns
     -------
     The sentences of each sample, in the order of `samples`.
     """
-    found = [list(sentences) for sentences in judge_each(samples)]
+    found = [list(sentences) for sentences in check_each(samples)]
     for i, sentence in _ultraviolet_effect(samples):
         found[i].append(sentence)
     return [tuple(sentences) for sentences in found]
 
 
-def judge_each(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
+def check_each(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     """Give the sentences that follow from each sample alone, in the order of `samples`."""
     if len(samples) == 1:
         return [_judge_one(samples[0])]

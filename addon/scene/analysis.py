@@ -248,7 +248,7 @@ def _overall(scene: str, power: Array, colors: list[tuple[str, str, Array]]) -> 
     """All lights of the picture, from all around: for what only gets light from surfaces."""
     shares = np.where(power >= sampling.LEAST_SHARE * power.sum(), power, 0)
     kept = np.flatnonzero(shares)
-    ways = np.column_stack(hemisphere(sampling.PLACES // len(kept)))
+    ways = np.column_stack(hemisphere(sampling.SHADING_POINTS // len(kept)))
     weight = np.repeat(shares[kept] / shares.sum() / len(ways), len(ways))
     ways, light = np.tile(ways, (len(kept), 1)), np.repeat(kept, len(ways))
     return _view(scene, ways, light, weight, np.arange(len(ways)), colors)

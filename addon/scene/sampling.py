@@ -12,7 +12,7 @@ from ...core.numerics.arrays import Array
 from ...core.numerics.direction_grid import STEEPEST
 from ..colorimetry import illuminant_spectra
 
-PLACES = 24
+SHADING_POINTS = 24
 """Places of a material that stand for all of it."""
 SAME_COLOR = 0.003
 """Distance in u'v' below which lights count as one color; eyes tell apart about 0.002."""
@@ -160,13 +160,13 @@ def reduce(samples: Samples, weights: Array, groups: Array) -> tuple[Array, Arra
     by_part = np.lexsort((-part, hit))
     main = ways[by_part[_starts(hit[by_part])]]
     ordered = _winding(samples[main], groups[main])
-    steps = (np.arange(PLACES) + 0.5) / PLACES * len(ordered)
+    steps = (np.arange(SHADING_POINTS) + 0.5) / SHADING_POINTS * len(ordered)
     picked, times = np.unique(ordered[steps.astype(int)], return_counts=True)
     number = np.full(len(main), -1)
     number[picked] = np.arange(len(picked))
     chosen = np.flatnonzero(number[hit] >= 0)
     place = number[hit[chosen]]
-    return ways[chosen], part[chosen] * times[place] / PLACES, place
+    return ways[chosen], part[chosen] * times[place] / SHADING_POINTS, place
 
 
 def _starts(of: Array) -> Array:

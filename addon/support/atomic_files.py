@@ -44,7 +44,7 @@ class _Staged:
     part: Path
 
 
-class Publication:
+class AtomicFiles:
     """A set of files that appear together. Made by `publication`."""
 
     def __init__(self) -> None:
@@ -229,7 +229,7 @@ def listed(folder: Path) -> list[Path]:
 
 
 @contextmanager
-def publication() -> Iterator[Publication]:
+def publication() -> Iterator[AtomicFiles]:
     """Collect files, and give them their names at the end of the block if nothing failed.
 
     Raises
@@ -237,7 +237,7 @@ def publication() -> Iterator[Publication]:
     OutputError
         If a file cannot be written; no target was touched by then.
     """
-    files = Publication()
+    files = AtomicFiles()
     try:
         yield files
         files._finish()

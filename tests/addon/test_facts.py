@@ -85,12 +85,12 @@ def test_a_setting_that_is_no_number_is_equal_to_itself(material):
 
 def test_equal_facts_are_judged_once(material):
     state.state(material)
-    before = state.judge.cache_info().misses
+    before = state.evaluate.cache_info().misses
     state.state(material)
-    assert state.judge.cache_info().misses == before
+    assert state.evaluate.cache_info().misses == before
     socket_of(material).default_value[0] += 0.1
     state.state(material)
-    assert state.judge.cache_info().misses == before + 1
+    assert state.evaluate.cache_info().misses == before + 1
 
 
 def test_the_working_space_is_that_of_the_file(set_working_space, tmp_path):

@@ -27,7 +27,7 @@ import numpy as np
 from rough_spectra.addon.readings import document as readings_document, writers
 from rough_spectra.addon.samples import library
 from rough_spectra.addon.support import atomic_files as outputs, journal
-from rough_spectra.addon.readings.document import Measured, Predicted, Reading, Readings
+from rough_spectra.addon.readings.document import CyclesReading, Predicted, Reading, Readings
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.commands.verbs import merge
 from rough_spectra.core.errors import OutputError
@@ -80,7 +80,7 @@ def reading(name, bands, level):
     color = (level, level, level)
     predicted = Predicted("reading", "lambert", "", 0.0, "D65", 2, bands, (level,) * len(bands),
                           color, color, color)
-    measured = Measured(color, (0.0, 0.0, 0.0), "D65", color, color)
+    measured = CyclesReading(color, (0.0, 0.0, 0.0), "D65", color, color)
     return Reading(name, "", "", "", predicted, measured, 0.0, "", ())
 
 def document(level):

@@ -25,7 +25,7 @@ def test_device_lab_agrees_under_the_files_own_light(path):
     (sample,) = readers.read(path)
     # 0.02: the files print nine digits; what is left is the interpolation of the weights.
     assert quality.own_color_difference(sample) <= 0.02
-    assert quality.judge([sample]) == [()]
+    assert quality.check([sample]) == [()]
 
 
 def test_brick_only_seems_to_disagree_when_its_light_is_ignored():
@@ -56,7 +56,7 @@ SMOOTH = 0.4 + 0.2 * np.sin(NM / 60)
 
 
 def sentences(values=SMOOTH, nm=NM, kind="reading", **fields):
-    return quality.judge([Sample("it", nm, values, kind, **fields)])[0]
+    return quality.check([Sample("it", nm, values, kind, **fields)])[0]
 
 
 def changed(values, band, value):
@@ -71,7 +71,7 @@ def test_a_plain_reading_gets_no_sentence():
 
 def test_presets_get_no_sentence():
     everything = presets.load_all()
-    assert [s for s in quality.judge(everything) if s] == []
+    assert [s for s in quality.check(everything) if s] == []
 
 
 def shifted(delta_e):
@@ -199,7 +199,7 @@ def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
         return Sample(name, nm, values, "reading", condition=condition)
 
     brighter = changed(SMOOTH, 4, SMOOTH[4] + excess)
-    found = quality.judge(
+    found = quality.check(
         [
             sample("paper", "M0", SMOOTH),
             sample("other", "M1", SMOOTH + 0.2),
@@ -212,10 +212,10 @@ def test_fluorescence_between_two_conditions_names_both_samples(excess, named):
         assert found[0] == found[2]
         assert "'paper' differs by 0.012 at 440 nm between M0 and M1" in found[0][0]
     told_apart = [sample("paper (M0)", "M0", SMOOTH), sample("paper (M1)", "M1", brighter)]
-    assert [bool(each) for each in quality.judge(told_apart)] == [named, named]
+    assert [bool(each) for each in quality.check(told_apart)] == [named, named]
     finer = np.arange(380.0, 731.0, 5.0)
     either = sample("paper", "M1", np.interp(finer, NM, brighter), finer)
-    assert bool(quality.judge([sample("paper", "M2", SMOOTH), either])[0]) is named
+    assert bool(quality.check([sample("paper", "M2", SMOOTH), either])[0]) is named
 
 
 def test_ten_thousand_samples_are_judged_in_one_go():
@@ -229,4 +229,4 @@ def test_ten_thousand_samples_are_judged_in_one_go():
     ]
     # Seen: 5 paces; one by one it would be far more.
     with pace.at_most(100):
-        assert not any(quality.judge(samples))
+        assert not any(quality.check(samples))

@@ -179,7 +179,9 @@ def test_compromise_is_the_least_of_a_fine_search():
 
     def cost(color):
         shader = (np.clip(color, 0, 1), rough.roughness)
-        apart = scene_match.judge(view, shader, values, "lambert", 0.0, sample.wavelengths, space)
+        apart = scene_match.differences(
+            view, shader, values, "lambert", 0.0, sample.wavelengths, space
+        )
         return np.average(apart, weights=view.weights)
 
     random = np.random.default_rng(3)
@@ -204,7 +206,7 @@ def test_compromise_in_color_and_roughness_is_the_least_near_and_far(colorchecke
         found = np.append(rough.color, rough.roughness)
         for tried in np.clip(found + random.normal(size=(240, 4)) * sizes, 0, 1):
             shader = (tried[:3], float(tried[3]))
-            apart = scene_match.judge(view, shader, rho, "closure", sigma, bands, space)
+            apart = scene_match.differences(view, shader, rho, "closure", sigma, bands, space)
             assert best <= 1.02 * np.average(apart, weights=view.weights) + 0.005
 
 
@@ -219,7 +221,7 @@ def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
         for light in (warm, cold):
             alone, _, _ = scene_match.match(view_of(light), *arguments)
             shader = (alone.color, alone.roughness)
-            apart = scene_match.judge(
+            apart = scene_match.differences(
                 both, shader, sample.values, "closure", SIGMA, sample.wavelengths, space
             )
             assert mean <= np.average(apart, weights=both.weights) + 0.02
@@ -238,7 +240,7 @@ def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
     for found, same in zip(first[:2], again[:2], strict=True):
         assert (found.color == same.color).all()
         shader = (found.color, found.roughness)
-        over = scene_match.judge(view, shader, sample.values, *arguments[1:])
+        over = scene_match.differences(view, shader, sample.values, *arguments[1:])
         assert found.over_scene == pytest.approx(over, abs=1e-9)
         seen = cycles.reflectance(*shader, *reading.INSTRUMENT_ANGLES["45a:0"])
         for light, apart in zip(view.lights, found.instrument.tolist(), strict=True):

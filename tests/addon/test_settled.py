@@ -10,7 +10,7 @@ import pytest
 from rough_spectra.addon.blender import shader_nodes, sockets
 from rough_spectra.addon.colorimetry import illuminant_spectra
 from rough_spectra.addon.instrument import bake
-from rough_spectra.addon.interface.panels.redraw import Shown
+from rough_spectra.addon.interface.panels.redraw import PanelMaterial
 from rough_spectra.addon.matching import scene_view, solve
 from rough_spectra.addon.material import (
     changes,
@@ -58,7 +58,7 @@ def edit(material):
 def of_panel(material):
     """ΔE00 at the instrument as the panel tells it, once the pictures are made."""
     look = theme.current(bpy.context.preferences)
-    shown = Shown(material.session_uid, snapshot.of(material), look, 20)
+    shown = PanelMaterial(material.session_uid, snapshot.of(material), look, 20)
     shown.picture("swatches", 5.0)
     icons._work()
     return shown.apart()[0]
@@ -320,7 +320,7 @@ def test_there_is_no_number_for_what_is_not_predicted(assigned, sentence, kept):
     if kept:
         storage.keep(material)
     look = theme.current(bpy.context.preferences)
-    shown = Shown(material.session_uid, snapshot.of(material), look, 20)
+    shown = PanelMaterial(material.session_uid, snapshot.of(material), look, 20)
     assert str(shown.obstacle) == sentence
     shown.picture("swatches", 5.0)
     icons._work()

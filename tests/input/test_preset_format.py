@@ -82,7 +82,7 @@ def test_an_everyday_preset_says_where_everything_comes_from(name):
     assert re.match(rf"Estimate, not measured: {sample.sigma_degrees:.0f}°,", sample.sigma_source)
     assert sample.wavelengths[0] <= 400
     assert sample.wavelengths[-1] >= 700
-    assert quality.judge([sample]) == [()]
+    assert quality.check([sample]) == [()]
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ class Redraw:
         found = None if material is None else snapshot.of(material)
         if found is not None and found.inputs.spectrum:
             unit = icons.unit(look.scale, preferences.system.pixel_size)
-            self.shown = Shown(material.session_uid, found, look, unit)
+            self.shown = PanelMaterial(material.session_uid, found, look, unit)
 
     @property
     def format(self) -> text.Format:
@@ -54,7 +54,7 @@ class Redraw:
         return self.style.format
 
 
-class Shown:
+class PanelMaterial:
     """A material with a spectrum as it is while the panels are drawn, and its pictures.
 
     Parameters
@@ -69,9 +69,9 @@ class Shown:
         Height of a button, pixels.
     """
 
-    def __init__(self, uid: int, found: snapshot.Facts, look: looks.Look, unit: int) -> None:
+    def __init__(self, uid: int, found: snapshot.Snapshot, look: looks.Look, unit: int) -> None:
         self.uid, self.facts, self.unit = uid, found, unit
-        self.state = state.judge(found)
+        self.state = state.evaluate(found)
         self._pictured = (found, look)
 
     @property

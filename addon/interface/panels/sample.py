@@ -39,7 +39,7 @@ def draw(layout: Any, context: Any) -> None:
     _draw_state(layout, here, here.shown)
 
 
-def _draw_settings(layout: Any, material: Any, shown: redraw.Shown) -> None:
+def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> None:
     group, inputs = material.rough_spectra, shown.facts.inputs
     layout.use_property_split = True
     layout.use_property_decorate = False
@@ -70,7 +70,7 @@ def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:
     split.progress(text=words, factor=last.sigma_max / limits.LARGEST_SIGMA_DEGREES, type="BAR")
 
 
-def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
+def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
     """Say whether the color still follows from the spectrum, and offer what mends it."""
     kind = shown.state.kind
     if kind in ("fresh", "none"):

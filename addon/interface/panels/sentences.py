@@ -14,7 +14,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
-from ...material.snapshot import Facts
+from ...material.snapshot import Snapshot
 from .text import Format, Sentence
 
 Numbers = tuple[float, float, float]
@@ -65,9 +65,9 @@ def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
-def reasons(found: Facts, how: Style) -> tuple[Sentence, ...]:
+def reasons(found: Snapshot, how: Style) -> tuple[Sentence, ...]:
     """Say why a material's color does not follow from its spectrum."""
-    known = state.judge(found)
+    known = state.evaluate(found)
     icon, sentences = "INFO" if known.kind in ("kept", "linked") else "ERROR", []
     for reason in map(tip_, known.reasons):
         sentences.append(how.format.sentence(_capital(reason), icon, _BOX))
@@ -92,12 +92,12 @@ def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
-def difference(found: Facts, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
+def difference(found: Snapshot, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
     """Say what limits a fresh material, and why its model and shader were taken.
 
     `apart` is None until it is computed.
     """
-    last = state.judge(found).stamp
+    last = state.evaluate(found).stamp
     if last is None:
         return ()
     told = [(_limit(last, apart, found), "INFO")]
@@ -126,11 +126,11 @@ def measurement(
 
 
 @memoized(maxsize=_KEPT)
-def scene(found: Facts, name: str, how: Style) -> tuple[Sentence, ...]:
+def scene(found: Snapshot, name: str, how: Style) -> tuple[Sentence, ...]:
     """Say how right a material is under each light of its scene; `name` is the scene's of now."""
     if not found.analyzed:
         return of("Finds the lights and directions that meet the materials in view", "INFO", how)
-    last, view = state.judge(found).stamp, found.inputs.scene_view
+    last, view = state.evaluate(found).stamp, found.inputs.scene_view
     if not view or last is None:
         return ()
     told = []
@@ -166,7 +166,7 @@ def _difference(where: str, delta_e: float) -> str:
     return f"{where}: ΔE00 {delta_e:.2f}, {iface_(perceptibility.words(delta_e))}"
 
 
-def _limit(last: derivation.Stamp, apart: Numbers | None, found: Facts) -> str:
+def _limit(last: derivation.Stamp, apart: Numbers | None, found: Snapshot) -> str:
     if apart is not None and max(apart) < _NOTHING:
         return tip_("Limited by nothing: Blender shows the target")
     if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
@@ -188,7 +188,7 @@ def _limit(last: derivation.Stamp, apart: Numbers | None, found: Facts) -> str:
     return tip_(_ANGLES)
 
 
-def _shader(last: derivation.Stamp, found: Facts) -> str:
+def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     if last.roughness == 0.0 or not found.flat:
         return last.shader_reason
     if found.analyzed:

@@ -14,7 +14,7 @@ from ...support.version import version
 from ..document import (
     APERTURE,
     INSTRUMENT,
-    Measured,
+    CyclesReading,
     Predicted,
     Readings,
 )
@@ -93,7 +93,7 @@ def nanometers(wavelength: float) -> str:
     return repr(float(wavelength)).removesuffix(".0")
 
 
-def _viewing(part: Predicted | Measured) -> str:
+def _viewing(part: Predicted | CyclesReading) -> str:
     observer = part.observer if isinstance(part, Predicted) else 2
     return f"{part.illuminant}/{observer}°"
 

@@ -47,7 +47,7 @@ def draw(layout: Any, context: Any) -> None:
 
 
 def _draw_swatches(
-    layout: Any, here: redraw.Redraw, shown: redraw.Shown
+    layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
 ) -> sentences.Numbers | None:
     """Draw the colors with their numbers, which are None until they are computed."""
     from .. import sentences, text

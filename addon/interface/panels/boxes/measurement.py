@@ -37,7 +37,9 @@ def draw(layout: Any, context: Any) -> None:
     layout.operator("rough_spectra.bake", icon_value=icon_value("EXPORT"))
 
 
-def _draw_measured(layout: Any, context: Any, here: redraw.Redraw, shown: redraw.Shown) -> None:
+def _draw_measured(
+    layout: Any, context: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
+) -> None:
     from ....material import last_measurement, settled
     from ...operators import common
     from .. import sentences, text
