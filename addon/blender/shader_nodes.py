@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -201,7 +201,7 @@ def surface(material: Any) -> Surface | None:
     )
 
 
-def written(before: Surface, color: Sequence[float], roughness: float) -> Surface:
+def written(before: Surface, color: Iterable[float], roughness: float) -> Surface:
     """Give what a surface shows after `write` set the node that it comes from.
 
     `before` is what it showed, with nothing in use that `write` would set to 0.
