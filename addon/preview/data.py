@@ -165,7 +165,6 @@ def patch(rgb: Array, space: WorkingSpace) -> Patch:
     return Patch((red, green, blue), bool(np.abs(encoded - shown).max() > _OUTSIDE))
 
 
-@memoized(maxsize=16)
 def _to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
     return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
