@@ -27,10 +27,10 @@ _TEXT = """\
 # Caches
 
 What Rough Spectra remembers, and what each saves. `core/numerics/memoized.py` makes every cache and
-has the list of all: `memoized.listed()` gives name, hits, misses and entries, `memoized.clear_all()`
-forgets everything. Disabling the extension does that, and so does every file of tests with what
-`addon` remembers. A result is keyed by all that it depends on, so that forgetting changes time and
-no number.
+has the list of all: `memoized.listed()` gives name, hits, misses and entries, and
+`memoized.clear_all()` forgets everything. Disabling the extension does that, and so does every file
+of tests with what `addon` remembers. A result is keyed by all that it depends on, so that
+forgetting changes time and no number.
 
 The share is that of the named task's processor time that is saved by having the cache: the median
 of pairs of runs, with all caches and without this one, and the median's standard error. Of several
