@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import bpy
@@ -88,7 +88,7 @@ def surface(material: Any) -> Surface | None:
     )
 
 
-def written(before: Surface, color: Sequence[float], roughness: float) -> Surface:
+def written(before: Surface, color: Iterable[float], roughness: float) -> Surface:
     """Give what a surface shows after `shader_nodes.write` set the node that it comes from.
 
     `before` is what it showed, with nothing in use that writing would set to 0.

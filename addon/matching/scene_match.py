@@ -226,7 +226,6 @@ def to_xyz(rgb: Array, light: SceneLight, space: WorkingSpace) -> Array:
     return np.asarray(rgb @ _rendered(light, space.key))
 
 
-@memoized(maxsize=_KEPT)
 def _rendered(light: SceneLight, key: bytes) -> Array:
     """Matrix of `to_xyz`, for a working space's key."""
     matrix = matrix_of(key)

@@ -144,7 +144,7 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     if place.make or known.surface is None:
         known = snapshot.of(material)
     else:
-        surface = shader_nodes.written(known.surface, solution.color.tolist(), solution.roughness)
+        surface = shader_nodes.written(known.surface, solution.color, solution.roughness)
         known = known._replace(stamp=text, error="", surface=surface)
     request = replace(request, model=solution.model)
     return Derived(material, known, Solved(request, solution, space))

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from ...core.numerics.arrays import Array
-from ...core.numerics.memoized import memoized
 from ..colorimetry.rgb_space import WorkingSpace
 
 _KINDS = {"NISHITA": "SINGLE_SCATTERING"}
@@ -123,7 +122,6 @@ def _rec709() -> Array:
     return np.linalg.inv(primaries.T * np.linalg.solve(primaries.T, whole))
 
 
-@memoized(maxsize=1)
 def _table() -> dict[str, Any]:
     path = Path(__file__).with_name("sky_table.json")
     return dict(json.loads(path.read_text(encoding="utf-8")))

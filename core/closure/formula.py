@@ -42,7 +42,7 @@ from ..numerics.arrays import (
     spectrum,
 )
 from ..numerics.blocks import apply_in_blocks
-from ..numerics.memoized import memoized, remembered
+from ..numerics.memoized import remembered
 from . import fitted
 
 RING_ERROR = 0.01
@@ -224,13 +224,11 @@ def factors(
     return single, walk, ratio
 
 
-@memoized(maxsize=2)
 def _powers(dtype: np.dtype[Any]) -> Array:
     """Give the table of the fit, the powers of t first: shape (powers, 3 functions, terms)."""
     return np.ascontiguousarray(np.moveaxis(fitted.GEOMETRY, -1, 0), dtype)
 
 
-@remembered
 def _halved(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
     """Give tan(θ/2) of light and view, and cos Δφ, all of the same shape."""
     light, view = (

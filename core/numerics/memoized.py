@@ -144,6 +144,13 @@ def kept(module: str, name: str) -> dict[Any, Any]:
         `__name__` of the one that has it.
     name
         Of the variable there.
+
+    Examples
+    --------
+    >>> known = kept("addon.example", "known")
+    >>> known["answer"] = 42
+    >>> [cache.entries for cache in listed() if cache.name == "addon.example.known"]
+    [1]
     """
     entries: dict[Any, Any] = {}
     enlist(module, name, entries.__len__, entries.clear)
@@ -161,12 +168,31 @@ def enlist(module: str, name: str, size: Callable[[], int], clear: Callable[[], 
         Gives how many entries there are.
     clear
         Forgets them.
+
+    Examples
+    --------
+    >>> icons = [7, 8]
+    >>> enlist("addon.example", "icons", icons.__len__, icons.clear)
+    >>> clear_all("addon.example")
+    >>> icons
+    []
     """
     _caches[f"{module.removeprefix(_ROOT)}.{name}"] = _Cache(size, clear)
 
 
 def listed() -> list[Listed]:
-    """Return what every cache of the modules loaded so far holds, by name."""
+    """Return what every cache of the modules loaded so far holds, by name.
+
+    Examples
+    --------
+    >>> @memoized(maxsize=4)
+    ... def half(number):
+    ...     return number / 2
+    >>> half(2), half(2)
+    (1.0, 1.0)
+    >>> [cache[1:] for cache in listed() if cache.name.endswith("half")]
+    [(1, 1, 1, 4)]
+    """
     found = []
     for name, cache in sorted(_caches.items()):
         info = cache.info()
@@ -178,7 +204,16 @@ def listed() -> list[Listed]:
 
 
 def clear_all(beginning: str = "") -> None:
-    """Forget everything, or what the caches hold whose names begin so: "addon."."""
+    """Forget everything, or what the caches hold whose names begin so: "addon.".
+
+    Examples
+    --------
+    >>> known = kept("addon.example", "known")
+    >>> known["answer"] = 42
+    >>> clear_all("addon.example")
+    >>> known
+    {}
+    """
     for name, cache in list(_caches.items()):
         if name.startswith(beginning):
             cache.clear()

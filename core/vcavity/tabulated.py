@@ -45,6 +45,8 @@ _SAFETY = 1.3
 """The bound over the largest error that was found. In as many other directions, drawn the same way,
 none was more than 1.29 times as large."""
 
+_BOUNDS = np.array(table.BOUND) * 1e-5 * _SAFETY
+
 
 def reflectance(
     albedo: npt.ArrayLike,
@@ -113,22 +115,17 @@ def bound(
     """
     polar, azimuth, beyond = _bins(*_as_arrays(theta_i, theta_r, delta_phi))
     spread = np.asarray(sigma, np.float64)
-    found = _known_bounds()[polar, azimuth, _bin(table.BOUND_SIGMA, spread)]
+    found = _BOUNDS[polar, azimuth, _bin(table.BOUND_SIGMA, spread)]
     found = np.where(beyond, np.inf, found)
     return np.asarray(np.where(spread == 0, 0.0, found))
 
 
-@remembered
 def _bins(theta_i: Array, theta_r: Array, delta_phi: Array) -> tuple[Array, ...]:
     """Where in the table of bounds directions lie, and which of them are beyond it."""
     larger, _, azimuth = _folded(theta_i, theta_r, delta_phi)
     # A rounded 85° is still 85°.
     beyond = np.asarray(larger > LARGEST_ANGLE * (1 + 1e-6))
     return _bin(table.BOUND_POLAR, larger), _bin(table.BOUND_AZIMUTH, azimuth), beyond
-
-
-def _known_bounds() -> Array:
-    return np.array(table.BOUND) * 1e-5 * _SAFETY
 
 
 def _as_arrays(*angles: npt.ArrayLike) -> Iterator[Array]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whatever is remembered is on one list, and gone when asked to go."""
+"""Whatever is remembered is on one list, told of in the manual, and gone when asked to go."""
 
 import ast
 import importlib
@@ -9,6 +9,7 @@ import pytest
 
 from tests.architecture import house
 
+PAGE = house.ROOT / "docs" / "caches.md"
 MEMOIZED = "core/numerics/memoized.py"
 NO_CACHES = {
     # What Blender reads later, so that somebody has to hold it.
@@ -136,3 +137,16 @@ def test_disabling_the_extension_forgets_everything(memoized, extension):
         assert not [cache for cache in memoized.listed() if cache.entries]
     finally:
         extension.register()
+
+
+def test_the_manual_tells_of_each(memoized):
+    rows = [line for line in PAGE.read_text("utf-8").splitlines() if line.startswith("| `")]
+    told = {row.split("`")[1] for row in rows}
+    assert told == {c.name for c in memoized.listed() if c.name.startswith(("core.", "addon."))}
+
+
+def test_none_that_saves_under_two_percent_stays():
+    for row in PAGE.read_text("utf-8").splitlines():
+        if row.startswith("| `"):
+            share = row.split("|")[-2].split("±")[0].strip(" %")
+            assert share == "–" or float(share) >= 2, row

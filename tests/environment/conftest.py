@@ -6,7 +6,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from tools.ground import package, wheels
+
+from tools.environment import package, wheels
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -26,18 +26,19 @@ NO_FUNCTIONS = {
 _TEXT = """\
 # Caches
 
-What Rough Spectra remembers, and what each saves. `core/numerics/memoized.py` makes every cache and has the list of
-all: `memoized.listed()` gives name, hits, misses and entries, `memoized.clear_all()` forgets everything. Disabling the
-extension does that, and so does every file of tests with what `addon` remembers. A result is keyed by all that it
-depends on, so that forgetting changes time and no number.
+What Rough Spectra remembers, and what each saves. `core/numerics/memoized.py` makes every cache and
+has the list of all: `memoized.listed()` gives name, hits, misses and entries, and
+`memoized.clear_all()` forgets everything. Disabling the extension does that, and so does every file
+of tests with what `addon` remembers. A result is keyed by all that it depends on, so that
+forgetting changes time and no number.
 
-The share is that of the named task's processor time that is saved by having the cache: the median of pairs of runs, with
-all caches and without this one, and the median's standard error. Of several tasks the table names the one in which it
-saves most. None stays that saves under 2 % in all of them; a cache without a share holds what Blender shows, which is
-no choice.
+The share is that of the named task's processor time that is saved by having the cache: the median
+of pairs of runs, with all caches and without this one, and the median's standard error. Of several
+tasks the table names the one in which it saves most. None stays that saves under 2 % in all of
+them; a cache without a share holds what Blender shows, which is no choice.
 
-`python -m tools.checks.caches` measures and writes this page; its tasks are in `tools/checks/caches_tasks.py`. Blender
-5.2, one thread.
+`python -m tools.checks.caches` measures and writes this page; its tasks are in
+`tools/checks/caches_tasks.py`. Blender 5.2, one thread.
 
 | cache | keyed by | at most | task | % saved |
 |---|---|---|---|---|

@@ -300,8 +300,11 @@ def _drawer() -> Callable[..., None]:
     return draw
 
 
-def _redraw(scene: bool) -> Run:
-    """Draw the panels of materials that don't change, one most often."""
+MEASURED, EDITED, TEXTURED, PLAIN = 0, 15, 25, -1
+
+
+def _redraw(one: int | None = None, scene: bool = False) -> Run:
+    """Draw the panels of materials that don't change: of one, or of all in turn."""
     import bpy
     from rough_spectra.addon.blender import shader_nodes
     from rough_spectra.addon.material import last_measurement
@@ -328,10 +331,7 @@ def _redraw(scene: bool) -> Run:
     draw = _drawer()
 
     def run() -> None:
-        for material in (made[0], made[15], made[25], made[-1]):
-            for _ in range(20):
-                draw(material)
-        for material in made:
+        for material in made if one is None else [made[one]] * 60:
             draw(material)
 
     return run
@@ -356,11 +356,11 @@ def _import(folder: Path, is_first: bool = False) -> Run:
         if is_first:
             forget()
         importing.read(fixtures)
-        batch = importing.read(tables)
         home = folder / f"library {next(turns)}"
-        importing.add(batch.found, "Chart", home)
-        for entry in library.contents(home).entries[-50:]:
-            library.load(entry.id, home)
+        for table in tables:
+            importing.add(importing.read([table]).found, table.stem, home)
+            for entry in library.contents(home).entries[-50:]:
+                library.load(entry.id, home)
 
     return run
 
@@ -547,8 +547,12 @@ TASKS: dict[str, Callable[[Path], Run]] = {
     "edit a color by hand, in a scene": lambda _folder: _edit(scene=True),
     "edit a color by hand, nothing derived": lambda _folder: _edit(scene=False, is_derived=False),
     "resize the panel": _resize,
-    "redraw": lambda _folder: _redraw(scene=False),
-    "redraw, in a scene": lambda _folder: _redraw(scene=True),
+    "redraw of many": lambda _folder: _redraw(),
+    "redraw, measured": lambda _folder: _redraw(MEASURED),
+    "redraw, measured, in a scene": lambda _folder: _redraw(MEASURED, scene=True),
+    "redraw, edited by hand": lambda _folder: _redraw(EDITED),
+    "redraw, textured": lambda _folder: _redraw(TEXTURED),
+    "redraw, no spectrum": lambda _folder: _redraw(PLAIN),
     "import": _import,
     "first import of a session": lambda folder: _import(folder, is_first=True),
     "list and search": _list,
@@ -574,8 +578,8 @@ COLD = {
 """Those that forget everything first."""
 
 DICTIONARIES = {
-    "addon.blender.shader_nodes._layouts": ("redraw", "predict 100 readings"),
-    "addon.blender.shader_nodes._numbers": ("redraw", "redraw, in a scene"),
+    "addon.blender.shader_nodes._layouts": ("assign to 100 at once", "drag σ, sphere, closure"),
+    "addon.blender.shader_nodes._numbers": ("redraw, measured",),
     "addon.preview.drawing.lines._kept": ("drag σ, preset", "edit a color by hand"),
     "addon.samples.library._contents": ("list and search",),
     "addon.samples.library._files": ("import",),

@@ -75,6 +75,7 @@ def reasons(found: Snapshot, how: Style) -> tuple[Sentence, ...]:
     return tuple(sentences)
 
 
+@memoized(maxsize=64)
 def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
     """Say why there is no number."""
     told = tip_(found.template).format(names=found.names)

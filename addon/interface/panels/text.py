@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 import blf
 
-from ....core.numerics.memoized import memoized
 from .icon_values import icon_value
 
 _FONT = 0  # the interface's
@@ -83,7 +82,6 @@ def draw(layout: Any, sentences: Iterable[Sentence]) -> None:
             column.label(text=line, icon_value=icon, translate=False)
 
 
-@memoized(maxsize=256)
 def _lines(text: str, width: float, points: float, scale: float) -> tuple[str, ...]:
     """Wrap to a width in pixels at UI scale 1, as the font is drawn: Blender cuts what is longer.
 

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
-from ....core.numerics.memoized import kept, memoized
+from ....core.numerics.memoized import kept
 from .raster import Box, Color, lay
 
 _LEAST = 1e-9
@@ -235,7 +235,6 @@ def _dashes(line: Array, dash: tuple[float, ...], width: float) -> Array:
     return np.concatenate((pieces, np.concatenate((points, points))), axis=1)
 
 
-@memoized(maxsize=16)
 def _strokes(dash: tuple[float, ...], width: float, turns: int) -> Array:
     """Where strokes start and end, (strokes, 2), without the round ends; a short one is a dot."""
     turn = np.arange(turns)[:, np.newaxis] * sum(dash)

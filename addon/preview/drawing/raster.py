@@ -18,7 +18,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
-from ....core.numerics.memoized import memoized
 
 Color = tuple[float, float, float]
 Box = tuple[float, float, float, float]
@@ -77,13 +76,11 @@ def _row(color: Color, pixels: int) -> Array:
     return _ink(color).repeat(pixels).view(np.float32)
 
 
-@memoized(maxsize=64)
 def _ink(color: Color) -> Array:
     """Give the bytes of an opaque pixel, four float32 in one number."""
     return np.array([255 * c for c in (*color, 1.0)], np.float32).view(np.complex128)
 
 
-@memoized(maxsize=64)
 def _opaque(color: Color) -> Array:
     """Give an opaque pixel, four bytes in one number."""
     return np.array([int(255 * c + 0.5) for c in (*color, 1.0)], np.uint8).view(np.uint32)
@@ -134,7 +131,6 @@ def dashes(
     _blend(canvas, share, math.floor(left), y0, color, alpha)
 
 
-@memoized(maxsize=16)
 def _strokes(left: float, right: float, dash: tuple[float, float]) -> Array:
     """Give each byte's share of a row of strokes, float32."""
     stroke, period = dash[0], sum(dash)
@@ -164,7 +160,6 @@ def pointer(canvas: Array, tip: tuple[float, int], top: int, reach: float, color
     paint(canvas, coverage.astype(np.float32), x0, top, color)
 
 
-@memoized(maxsize=16)
 def _falling(reach: float, rows: int) -> Array:
     """Half the width of a triangle between its rows, one below the other."""
     return np.linspace(reach, 0, rows)[:, np.newaxis]

@@ -48,7 +48,6 @@ def draw(
     raster.paint(canvas, coverage, left, round(y) - above, color, alpha)
 
 
-@memoized(maxsize=512)
 def width(text: str, size: float) -> float:
     """Length of the text, pixels."""
     return sum(_outline(c)[0] for c in text) * size / glyphs.EM

@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
-from ....core.numerics.memoized import memoized
 from ..drawing import lines, raster, text
 from ..drawing.looks import Look
 
@@ -100,7 +99,6 @@ def margin(axis: Sequence[float], look: Look) -> int:
     return math.ceil(widest + 5 * look.scale)
 
 
-@memoized(maxsize=16)
 def axes_of(size: Size, look: Look, x: tuple[float, float], top: float, foot: int) -> Axes:
     """Place axes from 0 to `top` between a legend above and `foot` rows below."""
     width, height = size

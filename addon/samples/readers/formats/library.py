@@ -22,7 +22,6 @@ import numpy as np
 
 from .....core.errors import InputError
 from .....core.instruments import REGISTRY
-from .....core.numerics.memoized import memoized
 from ...sample import KINDS, Sample, check_spectrum
 from ..parts.document import Document, quote
 
@@ -123,7 +122,6 @@ def record(sample: Sample) -> dict[str, Any]:
     return found
 
 
-@memoized(maxsize=16)
 def _wavelengths(data: bytes) -> list[float]:
     """Return whole nanometers without ".0": the same numbers, and a line a third shorter."""
     return [int(nm) if nm.is_integer() else nm for nm in np.frombuffer(data).tolist()]
