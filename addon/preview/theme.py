@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colors and sizes of the pictures, from the interface's theme; readable in light and dark ones."""
+"""Read the theme and the scale of Blender's interface; `drawing/looks.py` makes them readable."""
 
 from __future__ import annotations
 

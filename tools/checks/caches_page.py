@@ -37,7 +37,7 @@ of pairs of runs, with all caches and without this one, and the median's standar
 tasks the table names the one in which it saves most. None stays that saves under 2 % in all of
 them; a cache without a share holds what Blender shows, which is no choice.
 
-`python -m tools.checks.caches` measures and writes this page; its tasks are in
+`.venv/bpy-5.2/bin/python -m tools.checks.caches` measures and writes this page; its tasks are in
 `tools/checks/caches_tasks.py`. Blender 5.2, one thread.
 
 | cache | keyed by | at most | task | % saved |

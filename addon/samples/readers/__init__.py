@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of measured spectra in, samples out, whatever the file's name ends with.
 
-A format is one module of this package, and nothing else has to know of it:
+A format is one module of `formats/`, and nothing else has to know of it:
 
     NAME = "Nix export"                             what messages call it
     ENDINGS = ("csv",)                              of its files' names: a hint, for the drop list
@@ -11,7 +11,7 @@ A format is one module of this package, and nothing else has to know of it:
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
     REGIONS = True                                  only where it reads `Document.region`
 
-Modules whose name begins with an underscore are help for the readers, not formats.
+What several formats share is in `parts/`.
 """
 
 from __future__ import annotations

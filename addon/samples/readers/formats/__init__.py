@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One module a file format; see `addon.samples.readers` for what each owes."""
+"""One module a file format; what each owes is said at the top of `addon/samples/readers/__init__.py`."""
