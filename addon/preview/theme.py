@@ -36,8 +36,9 @@ def current(preferences: Any) -> Look:
 def _look(back: Color, alpha: float, behind: Color, text: Color, scale: float) -> Look:
     """Round once and not at every draw."""
     over = zip(back, behind, strict=True)
-    background = tuple(round(alpha * c + (1 - alpha) * b, 3) for c, b in over)
-    return look(background, tuple(round(c, 3) for c in text), scale)
+    red, green, blue = (round(alpha * c + (1 - alpha) * b, 3) for c, b in over)
+    letters = (round(text[0], 3), round(text[1], 3), round(text[2], 3))
+    return look((red, green, blue), letters, scale)
 
 
 def scale(preferences: Any) -> float:
