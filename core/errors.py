@@ -27,5 +27,9 @@ class OutputError(RoughSpectraError):
     """A result cannot be written; whatever stood at its target is as it was."""
 
 
+class OwnFaultError(RoughSpectraError):
+    """Rough Spectra itself failed, where nothing the user did could matter; says what to report."""
+
+
 class CancelledError(RoughSpectraError):
     """The user stopped a long task; nothing was written."""

@@ -22,7 +22,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ...core.errors import CancelledError, OutputError
+from ...core.errors import CancelledError, OutputError, OwnFaultError, RoughSpectraError
 from ..support import events
 from . import job_failure
 
@@ -113,12 +113,14 @@ class Job:
         ------
         OutputError
             If the second Blender failed.
+        OwnFaultError
+            If what failed there is a fault of ours.
         """
         assert self._process is not None
         assert self._folder is not None
         path = self._folder / name
         if self._process.returncode != 0 or not path.exists():
-            raise OutputError(self._failure(self._folder, self._process.returncode))
+            raise self._failure(self._folder, self._process.returncode)
         return path
 
     def when_closed(self, act: Callable[[], None]) -> None:
@@ -139,20 +141,21 @@ class Job:
         events.unregistering.unsubscribe(self.close)
         self._traces.close()
 
-    def _failure(self, folder: Path, status: int) -> str:
+    def _failure(self, folder: Path, status: int) -> RoughSpectraError:
         """Say what became of the second Blender, and what to do."""
         log = (folder / "log").read_text(encoding="utf-8", errors="replace")
         said = job_failure.reason(log)
         free = shutil.disk_usage(folder).free
         remedy = job_failure.remedy(status, said, log, free, self.smaller)
-        if remedy is None:
-            kept = folder.with_name(f"{folder.name}.log")
-            shutil.copyfile(folder / "log", kept)
-            remedy = f"This is no fault of yours: please report it with {kept}."
-        return (
+        told = (
             f"The Blender that {self.doing} stopped with status {status} ({said}); nothing was "
-            f"written. {remedy}"
-        ).rstrip()
+            "written."
+        )
+        if remedy is not None:
+            return OutputError(f"{told} {remedy}".rstrip())
+        kept = folder.with_name(f"{folder.name}.log")
+        shutil.copyfile(folder / "log", kept)
+        return OwnFaultError(f"{told} This is no fault of yours: please report it with {kept}.")
 
     def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
         job_path = folder / "job.json"

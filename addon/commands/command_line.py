@@ -90,7 +90,7 @@ class _Told:
 
 def _run(arguments: Sequence[str], told: _Told) -> int:
     """Run one verb and give its status; what it expects to go wrong is told here."""
-    from ...core.errors import CancelledError, RoughSpectraError
+    from ...core.errors import CancelledError, OwnFaultError, RoughSpectraError
 
     # Help texts hold letters such as Δ and σ, which not every terminal or pipe can take.
     with contextlib.suppress(AttributeError):
@@ -105,6 +105,8 @@ def _run(arguments: Sequence[str], told: _Told) -> int:
         return int(options.run(options))
     except CancelledError as error:
         return told.failed(_INTERRUPTED, str(error))
+    except OwnFaultError as error:
+        return told.failed(_FAILED_ITSELF, str(error))
     except RoughSpectraError as error:
         return told.failed(_UNUSABLE, str(error))
     except BrokenPipeError:

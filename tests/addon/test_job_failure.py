@@ -19,7 +19,7 @@ from rough_spectra.addon.instrument.measure import (
     Measurement,
     measure,
 )
-from rough_spectra.core.errors import OutputError
+from rough_spectra.core.errors import OutputError, OwnFaultError
 
 SMALLER = "ask for less"
 PLENTY = 1 << 40
@@ -74,7 +74,7 @@ def test_an_error_of_our_own_names_its_remedy_itself():
 
 def test_a_fault_of_ours_is_to_be_reported_with_the_whole_log(make_material):
     broken = Geometry((("not an angle", 0.0),), 0.0)
-    with pytest.raises(OutputError) as failed:
+    with pytest.raises(OwnFaultError) as failed:
         measure([make_material()], [broken])
     sentence = str(failed.value)
     assert "stopped with status 1 (TypeError: must be real number, not str)" in sentence

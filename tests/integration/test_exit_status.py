@@ -6,6 +6,7 @@ import json
 import math
 import os
 import subprocess
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -57,6 +58,20 @@ def test_without_a_place_for_the_file_the_sentence_stands_alone(broken, tmp_path
     result = broken(tmp_path / "none")
     assert result.status == 3
     assert result.sentence.endswith("Rough Spectra authors.")
+
+
+def test_a_fault_of_ours_in_the_second_blender_has_the_same_status(monkeypatch, main, scene):
+    """One that its worker did not expect: an angle that is none."""
+    measured, broken = bake.measure.Measurement, bake.measure.Geometry((("none", 0.0),), 0.0)
+    monkeypatch.setattr(
+        bake.measure, "Measurement", lambda materials, *_rest: measured(materials, [broken])
+    )
+    result = main("check", "--blend", scene, "--material", "Alpha")
+    assert result.status == 3
+    assert "Traceback" not in result.err
+    told, _, kept = result.err.strip().rpartition(" please report it with ")
+    assert told.endswith("This is no fault of yours:")
+    Path(kept.rstrip(".")).unlink()
 
 
 def test_an_interrupt_is_no_fault(monkeypatch, main):
