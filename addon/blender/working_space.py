@@ -34,9 +34,8 @@ def current() -> WorkingSpace:
     return _space(working_space_name(), columns, ocio.warning())
 
 
-@memoized(maxsize=16)
 def _space(name: str, columns: tuple[tuple[float, ...], ...], warning: str) -> WorkingSpace:
-    """Make the space once: what is derived from its matrix is kept with it."""
+    """Make the space of the columns of its matrix."""
     import numpy as np
 
     from ..colorimetry.rgb_space import WorkingSpace

@@ -19,7 +19,6 @@ from ...core.color import color_difference
 from ...core.cycles import matching
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
-from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
 from ..samples import quality
@@ -282,13 +281,9 @@ def _percentile(values: Array, share: float) -> Array:
     return np.asarray(low + (high - low) * (place - below))
 
 
-@memoized(maxsize=4)
 def _everywhere(count: int) -> tuple[Array, Array, Array]:
-    """Give directions all over the hemisphere, and the virtual instrument's; read-only."""
-    found = _with_instrument(direction_grid.hemisphere(count))
-    for angles in found:
-        angles.setflags(write=False)
-    return found
+    """Give directions all over the hemisphere, and the virtual instrument's."""
+    return _with_instrument(direction_grid.hemisphere(count))
 
 
 def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:

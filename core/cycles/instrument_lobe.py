@@ -16,7 +16,6 @@ import numpy.typing as npt
 
 from ..instruments import quadrature
 from ..numerics.arrays import Array, spectrum
-from ..numerics.memoized import memoized
 from .lobe import (
     check_roughness,
     directions,
@@ -60,7 +59,6 @@ def reflectance(color: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str)
     return reflected(c, lobe(s, *mean_direction(instrument, c.dtype)))
 
 
-@memoized(maxsize=32)
 def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]:
     """Give tilt and spread of an instrument: the weighted means over its directions.
 
@@ -73,7 +71,7 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
 
     Returns
     -------
-    Two arrays without axes, read-only, for `core.cycles.lobe`.
+    Two arrays without axes, for `core.cycles.lobe`.
 
     Raises
     ------
@@ -92,6 +90,4 @@ def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]
     tilt, spread = directions(*(np.asarray(angle, dtype) for angle in angles))
     if of.angles is None:
         tilt, spread = (np.asarray(of.weights @ each, dtype) for each in (tilt, spread))
-    tilt.setflags(write=False)
-    spread.setflags(write=False)
     return tilt, spread

@@ -188,13 +188,7 @@ def _cubics(nodes: tuple[float, ...]) -> tuple[Array, Array]:
 
 def _bin(edges: tuple[float, ...], at: Array) -> Array:
     """Which interval between edges (degrees) an angle lies in; NaN and what is beyond: the last."""
-    return np.asarray(np.minimum(_inner(edges).searchsorted(at), len(edges) - 2))
-
-
-@memoized(maxsize=8)
-def _inner(edges: tuple[float, ...]) -> Array:
-    """Radians of the edges but for the first."""
-    return np.asarray(np.radians(edges[1:]))
+    return np.asarray(np.minimum(np.radians(edges[1:]).searchsorted(at), len(edges) - 2))
 
 
 @memoized(maxsize=1)

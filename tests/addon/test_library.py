@@ -550,12 +550,12 @@ def test_a_killed_process_leaves_the_old_file_and_no_lock(tmp_path, moment):
     process = child(
         tmp_path,
         f"""
-        real = outputs.Publication.{moment}
+        real = outputs.AtomicFiles.{moment}
         def die(*arguments):
             if {moment!r} == "write":
                 real(*arguments)
             os.kill(os.getpid(), signal.SIGKILL)
-        outputs.Publication.{moment} = die
+        outputs.AtomicFiles.{moment} = die
         add("lost", 0.3)
         """,
     )

@@ -292,7 +292,7 @@ def test_reroutes_are_seen_through(make_material):
     tree.links.new(shader.outputs[0], first.inputs[0])
     tree.links.new(first.outputs[0], second.inputs[0])
     tree.links.new(second.outputs[0], output.inputs["Surface"])
-    assert shader_nodes.find(material) == shader_nodes.Place(material, shader.name, "")
+    assert shader_nodes.find(material) == shader_nodes.SocketTarget(material, shader.name, "")
 
 
 @pytest.mark.parametrize("muted", [0, 1])

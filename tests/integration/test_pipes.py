@@ -35,10 +35,15 @@ def pipe(tmp_path):
     return path
 
 
+def into(folder):
+    """Where `assign` is to save: it asks for that before it reads anything."""
+    return "--output", folder / "new.blend"
+
+
 WAYS = {
-    "mapping": lambda file, _out: ("assign", "--mapping", file, "--create"),
-    "measurement": lambda file, _out: ("assign", "--by-name", file, "--create"),
-    "preset": lambda file, _out: ("assign", "--preset", file, "--material", "M"),
+    "mapping": lambda file, out: ("assign", "--mapping", file, "--create", *into(out)),
+    "measurement": lambda file, out: ("assign", "--by-name", file, "--create", *into(out)),
+    "preset": lambda file, out: ("assign", "--preset", file, "--material", "M", *into(out)),
     "import": lambda file, out: ("import", file, "--folder", out),
     "part": lambda file, out: ("merge", file, "--output", out / "x"),
     "preset to check": lambda file, _out: ("validate", file),
@@ -65,7 +70,7 @@ def test_a_mapping_that_names_a_pipe_is_refused(pipe, main, tmp_path):
     mapping = tmp_path / "mapping.csv"
     mapping.write_text("material,sample,file\nM,a,pipe\n", encoding="utf-8")
     with impatient():
-        result = main("assign", "--mapping", mapping, "--create")
+        result = main("assign", "--mapping", mapping, "--create", *into(tmp_path))
     assert result.status == 2
     assert "pipe: this is no regular file" in result.err
 

@@ -55,7 +55,7 @@ def processes(folder):
 def test_a_worker_whose_asker_was_killed_ends_and_removes_its_files(task, environment, tmp_path):
     temporary = tmp_path / "temporary"
     temporary.mkdir()
-    code = START.format(tools=str(ROOT / "tools")) + task
+    code = START.format(root=str(ROOT)) + task
     asker = subprocess.Popen(
         [sys.executable, "-c", code],
         env=environment | {"TMPDIR": str(temporary)},

@@ -14,8 +14,9 @@ PAGE = ROOT / "docs" / "caches.md"
 KEPT = ROOT / "docs" / "data" / "caches.csv"
 
 NO_FUNCTIONS = {
+    "addon.material.derivation._known": "text of a stamp",
     "addon.blender.shader_nodes._layouts": "type of a node",
-    "addon.blender.shader_nodes._numbers": "type of a node",
+    "addon.blender.surface._numbers": "type of a node",
     "addon.preview.drawing.lines._kept": "points, width, dash, box, size",
     "addon.preview.icons._pictures": "material, figure, side; snapshot, look",
     "addon.samples.library._contents": "folder; names, sizes, times of its files",

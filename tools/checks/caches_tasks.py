@@ -579,7 +579,7 @@ COLD = {
 
 DICTIONARIES = {
     "addon.blender.shader_nodes._layouts": ("assign to 100 at once", "drag σ, sphere, closure"),
-    "addon.blender.shader_nodes._numbers": ("redraw, measured",),
+    "addon.blender.surface._numbers": ("redraw, measured",),
     "addon.preview.drawing.lines._kept": ("drag σ, preset", "edit a color by hand"),
     "addon.samples.library._contents": ("list and search",),
     "addon.samples.library._files": ("import",),

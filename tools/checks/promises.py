@@ -188,8 +188,9 @@ def _audit(event: str, arguments: tuple[Any, ...]) -> None:
         if file.parent not in (_allowed, _allowed.parent) or set(mode) & set("wxa+"):
             raise Strayed(f"opened {path!r} with {mode!r}")
     elif event in ("os.listdir", "os.scandir"):
-        # Imports list the folders of sys.path.
-        if "importlib" not in str(sys._getframe(1).f_code.co_filename):
+        # Imports list the folders of sys.path, and finding the readers lists theirs.
+        asks = str(sys._getframe(1).f_code.co_filename)
+        if "importlib" not in asks and "pkgutil" not in asks:
             where = Path(str(arguments[0] or ".")).resolve()
             if where not in (_allowed, _allowed.parent):
                 raise Strayed(f"listed {where}")

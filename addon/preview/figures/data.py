@@ -159,7 +159,6 @@ def patches(colors: Array, space: WorkingSpace) -> list[Patch]:
     ]
 
 
-@memoized(maxsize=16)
 def _to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
     return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
