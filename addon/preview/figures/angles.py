@@ -56,9 +56,9 @@ def angles(
     The curves, which are not drawn yet.
     """
     size = canvas.shape[1], canvas.shape[0]
-    axes = angles_axes(size, look, max(float(target.max()), float(blender.max()), lambert))
-    canvas[:] = _angles_ground(axes, size, look, engine)
-    for_target, for_blender, for_lambert = _angle_keys(look, engine)
+    top = plot.ceiling(max(float(target.max()), float(blender.max()), lambert))
+    axes, ground, (for_target, for_blender, for_lambert) = _angles_ground(size, look, top, engine)
+    canvas[:] = ground
     y, half = axes.down(max(lambert, 0.0)), for_lambert.width * look.scale / 2
     stroke, gap = for_lambert.dash
     box = (axes.left, y - half, axes.right, y + half)
@@ -78,17 +78,20 @@ def _angle_keys(look: Look, engine: str) -> tuple[Key, Key, Key]:
 
 
 @memoized(maxsize=16)
-def _angles_ground(axes: Axes, size: Size, look: Look, engine: str) -> Array:
+def _angles_ground(
+    size: Size, look: Look, top: float, engine: str
+) -> tuple[Axes, Array, tuple[Key, Key, Key]]:
+    """Give all that does not change with the curves: where they go, what is behind, their keys."""
+    axes, keys = angles_axes(size, look, top), _angle_keys(look, engine)
     canvas = raster.blank(size[1], size[0])
-    top = axes.y[1]
     named = not plot.is_small(size, look)
     plot.draw_grid(canvas, axes, (0, top / 2, top), look, named=named)
     row = axes.bottom + 4 * look.scale + text.height(look.font)
     plot.name_below(canvas, axes, [(t, f"{plot.label(t)}°") for t in _ANGLE_TICKS], row, look)
-    plot.draw_legend(canvas, _angle_keys(look, engine), axes.left, look)
+    plot.draw_legend(canvas, keys, axes.left, look)
     if axes.bottom - axes.top >= 36 * look.scale:
         _sun(canvas, axes.across(-LIGHT_ANGLE), axes.bottom - 8 * look.scale, look)
-    return canvas
+    return axes, canvas, keys
 
 
 def _sun(canvas: Array, x: float, y: float, look: Look) -> None:

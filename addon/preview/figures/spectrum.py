@@ -57,9 +57,10 @@ def spectrum(
     shown = (wavelengths > SHOWN_NM[0] - 50) & (wavelengths < SHOWN_NM[1] + 50)
     peak = max(*(float(c[shown].max(initial=0)) for c in (albedo, reading)), *(b[2] for b in bars))
     size = canvas.shape[1], canvas.shape[0]
-    axes = spectrum_axes(size, look, peak)
-    canvas[:] = _spectrum_ground(axes, size, look)
-    for_reading, for_albedo, for_bars = _spectrum_keys(look)
+    axes, ground, (for_reading, for_albedo, for_bars) = _spectrum_ground(
+        size, look, plot.ceiling(peak)
+    )
+    canvas[:] = ground
     half = for_bars.width * look.scale / 2
     first, last = axes.x
     spans = np.array(bars, np.float64).reshape(-1, 3).T
@@ -83,9 +84,12 @@ def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
 
 
 @memoized(maxsize=16)
-def _spectrum_ground(axes: Axes, size: Size, look: Look) -> Array:
+def _spectrum_ground(
+    size: Size, look: Look, top: float
+) -> tuple[Axes, Array, tuple[Key, Key, Key]]:
+    """Give all that does not change with the curves: where they go, what is behind, their keys."""
+    axes, keys = spectrum_axes(size, look, top), _spectrum_keys(look)
     canvas = raster.blank(size[1], size[0])
-    top = axes.y[1]
     named = not plot.is_small(size, look)
     plot.draw_grid(canvas, axes, (0, top / 2, top), look, named=named)
     gap = round(2 * look.scale)
@@ -93,8 +97,8 @@ def _spectrum_ground(axes: Axes, size: Size, look: Look) -> Array:
     row = axes.bottom + gap + (_BAND + 3) * look.scale + text.height(look.font)
     ticks = [(nm, f"{nm} nm" if nm == _NM_TICKS[-1] else f"{nm}") for nm in _NM_TICKS]
     plot.name_below(canvas, axes, ticks, row, look)
-    plot.draw_legend(canvas, _spectrum_keys(look), axes.left, look)
-    return canvas
+    plot.draw_legend(canvas, keys, axes.left, look)
+    return axes, canvas, keys
 
 
 def _thinned(nm: Array, axes: Axes) -> Array:
