@@ -198,7 +198,7 @@ def failing_to_measure(found):
     yield job.poll
     try:
         job.result()
-    except ours("core.errors").OutputError as error:
+    except ours("core.errors").OwnFaultError as error:
         found["said"] = str(error)
     job.close()
     for log in Path(bpy.app.tempdir).parent.glob("rough-spectra-*.log"):
