@@ -24,6 +24,7 @@ from .numerics.arrays import (
     spectrum,
 )
 from .numerics.blocks import apply_in_blocks, blocks, part
+from .numerics.memoized import remembered
 
 _BEYOND = {4: -4.371139000186241e-08, 8: 6.123233995736766e-17}
 """π/2 minus its nearest float32 and float64, by size in bytes: the rest of π/2 - β."""
@@ -181,6 +182,7 @@ def _factors(light: Array, view: Array, delta_phi: Array, sigma: Array) -> tuple
     return np.asarray(f1, dtype), np.asarray(second_bounce_at_normal(s2) * second, dtype)
 
 
+@remembered
 def _directions(light: Array, view: Array, delta_phi: Array) -> tuple[Array, ...]:
     """Give what multiplies C2 and C3 of the model in F1, but for their part in σ, and F2.
 

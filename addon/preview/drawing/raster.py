@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
+from ....core.numerics.memoized import memoized
 
 Color = tuple[float, float, float]
 Box = tuple[float, float, float, float]
@@ -73,17 +74,15 @@ def _mixed(below: Array, share: Array, ink: Array) -> Array:
 
 def _row(color: Color, pixels: int) -> Array:
     """Give the bytes of opaque pixels, float32."""
-    return _ink(color).repeat(pixels).view(np.float32)
+    return _pixel(color)[1].repeat(pixels).view(np.float32)
 
 
-def _ink(color: Color) -> Array:
-    """Give the bytes of an opaque pixel, four float32 in one number."""
-    return np.array([255 * c for c in (*color, 1.0)], np.float32).view(np.complex128)
-
-
-def _opaque(color: Color) -> Array:
-    """Give an opaque pixel, four bytes in one number."""
-    return np.array([int(255 * c + 0.5) for c in (*color, 1.0)], np.uint8).view(np.uint32)
+@memoized(maxsize=64)
+def _pixel(color: Color) -> tuple[Array, Array]:
+    """Give an opaque pixel: its four bytes in one number, and four float32 of them in one."""
+    levels = [255 * c for c in (*color, 1.0)]
+    whole = np.array([int(level + 0.5) for level in levels], np.uint8)
+    return whole.view(np.uint32), np.array(levels, np.float32).view(np.complex128)
 
 
 def lay(canvas: Array, full: Array, part: Array, share: Array, color: Color) -> None:
@@ -92,7 +91,7 @@ def lay(canvas: Array, full: Array, part: Array, share: Array, color: Color) -> 
     `share`, float32, has four equal numbers for each of the latter.
     """
     pixels = canvas.view(np.uint32).reshape(-1)
-    pixels[full] = _opaque(color)
+    pixels[full] = _pixel(color)[0]
     mixed = _mixed(pixels[part].view(np.uint8), share, _row(color, part.size))
     pixels[part] = mixed.astype(np.uint8).view(np.uint32)
 
@@ -104,7 +103,7 @@ def rectangle(canvas: Array, box: Box, color: Color, alpha: float = 1) -> None:
         return
     if alpha == 1 and all(edge == int(edge) for edge in box):
         x0, y0, x1, y1 = (max(int(edge), 0) for edge in box)
-        canvas.view(np.uint32)[y0:y1, x0:x1, 0] = _opaque(color)
+        canvas.view(np.uint32)[y0:y1, x0:x1, 0] = _pixel(color)[0]
         return
     x0, across = _interval(left, right)
     y0, down = _interval(top, bottom)
