@@ -79,6 +79,18 @@ OBSERVER_ITEMS = (
 )
 
 
+SIGMA = {
+    "name": "σ",
+    "description": "Roughness: standard deviation of the slope angle of the surface's facets",
+    "subtype": "ANGLE",
+    "precision": 1,
+    "step": 100,
+    "min": 0.0,
+    "max": limits.LARGEST_SIGMA,
+}
+"""The slider of σ, wherever it stands."""
+
+
 class RoughSpectraMaterial(PropertyGroup):
     """Measured spectrum of a material, its roughness, and what was derived from them."""
 
@@ -96,16 +108,7 @@ class RoughSpectraMaterial(PropertyGroup):
     )
     spectrum: StringProperty(name="Spectrum", description="Wavelengths and values, as JSON")
     details: StringProperty(name="Details", description="What else the file said, as JSON")
-    sigma: FloatProperty(
-        name="σ",
-        description="Roughness: standard deviation of the slope angle of the surface's facets",
-        subtype="ANGLE",
-        precision=1,
-        step=100,
-        min=0.0,
-        max=limits.LARGEST_SIGMA,
-        update=changes.on_setting,
-    )
+    sigma: FloatProperty(**SIGMA, update=changes.on_setting)
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
     illuminant: EnumProperty(
         name="Illuminant",

@@ -15,8 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
 from ....core.errors import MaterialError, RoughSpectraError
-from ....core.limits import LARGEST_SIGMA
-from ...material.properties import SHADER_ITEMS
+from ...material.properties import SHADER_ITEMS, SIGMA
 
 if TYPE_CHECKING:
     from ...matching.solution import Solution
@@ -38,15 +37,7 @@ _SWATCH_WIDTH = 1.6
 class AssignOptions:
     """Properties of every operator that assigns a spectrum."""
 
-    sigma: FloatProperty(
-        name="σ",
-        description="Roughness: standard deviation of the slope angle of the surface's facets",
-        subtype="ANGLE",
-        precision=1,
-        step=100,
-        min=0.0,
-        max=LARGEST_SIGMA,
-    )
+    sigma: FloatProperty(**SIGMA)
     shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
     scope: EnumProperty(name="For", description="Materials that get it", items=SCOPE_ITEMS)
 
