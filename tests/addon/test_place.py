@@ -56,17 +56,19 @@ def materials(make_material):
         for coordinate in COORDINATES:
             found.append(make_material(f"{coordinate} {number}", Roughness=0.4))
             textured(found[-1], coordinate, number)
+    # Under this surface light wanders about by random numbers.
+    found.append(make_material("Wax", "ShaderNodeBsdfPrincipled", Subsurface_Weight=1.0))
     return found
 
 
 def test_readings_do_not_depend_on_place_or_neighbors(materials):
     together = measure(materials)
     spread = together[0, :, 1, 0]
-    assert (spread[SPARE:] > 0.01).all()
+    assert (spread[SPARE:-1] > 0.01).all()
     np.testing.assert_array_equal(spread[:SPARE], 0)
     np.testing.assert_array_equal(measure(materials[::-1])[:, ::-1], together)
     np.testing.assert_array_equal(measure(materials[1::3]), together[:, 1::3])
-    for index in (3, SPARE + 2, SPARE + 5):
+    for index in (3, SPARE + 2, SPARE + 5, len(materials) - 1):
         np.testing.assert_array_equal(measure([materials[index]])[:, 0], together[:, index])
 
 
