@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of the model "surface" for `core.closure.table`, made by
-tools/tables/make_surface_table.py."""
+"""Numbers of the model "surface" for `core.closure.table`.
+
+Made by tools/tables/make_surface_table.py.
+"""
 
 from __future__ import annotations
 
