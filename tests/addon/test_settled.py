@@ -142,7 +142,7 @@ def derive_long_ago(material):
     group = material.rough_spectra
     group.sigma = math.radians(45)
     model = derivation.get_stamp(material).model
-    group.stamp = group.stamp.replace('"derivation": 1', '"derivation": 0').replace(
+    group.stamp = group.stamp.replace(f'"derivation": {derivation.DERIVATION}', '"derivation": 0').replace(
         f'"model": "{model}"', '"model": "first-order"'
     )
 
