@@ -11,6 +11,7 @@ from rough_spectra.addon import api
 from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.addon.interface.operators import common
 from rough_spectra.addon.material import derivation, snapshot, state
+from rough_spectra.addon.samples import quality
 from rough_spectra.core.errors import MaterialError
 
 OPS = bpy.ops.rough_spectra
@@ -127,7 +128,7 @@ def test_a_sigma_beyond_the_models_is_kept_and_told(tmp_path, link):
         "the node shows"
     )
     for act in (lambda: api.renew([material]), lambda: api.settle(material)):
-        with pytest.raises(MaterialError, match="'Wall': σ is 75°.*set σ to 60° or less"):
+        with pytest.raises(MaterialError, match=r"'Wall': σ is 75°.*set σ to 60° or less"):
             act()
     group.illuminant = "A"
     group.illuminant = "D65"
@@ -163,7 +164,7 @@ def test_a_sample_that_states_more_is_refused_by_its_name(tmp_path):
     steep = api.Sample(
         *("Moss", range(400, 710, 10), [0.2] * 31, "reading"), sigma_degrees=75, source="moss.json"
     )
-    with pytest.raises(api.InputError, match="moss.json, 'Moss': σ is 75°.*up to 60°"):
+    with pytest.raises(api.InputError, match=r"moss.json, 'Moss': σ is 75°.*up to 60°"):
         common.new_request(steep, math.radians(75))
 
 
@@ -175,3 +176,10 @@ def test_the_end_of_the_slider_is_taken_everywhere():
     assert state.state(material).kind == "fresh"
     assert OPS.assign_preset(preset="everyday/brick", sigma=math.radians(60)) == {"FINISHED"}
     assert api.settle(material).request.sigma == math.radians(60)
+
+
+def test_a_sample_that_states_more_is_named_when_imported():
+    steep = api.Sample("Moss", range(400, 710, 10), [0.2] * 31, "reading", sigma_degrees=75)
+    told = "'Moss' states a roughness that no material has: σ is 75°, and materials are matched"
+    assert [sentence[: len(told)] for sentence in quality.check([steep])[0]] == [told]
+    assert quality.check_each([steep]) == [()]  # of a material, σ is a setting

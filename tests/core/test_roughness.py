@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from core import roughness
 from core.errors import DomainError
 
