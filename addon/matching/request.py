@@ -30,7 +30,8 @@ class Request:
     sample
         The measured spectrum.
     sigma
-        Roughness σ, radians.
+        Roughness σ, radians, up to `limits.MATCHED_SIGMA`: tan σ is Rdq, the rms slope of a
+        profile; see `core.roughness`.
     model
         One of `core.models.NAMES`, or `AUTO`.
     illuminant
@@ -67,8 +68,10 @@ class Request:
             if not math.isfinite(value):
                 msg = f"{label} is not a number; set it again, or mend its driver."
                 raise DomainError(msg)
-        if not 0 <= self.sigma <= limits.LARGEST_SIGMA:
-            msg = f"σ is {self.sigma:g} radians; give 0 to π/2, as math.radians(30) is."
+        if not 0 <= self.sigma <= limits.MATCHED_SIGMA:
+            msg = f"σ is {self.sigma:g} radians; give 0 to π/3, as math.radians(30) is."
+            if limits.MATCHED_SIGMA < self.sigma <= limits.LARGEST_SIGMA:
+                msg = limits.sigma_fault(math.degrees(self.sigma))
             raise DomainError(msg)
         lowest, highest = limits.TOLERANCES
         if not lowest <= self.tolerance <= highest:
