@@ -33,6 +33,8 @@ _ZERO, _HALF, _ONE, _THREE_HALVES, _MINUS_TWO = _constants(0.0, 0.5, 1.0, 1.5, -
 _EIGHTY, _HUNDRED, _FIFTY_TO_7 = _constants(80.0, 100.0, 50.0**7)
 _LIGHTNESS, _CHROMA, _HUE_MEAN = _constants(0.0075, 0.0225, 0.0075 * np.sqrt(0.5))
 _HALF_ROOT, _TINY = _constants(np.sqrt(0.5), 1e-200)
+_ROUNDING = np.array(4 * np.finfo(np.float64).eps)
+"""Products of numbers that are exactly opposite may differ by this share."""
 _HUE_TERMS = _constants(
     *(
         np.sqrt(0.5) * 0.0075 * part * np.exp(1j * np.radians(shift))
@@ -190,26 +192,25 @@ def _half_turn(ab: Array, chroma: Array) -> Array:
     """
     product = ab[0].conj()
     product *= ab[1]
-    along, cross = product.real, product.imag
+    cosine, sine = product.real, product.imag
     length = chroma[0] * chroma[1]
-    wide = along < _ZERO
-    if not np.count_nonzero(wide):
-        length += along
-        length += _TINY  # a gray has no hue, and weighs nothing
-        np.sqrt(length, out=along)
-        cross /= along
-        return np.asarray(product)
-    limit = 4 * np.finfo(np.float64).eps * length
-    larger = np.sqrt(length + np.abs(along) + _TINY)
-    smaller = np.abs(cross) / larger
-    # Of opposite hues, such as (2.49, -0.001) and (-2.49, 0.001), neither arc is shorter: there the
-    # one that does not pass 0 is taken, as the difference of angles from 0 to 2π would be. Products
-    # of numbers that are exactly opposite differ by rounding.
-    a, b = ab[0].real, ab[0].imag
-    from_below = np.where(b == 0, a > 0, b > 0)
-    forward = np.where(wide & (np.abs(cross) <= limit), from_below, cross > 0)
-    along[...] = np.where(wide, smaller, larger)
-    cross[...] = np.where(forward, 1.0, -1.0) * np.where(wide, larger, smaller)
+    [wide] = (cosine < _ZERO).nonzero()
+    length += np.abs(cosine) if wide.size else cosine
+    length += _TINY  # a gray has no hue, and weighs nothing
+    np.sqrt(length, out=cosine)
+    sine /= cosine
+    if wide.size:
+        larger, smaller = cosine[wide], np.abs(sine[wide])
+        forward = sine[wide]
+        opposite = smaller <= _ROUNDING * larger
+        if np.count_nonzero(opposite):
+            # Of opposite hues, such as (2.49, -0.001) and (-2.49, 0.001), neither arc is shorter:
+            # there the one that does not pass 0 is taken, as the difference of angles from 0 to 2π
+            # would be.
+            one = ab[0, wide]
+            from_below = np.where(one.imag == 0, one.real > 0, one.imag > 0)
+            forward = np.where(opposite, np.where(from_below, 1.0, -1.0), forward)
+        cosine[wide], sine[wide] = smaller, np.copysign(larger, forward)
     return np.asarray(product)
 
 
