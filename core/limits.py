@@ -13,6 +13,9 @@ LARGEST_SIGMA_DEGREES = 90.0
 LARGEST_SIGMA = math.radians(LARGEST_SIGMA_DEGREES)
 """The same in radians."""
 
+USUAL_MODEL = "closure"
+"""Model of `core.models` that is meant where all bounces are to count and none is named."""
+
 TOLERANCE = 1.0
 """Largest color difference from the reference, ΔE00, that a simpler model may have, unless the user
 sets another."""
