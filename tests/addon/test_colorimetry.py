@@ -217,8 +217,8 @@ def test_brick_does_not_agree_under_another_light(nix):
 def test_patch_14_of_the_2007_report(colorchecker, observer, apart, same_luminance):
     """ColorChecker 14, green, as the albedo at σ = π/4 under D65: how far the reading moves.
 
-    Zuffi and Gagliardi (2007) report 3.83 in the a*b* plane from a chart they measured; these are
-    the numbers for Ohta's spectrum. Luminance held equal means: the rough reading, times the one
+    Zuffi and Gagliardi (2007) print 3.83 in the a*b* plane and do not say of whose spectrum; these
+    are the numbers for Ohta's. Luminance held equal means: the rough reading, times the one
     number that gives it the Y of the smooth patch, is what a rough surface under more light looks
     like; what then is left in a*b* is the change of the spectrum's shape by interreflection.
     """
