@@ -43,7 +43,7 @@ _HUE_TERMS = _constants(
 )
 """Of cos h, cos 2h, cos 3h and cos 4h in `_hue_weight`, with their shifts; the odd ones are turned
 by 180°, as the hue is."""
-_BLUE, _BLUE_WIDTH = np.radians(275 - 180), np.radians(25)
+_BLUE, _BLUE_WIDTH = np.radians(275) - np.pi, np.radians(25)
 _BLUE_TERMS = _constants(
     np.log(np.pi / 3) - (_BLUE / _BLUE_WIDTH) ** 2, 2 * _BLUE / _BLUE_WIDTH**2, -(_BLUE_WIDTH**-2)
 )
