@@ -20,6 +20,7 @@ files and menus take no more."""
 MATCHED_SIGMA = math.radians(MATCHED_SIGMA_DEGREES)
 """The same in radians."""
 
+
 TOLERANCE = 1.0
 """Largest color difference from the reference, ΔE00, that a simpler model may have, unless the user
 sets another."""

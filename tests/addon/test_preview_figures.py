@@ -19,7 +19,7 @@ from rough_spectra.addon.preview.drawing import (
     text,
 )
 from rough_spectra.addon.preview.figures import compose, data, plot
-from rough_spectra.core import reading
+from rough_spectra.core import feasible, reading
 from rough_spectra.core.color import color_difference
 
 DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
@@ -115,6 +115,52 @@ def test_bars_stand_at_their_values(look):
         assert row_of(canvas, look.blender, int(x), axes.box) == pytest.approx(y, abs=0.5)
         [[left, _]] = axes.place([start], [value])
         assert canvas[int(y), int(left) + 2, 3] > 0.9
+
+
+@LOOKS
+@pytest.mark.parametrize("scale", [1, 2])
+def test_the_albedos_that_a_reading_leaves_open_are_shaded_and_nothing_else(look, scale):
+    look, size = scaled(look, scale), (SIZE[0] * scale, SIZE[1] * scale)
+    nm = np.arange(380.0, 731, 10)
+    low, nothing = 0.2 + 0.1 * np.sin(nm / 60), np.zeros(nm.size)
+    high = low + 0.25
+    bare = drawn(figures.spectrum, size, nm, nothing, np.full(nm.size, 0.55), [], look)
+    shown = drawn(
+        figures.spectrum, size, nm, nothing, np.full(nm.size, 0.55), [], look, (low, high)
+    )
+    axes = figures.spectrum_axes(size, look, 0.55)
+    changed = np.abs(shown - bare).max(axis=2)
+    columns = np.arange(axes.left + 3, axes.right - 3)
+    at = np.interp(columns + 0.5, (axes.left, axes.right), axes.x)
+    for column, wavelength in zip(columns, at, strict=True):
+        top, bottom = (axes.down(float(np.interp(wavelength, nm, side))) for side in (high, low))
+        rows = np.arange(axes.top, axes.bottom) + 0.5
+        inside = (rows > top + 2) & (rows < bottom - 2)
+        outside = (rows < top - 2) | (rows > bottom + 2)
+        # A grid line has nearly the color of what is laid over it.
+        seen = changed[axes.top : axes.bottom, column]
+        assert (seen[inside] > 0.05).mean() > 0.9
+        assert seen[outside].max() == 0
+
+
+def test_open_albedos_are_those_of_the_measured_reading_whatever_sigma(green):
+    space = working_space.current()
+    request = solve.Request(replace(green, kind="reading"), np.radians(20), "closure")
+    first, later = (
+        data.of_request(replace(request, sigma=np.radians(degrees)), np.full(3, 0.2), 0.3, space)
+        for degrees in (20, 50)
+    )
+    low, high = first.open_albedos
+    expected = feasible.albedo_range(green.reflectance, "closure")
+    np.testing.assert_array_equal(low, expected.lowest)
+    np.testing.assert_array_equal(high, expected.highest)
+    # The same arrays: while σ is dragged they are searched and shaded once.
+    assert later.open_albedos is first.open_albedos
+    for shown in (first, later):
+        assert (shown.albedo >= low - 1e-4).all()
+        assert (shown.albedo <= high + 1e-4).all()
+    known = solve.Request(replace(green, kind="albedo"), np.radians(20), "closure")
+    assert data.of_request(known, np.full(3, 0.2), 0.3, space).open_albedos is None
 
 
 def test_swatches_have_exactly_their_colors():
