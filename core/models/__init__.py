@@ -6,7 +6,8 @@ lambert       r = ρ
 first-order   r = F1 ρ                             light that leaves after one bounce
 two-bounce    r = F1 ρ + F2 ρ²                     the published model: `core.oren_nayar`
 closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: `core.closure`
-reference     r = Σ a_k ρ^k                        what the others approximate: `core.vcavity`
+reference     r = Σ a_k ρ^k                        the V-cavity itself: `core.vcavity`
+surface       r = ρ (b + a / (1 + √(1 - g ρ)))     random surfaces, traced: `core.surface`
 
 A model is added by its line here, before the reference, and its file: core/models/<name>.py with
 the three functions of `Formulas`. Everything that lists models follows: `core.reading`, the choice
@@ -91,6 +92,7 @@ _MODELS = (
     Model(
         "reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5
     ),
+    Model("surface", "Surface", "Random rough surfaces, all bounces, traced and tabulated", 6),
 )
 
 REGISTRY: Mapping[str, Model] = MappingProxyType({model.name: model for model in _MODELS})

@@ -19,7 +19,7 @@ import pytest
 from tests.architecture.house import ROOT
 
 MODEL = """\
-    Model("almost", "Almost", "The reference under another name", 6),
+    Model("almost", "Almost", "The reference under another name", 99),
 """
 INSTRUMENT = """\
     Instrument(
@@ -342,7 +342,7 @@ def test_a_file_format_of_one_file_is_found_everywhere(found):
 
 
 def test_a_model_of_one_line_and_one_file_is_found_everywhere(found):
-    rungs = ["lambert", "first-order", "two-bounce", "closure", "almost", "reference"]
+    rungs = ["lambert", "first-order", "two-bounce", "closure", "almost", "reference", "surface"]
     assert found["names"] == found["rungs"] == rungs
     # Where the closure is off by 8 %, the ladder now has something cheaper than the reference.
     assert found["chosen"] == "almost"
@@ -350,7 +350,7 @@ def test_a_model_of_one_line_and_one_file_is_found_everywhere(found):
     for almost, reference in (found["directions"], found["readings"]):
         assert almost == reference
     assert list(found["menus"]["model"]) == ["auto", *rungs]
-    assert found["menus"]["model"]["almost"] == [6, "Almost", "The reference under another name"]
+    assert found["menus"]["model"]["almost"] == [99, "Almost", "The reference under another name"]
     assert found["titles"][0] == "Almost"
     assert (found["assign"][0], found["error"]) == (0, "")
     assert (found["stored"][0], found["stored"][2]) == ("almost", "almost")
