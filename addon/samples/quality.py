@@ -36,12 +36,14 @@ WIDEST_STEP = 20.0
 GAP = 2.5
 """A step this many times the median one is a hole in the table, not its grid."""
 
+NO_COLOR = "it has no color, and no material can be made from it; it serves for emissivity."
+"""How a sentence on a sample ends that the eye sees nothing of."""
+
 _HARMLESS_STEP = 5.0  # nm; ASTM E308 calls its 5 nm weights equal to the 1 nm sum
 _END_TOLERANCE = 1.0  # nm; spectrometers begin at 400.2
 _PLATEAU = 3  # bands
 _SHARP = 5  # units of the last digit; see `_saturation`
 _LEFT_OUT = 0.1  # share of the color from which `tristimulus` refuses
-_NO_COLOR = "it has no color, and no material can be made from it; it serves for emissivity."
 _VALUES_AT_ONCE = 1_000_000  # 8 MB
 _ROUNDING = 1e-6
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -196,7 +198,7 @@ def _noise(nm: Array, values: Array) -> _Found:
 
 
 def _emissivity(nm: Array, values: Array) -> Iterator[str]:
-    yield f"holds emissivity, of {nm[0]:g} to {nm[-1]:g} nm: {_NO_COLOR}"
+    yield f"holds emissivity, of {nm[0]:g} to {nm[-1]:g} nm: {NO_COLOR}"
     for outside, peak, limit in (
         (values > 1, int(values.argmax()), "above 1"),
         (values < 0, int(values.argmin()), "below 0"),
@@ -272,7 +274,7 @@ def _range(nm: Array) -> Iterator[str]:
     if nm[0] <= COLOR_NM[0] + _END_TOLERANCE and nm[-1] >= COLOR_NM[1] - _END_TOLERANCE:
         return
     if nm[0] > EYE_NM[1] or nm[-1] < EYE_NM[0]:
-        yield f"covers {nm[0]:g} to {nm[-1]:g} nm, where the eye sees nothing: {_NO_COLOR}"
+        yield f"covers {nm[0]:g} to {nm[-1]:g} nm, where the eye sees nothing: {NO_COLOR}"
         return
     held = tristimulus.held_share(nm)
     covers = (

@@ -157,8 +157,8 @@ class Sample:
         """
         if kind != self.kind and "emissivity" in (kind, self.kind):
             raise InputError(
-                f"{self._where}: {self.name!r} holds {_HOLDS.get(self.kind, self.kind)}, and cannot "
-                f"be taken as {_HOLDS.get(kind, kind)}; leave the kind as the file says."
+                f"{self._where}: {self.name!r} holds {_HOLDS[self.kind]}, and cannot be taken as "
+                f"{_HOLDS.get(kind, kind)}; leave the kind as the file says."
             )
         return self if kind == self.kind else replace(self, kind=kind)
 

@@ -47,6 +47,7 @@ def series(
     theta: npt.ArrayLike,
     sigma: npt.ArrayLike,
     *,
+    slopes: str = slope_law.DEFAULT,
     resolution: Resolution = STANDARD,
 ) -> Array:
     """Rows of `core.vcavity.bounce_series` of ρ_dh: a_1 … a_K and the tail, float64.
@@ -57,6 +58,8 @@ def series(
         Polar angle of the light, or of the view, radians in [0, π/2].
     sigma
         Roughness, radians in [0, π/2]; broadcasts against `theta`.
+    slopes
+        The slope law: a name in `core.vcavity.slope_law.LAWS`.
     resolution
         Node counts; azimuths are not among them here.
 
@@ -68,11 +71,11 @@ def series(
     Raises
     ------
     DomainError
-        If an angle lies outside its range. NaN gives a row of NaN.
+        If an angle lies outside its range or the slope law is not known. NaN gives a row of NaN.
 
     Examples
     --------
-    >>> row = series(0.0, np.radians(30))
+    >>> row = series(0.0, np.radians(30), slopes="oren-nayar")
     >>> np.round(1 - bounce_series.evaluate(row, np.array([0.5, 1.0])), 3).tolist()
     [0.573, 0.0]
     >>> series(0.7, 0.0)[:3].tolist()
@@ -85,7 +88,7 @@ def series(
     known = np.isfinite(light) & np.isfinite(spread)
     directions, which = np.unique(light[known], return_inverse=True)
     sigmas, roughness = np.unique(spread[known], return_inverse=True)
-    weights = slope_law.weights(sigmas, resolution.slopes)
+    weights = slope_law.weights(sigmas, resolution.slopes, slopes)
     of_each = _response(directions.tobytes(), resolution)
     # Of each pair that is asked for, not of every direction at every roughness.
     found = np.einsum("ns,nsk->nk", weights[roughness.ravel()], of_each[which.ravel()])

@@ -106,7 +106,7 @@ def test_an_emissivity_is_kept_as_stated_and_computed_as_what_is_not_emitted():
     sample = Sample("sand", [8000.0, 9000.0, 10000.0], stated, "emissivity")
     assert sample.values.tolist() == stated
     assert sample.reflectance.tolist() == [0.8, 0.0, 1.0]
-    with pytest.raises(InputError, match="half of the emissivities are above 95.*percent"):
+    with pytest.raises(InputError, match=r"half of the emissivities are above 95.*percent"):
         Sample("sand", [8000.0, 9000.0, 10000.0], [94.0, 95.0, 96.0], "emissivity")
 
 

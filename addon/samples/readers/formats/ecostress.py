@@ -61,8 +61,8 @@ def read(document: Document) -> list[Sample]:
     Raises
     ------
     InputError
-        The values are neither reflectance nor emissivity, a unit is missing or not known, rows are missing, or the
-        spectrum is not one (`check_spectrum`).
+        The values are neither reflectance nor emissivity, a unit is missing or not known, rows are
+        missing, or the spectrum is not one (`check_spectrum`).
     """
     keys, top = _header(document)
     kind, scale, said = _values(document, keys)
