@@ -103,7 +103,7 @@ def read(
     Returns
     -------
     At least one sample. A `Sample` has, among others, `name`; `wavelengths` in nanometers and
-    `values` as fractions, both of shape (bands,); and `kind`, "reading" or "albedo".
+    `values` as fractions, both of shape (bands,); and `kind`, "reading", "albedo" or "emissivity".
 
     Raises
     ------
@@ -228,7 +228,7 @@ def request(
     if sigma is None:
         sigma = radians(sample.sigma_degrees or 0.0)
     if kind is not None:
-        sample = replace(sample, kind=kind)
+        sample = sample.taken_as(kind)
     return Request(
         sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
     )

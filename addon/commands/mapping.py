@@ -20,7 +20,7 @@ from ...core.errors import InputError, MaterialError
 from .. import api
 from ..material import preferences, selection
 from ..samples import library, readers
-from ..samples.sample import KINDS, Kind, Sample
+from ..samples.sample import COLORED, Kind, Sample
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
 
@@ -215,11 +215,11 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> R
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
     sample = samples.find(where, cells["sample"], cells["file"])
-    if cells["kind"] and cells["kind"] not in KINDS:
+    if cells["kind"] and cells["kind"] not in COLORED:
         msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
         raise InputError(msg)
     if cells["kind"]:
-        sample = replace(sample, kind=cast(Kind, cells["kind"]))
+        sample = sample.taken_as(cast(Kind, cells["kind"]))
     sigma = StatedSigma(*(_number(where, name, cells[name]) for name in _SIGMA))
     _, fault = sigma.fault(_SIGMA)
     if fault:

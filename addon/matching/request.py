@@ -50,7 +50,8 @@ class Request:
     Raises
     ------
     DomainError
-        If a setting is none that a material could store, as a driver or a script may leave it.
+        If a setting is none that a material could store, as a driver or a script may leave it, or
+        the sample has no color.
     """
 
     sample: Sample
@@ -64,6 +65,17 @@ class Request:
 
     def __post_init__(self) -> None:
         """Refuse what would spread through every color, or stop the writing of many materials."""
+        if not self.sample.has_color:
+            nm = self.sample.wavelengths
+            holds = (
+                "emissivity" if self.sample.kind == "emissivity" else "nothing that the eye sees"
+            )
+            msg = (
+                f"{self.sample.source or 'Sample'}, {self.sample.name!r}: it holds {holds}, "
+                f"{nm[0]:g} to {nm[-1]:g} nm, so it has no color for a material; take a visible "
+                "reading or albedo, and this one for 'emissivity'."
+            )
+            raise DomainError(msg)
         for label, value in (("σ", self.sigma), ("The tolerance", self.tolerance)):
             if not math.isfinite(value):
                 msg = f"{label} is not a number; set it again, or mend its driver."

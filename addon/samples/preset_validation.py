@@ -53,7 +53,8 @@ def validate(path: Path) -> Verdict:
     except InputError as error:
         return Verdict((*faults, str(error)), ())
     first, last = sample.wavelengths[0], sample.wavelengths[-1]
-    if first > COLOR_NM[0] or last < COLOR_NM[1]:
+    # What has no color serves for emissivity, and a remark says so.
+    if sample.has_color and (first > COLOR_NM[0] or last < COLOR_NM[1]):
         sentence = (
             f"it covers {first:g} to {last:g} nm, but a color needs {COLOR_NM[0]:g} to "
             f"{COLOR_NM[1]:g} nm; measure the whole range"

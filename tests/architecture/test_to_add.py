@@ -46,8 +46,7 @@ FILES = {
     "core/models/almost.py": '''
         """The model "almost": the reference under another name."""
 
-        from ..vcavity import reflectance
-        from .reference import from_albedo, to_albedo
+        from .reference import from_albedo, reflectance, to_albedo
 
         __all__ = ["from_albedo", "reflectance", "to_albedo"]
     ''',

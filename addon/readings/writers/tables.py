@@ -69,7 +69,7 @@ def predicted(readings: Readings) -> bytes:
                 ),
             ]
         )
-    return _csv(comments, header, lines)
+    return csv_of(comments, header, lines)
 
 
 def measured(readings: Readings) -> bytes:
@@ -92,7 +92,7 @@ def measured(readings: Readings) -> bytes:
         ]
         for entry, part in rows
     ]
-    return _csv(comments, header, lines)
+    return csv_of(comments, header, lines)
 
 
 def nanometers(wavelength: float) -> str:
@@ -130,7 +130,8 @@ def _guarded(found: re.Match[str]) -> str:
     return f"{found[1]}'{found[2]}"
 
 
-def _csv(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
+def csv_of(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
+    """Give a table: comments, the names of its columns, and its rows, cells as `to_cell` gives."""
     text = io.StringIO()
     text.writelines(f"# {_DELIMITED.sub(_guarded, printable(line))}\n" for line in comments)
     table = csv.writer(text, lineterminator="\n")

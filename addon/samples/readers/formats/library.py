@@ -23,7 +23,7 @@ import numpy as np
 
 from .....core.errors import InputError
 from .....core.instruments import REGISTRY
-from ...sample import KINDS, Sample, check_spectrum
+from ...sample import KINDS, KINDS_NAMED, Sample, check_spectrum
 from ...stated_sigma import FIELDS, StatedSigma
 from ..parts.document import Document, quote
 
@@ -208,7 +208,7 @@ def _are_texts(value: Any) -> bool:
 
 _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "str": (lambda value: isinstance(value, str), "a text"),
-    "Kind": (lambda value: value in KINDS, "'reading' or 'albedo'"),
+    "Kind": (lambda value: value in KINDS, KINDS_NAMED),
     "float | None": (lambda value: value is None or _is_number(value), "a number or null"),
     "int | None": (lambda value: value is None or type(value) is int, "a whole number or null"),
     "tuple[float, float, float] | None": (

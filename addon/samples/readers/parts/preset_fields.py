@@ -16,7 +16,7 @@ from typing import Any
 
 from .....core.instruments import REGISTRY
 from .....core.limits import LARGEST_SIGMA_DEGREES, MATCHED_SIGMA_DEGREES, sigma_fault
-from ...sample import KINDS
+from ...sample import KINDS, KINDS_NAMED
 from ...stated_sigma import FIELDS, StatedSigma
 from .document import quote
 
@@ -154,7 +154,7 @@ RULES: dict[str, Rule] = {
     "name": _text(required=True),
     "source": _text(required=True),
     "license": _text(required=True),
-    "kind": _rule(lambda value: value in KINDS, "must be 'reading' or 'albedo'", required=True),
+    "kind": _rule(lambda value: value in KINDS, f"must be {KINDS_NAMED}", required=True),
     "instrument": _choice(tuple(REGISTRY), required=True),
     "sigma_degrees": _rule(
         _is_sigma,
