@@ -137,7 +137,7 @@ def sensitivity(measured: Measured, model: str, fitted: Fitted, square: Array) -
 
 
 def unexplained(measured: Measured, fitted: Fitted, change: Array) -> Array:
-    """Give what of a change of readings no change of albedo explains; shapes (..., readings, bands).
+    """Give what of a change of readings no albedo explains; shapes (..., readings, bands).
 
     Examples
     --------

@@ -158,10 +158,13 @@ def _check_bands(readings: Sequence[Reading], names: Sequence[str]) -> None:
     wavelengths, owner = None, ""
     for reading, name in zip(readings, names, strict=True):
         shape = np.shape(reading.values)
-        if len(shape) != 1 or shape != first.shape or not shape[0]:
+        if len(shape) != 1 or not shape[0]:
+            msg = f"{name} has values of shape {shape}; give one value a band."
+            raise DomainError(msg)
+        if shape != first.shape:
             msg = (
-                f"{name} has values of shape {shape} and {names[0]} of {first.shape}; give "
-                "readings of the same bands."
+                f"{names[0]} has {first.size} bands and {name} {shape[0]}; export both with the "
+                "same wavelengths."
             )
             raise DomainError(msg)
         if reading.wavelengths is None:

@@ -285,8 +285,11 @@ def test_nothing_but_bad_bands_is_no_reading():
     [
         ([], "None of the readings is of a rough surface"),
         ([Reading(ALBEDO, rough=False)], "None of the readings is of a rough surface"),
-        ([Reading(ALBEDO), Reading(ALBEDO[1:])], "same bands"),
-        ([Reading(0.5)], "same bands"),
+        (
+            [Reading(ALBEDO), Reading(ALBEDO[1:])],
+            "reading 1 has 16 bands and reading 2 15; export both",
+        ),
+        ([Reading(0.5)], "give one value a band"),
         ([Reading(ALBEDO, wavelengths=[400, 500])], "2 wavelengths and 16 values"),
         (
             [
