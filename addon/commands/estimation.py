@@ -41,8 +41,7 @@ class Surface:
 
     @property
     def samples(self) -> list[tuple[int, bool, Sample]]:
-        """Every sample with the number of its material and whether it is rough, in the order of
-        the estimate's readings."""
+        """Number of material, whether rough, and sample, in the order of an estimate's readings."""
         return [
             (number, rough, sample)
             for number, pair in enumerate(self.materials)
@@ -131,9 +130,7 @@ def _by_names(files: Sequence[Path], smooth: Sequence[str], rough: Sequence[str]
     return Surface("rough", [([of_smooth], [of_rough]) for of_smooth, of_rough in pairs])
 
 
-def table(
-    found: Sequence[tuple[Surface, Estimate]], relative: float, absolute: float
-) -> bytes:
+def table(found: Sequence[tuple[Surface, Estimate]], relative: float, absolute: float) -> bytes:
     """Give the estimates as CSV: a row a reading, with what its surface's σ is."""
     models = list(dict.fromkeys(name for _, estimate in found for name in estimate.by_model))
     bands = sorted(

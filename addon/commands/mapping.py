@@ -197,9 +197,7 @@ class Samples:
         return self._named[name]
 
 
-def _json_records(
-    path: Path, text: str, fields: Sequence[str]
-) -> list[tuple[str, dict[str, Any]]]:
+def _json_records(path: Path, text: str, fields: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:

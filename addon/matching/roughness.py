@@ -61,7 +61,7 @@ def summary(found: Estimate) -> str:
         sentence += f", {_range(found.spread)} over the models {', '.join(found.by_model)}"
     sentence += "."
     if found.interval[0] == 0 or found.interval[1] >= estimate.LARGEST:
-        sentence += f" {found.reason[:1].upper()}{found.reason[1:]}"
+        sentence += f" {found.reason}"
     return sentence
 
 

@@ -58,6 +58,9 @@ _UNLIKELY = 5.0
 _TOO_BRIGHT = 3.0
 """Model errors beyond a smooth surface from which no roughness explains a reading."""
 
+_TOO_FAR = 10.0
+"""Model errors of residuals, over all bands, from which the readings are not of one material."""
+
 _ANY_ERROR = 1e3
 """A model error that explains whatever is the same in all bands."""
 
@@ -270,13 +273,19 @@ def _why_not(
             "σ can't be told: the rough surface reads brighter than the smooth one, which no "
             "roughness does; look for gloss, another white, or another material."
         )
-    if open_range[1] - open_range[0] < TOO_OPEN:
-        return ""
-    low, high = np.degrees(open_range)
-    return (
-        f"σ can't be told: {_cause(measured, found)}; anything from {low:.0f}° to {high:.0f}° "
-        f"explains them, if the model misses them by {100 * MODEL_ERROR:g} %."
-    )
+    if open_range[1] - open_range[0] >= TOO_OPEN:
+        low, high = np.degrees(open_range)
+        return (
+            f"σ can't be told: {_cause(measured, found)}; anything from {low:.0f}° to {high:.0f}° "
+            f"explains them, if the model misses them by {100 * MODEL_ERROR:g} %."
+        )
+    miss = _miss(measured, fitted)
+    if miss > _TOO_FAR * MODEL_ERROR:
+        return (
+            f"σ can't be told: the best one still misses the readings by {100 * miss:.0f} % (rms), "
+            "more than a diffuse surface of one material; look for gloss or for the wrong sample."
+        )
+    return ""
 
 
 def _is_brighter(measured: Measured, fitted: likelihood.Fitted) -> bool:
@@ -285,6 +294,14 @@ def _is_brighter(measured: Measured, fitted: likelihood.Fitted) -> bool:
         likelihood.allowing(measured, fitted, error) for error in (_ANY_ERROR, MODEL_ERROR)
     )
     return bool(bound - free > _TOO_BRIGHT**2)
+
+
+def _miss(measured: Measured, fitted: likelihood.Fitted) -> float:
+    """Give the residuals' size as a share of the readings', over all bands."""
+    used = measured.weights > 0
+    size = float(np.sum(measured.values[used] ** 2))
+    left = float(np.sum((measured.values - fitted.predicted)[used] ** 2))
+    return float(np.sqrt(left / size)) if size > 0 else 0.0
 
 
 def _cause(measured: Measured, found: Found) -> str:

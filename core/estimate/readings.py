@@ -10,13 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .. import instruments
+from .. import instruments, limits
 from ..errors import DomainError
 from ..numerics.arrays import Array
 
-RELATIVE = 0.001
-"""Repeatability of a reading unless it is stated, as a share of it: makers of spectrophotometers
-promise a standard deviation of some 0.1 % for a white tile."""
+RELATIVE = limits.REPEATABILITY
+"""Repeatability of a reading unless it is stated, as a share of it."""
 
 ABSOLUTE = 0.0001
 """What is added to it, in quadrature: files print four decimals, and black is never quiet."""

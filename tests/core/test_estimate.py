@@ -192,6 +192,13 @@ CANNOT = {
     "black": pair(np.zeros(16), 30),
     "one angle twice": [Reading(ALBEDO), Reading(ALBEDO)],
 }
+CAUSES = {
+    "one reading": "from one reading",
+    "another material": "share no material and band",
+    "white": "white reads the same",
+    "black": "black reads the same",
+    "one angle twice": "an albedo explains as well",
+}
 for _degrees in (0, 15, 30, 45):
     CANNOT[f"45°/0° and sphere at {_degrees}°"] = [
         Reading(
@@ -209,6 +216,7 @@ def test_what_cannot_be_told_is_not_told(case, model):
         assert not found.is_told
         assert math.isnan(found.sigma)
         assert found.reason.startswith("σ can't be told")
+        assert CAUSES.get(case, "") in found.reason
         assert found.reason.endswith(".")
         low, high = found.interval
         assert high - low >= math.radians(20)
@@ -240,6 +248,12 @@ def test_one_brighter_by_more_than_any_error_contradicts_every_roughness():
     found = estimate.sigma([Reading(ALBEDO, rough=False), Reading(1.04 * ALBEDO)], others=())
     assert not found.is_told
     assert "brighter than the smooth one" in found.reason
+
+
+def test_readings_of_two_materials_are_not_taken_for_one():
+    found = estimate.sigma([Reading(ALBEDO, rough=False), Reading(ALBEDO[::-1] * 0.8)], others=())
+    assert not found.is_told
+    assert "the wrong sample" in found.reason
 
 
 def test_one_brighter_by_little_leaves_what_the_model_may_miss():

@@ -60,9 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="standard deviation of repeated readings, percent of the reading; "
         f"{100 * estimate.RELATIVE:g} without it, and {100 * estimate.ABSOLUTE:g} of white besides",
     )
-    parser.add_argument(
-        "--output", type=Path, required=True, metavar="FILE", help="the table, CSV"
-    )
+    parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="the table, CSV")
 
 
 def run(options: argparse.Namespace) -> int:
