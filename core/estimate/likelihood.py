@@ -21,8 +21,11 @@ from .. import ladder, reading
 from ..numerics.arrays import Array
 from .readings import Directions, Measured
 
-STEPS = 4
+STEPS = 3
 """Of Gauss and Newton toward an albedo; the first guess is the readings' own mean albedo."""
+
+FEW_STEPS = 2
+"""Where the albedo of a σ nearby is known."""
 
 _ALBEDO_STEP = 1e-5
 """Difference of albedo for dR/dρ."""
@@ -95,7 +98,7 @@ def fit(
     albedo
         To begin with; without it, what each reading says by itself.
     steps
-        Of Gauss and Newton: two do, to tell good σ from bad ones.
+        Of Gauss and Newton.
 
     Examples
     --------
@@ -196,9 +199,10 @@ def allowing(measured: Measured, fitted: Fitted, error: float) -> Array:
 
 
 def _slope(measured: Measured, model: str, rho: Array, sigma: Array) -> tuple[Array, Array]:
-    """R and dR/dρ."""
-    predicted = predict(measured, model, rho, sigma)
-    brighter = predict(measured, model, rho + _ALBEDO_STEP, sigma)
+    """R and dR/dρ, for one look at what depends on σ alone."""
+    lead = np.broadcast_shapes(rho.shape[:-2], sigma.shape)
+    own = np.broadcast_to(rho, (*lead, *rho.shape[-2:]))
+    predicted, brighter = predict(measured, model, np.stack((own, own + _ALBEDO_STEP)), sigma)
     return predicted, (brighter - predicted) / _ALBEDO_STEP
 
 

@@ -22,13 +22,13 @@ from .readings import Measured
 QUANTILE = 1.959964
 """Of the normal distribution, for 95 % within both sides."""
 
-_STEPS = 8
+_STEPS = 6
 """Of Gauss and Newton toward the lowest point; four are enough but at σ → 0."""
 
-_GRID_STEPS = 2
+_GRID_STEPS = 1
 """Toward the albedos of the grid, where only the valley is looked for."""
 
-_END_STEPS = 10
+_END_STEPS = 7
 """Of regula falsi (Illinois) toward an end of the interval."""
 
 _AT_ONCE = 1 << 20
@@ -107,7 +107,9 @@ def _descend(
         information = np.sum(measured.weights * free * free, axis=(-2, -1))
         step = np.divide(pull, information, out=np.zeros_like(pull), where=information > 0)
         tried = np.clip(square + reach * step, low, high)
-        there = likelihood.fit(measured, model, values, np.sqrt(tried), best.albedo)
+        there = likelihood.fit(
+            measured, model, values, np.sqrt(tried), best.albedo, likelihood.FEW_STEPS
+        )
         better = there.chi_square <= best.chi_square
         reach = np.where(better, 1.0, reach / 4)
         square = np.where(better, tried, square)
@@ -163,7 +165,9 @@ def _crossing(
     """
 
     def above(square: Array) -> Array:
-        there = likelihood.fit(measured, model, values, np.sqrt(square), best[1].albedo)
+        there = likelihood.fit(
+            measured, model, values, np.sqrt(square), best[1].albedo, likelihood.FEW_STEPS
+        )
         return np.sqrt(np.maximum(there.chi_square - best[1].chi_square, 0)) - QUANTILE
 
     at_inner, at_outer = above(inner), above(outer)
