@@ -17,7 +17,7 @@ The examples are run as tests, with the names of this module, `bpy`, `Path` and 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from math import degrees, radians
@@ -34,9 +34,11 @@ from ..core.errors import (
     OutputError,
     RoughSpectraError,
 )
+from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
+from .matching import roughness
 from .matching.assess import Differences
 from .matching.request import AUTO, Request
 from .matching.solution import Solution
@@ -56,6 +58,7 @@ __all__ = [
     "CancelledError",
     "Differences",
     "DomainError",
+    "Estimate",
     "InputError",
     "MaterialError",
     "OutputError",
@@ -70,6 +73,7 @@ __all__ = [
     "assign",
     "bake",
     "differences",
+    "estimate",
     "find",
     "keep",
     "materials",
@@ -162,6 +166,53 @@ def find(name: str) -> Sample:
     'ColorChecker 14 Green'
     """
     return library.load(name, preferences.user_folder())
+
+
+def estimate(
+    materials: Iterable[tuple[Sample | Sequence[Sample] | None, Sample | Sequence[Sample]]],
+    *,
+    model: str | None = None,
+    repeatability: float = RELATIVE,
+) -> Estimate:
+    r"""Estimate the roughness σ that rough surfaces share, from what was read of them.
+
+    Parameters
+    ----------
+    materials
+        Of each material what was read of a smooth surface (or its albedo, or None), and what was
+        read of the rough one. A list holds readings of several instruments or angles.
+    model
+        One of `core.models.NAMES` that knows roughness; None takes the usual one.
+    repeatability
+        Standard deviation of repeated readings, as a share of the reading.
+
+    Returns
+    -------
+    Its `is_told` says whether the readings tell σ, and `reason` why they don't, or what limits it.
+    `sigma` is in radians, NaN where it can't be told; `interval` is what noise leaves open, 95 %;
+    `by_model` is σ by each model, and `spread` its range; `albedo`, `residuals` and `notes`.
+
+    Raises
+    ------
+    DomainError
+        The samples cannot be used together, or the model does not know roughness.
+
+    Examples
+    --------
+    >>> columns = [(400, 0.61, 0.53), (500, 0.50, 0.42), (600, 0.32, 0.26), (700, 0.43, 0.35)]
+    >>> rows = "".join(f"{nm},{smooth},{rough}\n" for nm, smooth, rough in columns)
+    >>> _ = Path("card.csv").write_text("nm,Card,Sanded\n" + rows)
+    >>> card, sanded = read("card.csv")
+    >>> found = estimate([(card, sanded)])
+    >>> found.is_told, radians(20) < found.sigma < radians(35)
+    (True, True)
+    >>> estimate([(None, sanded)]).reason.partition(":")[0]
+    "σ can't be told from one reading"
+    """
+    given = [(smooth, rough) for smooth, rough in materials]
+    if model is None:
+        return roughness.of_samples(given, relative=repeatability)
+    return roughness.of_samples(given, model, repeatability)
 
 
 def request(

@@ -9,6 +9,7 @@ import csv
 import json
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -114,6 +115,31 @@ def read_mapping(path: Path) -> list[Row]:
     InputError
         Naming file, row and remedy.
     """
+    found = records(path, _FIELDS)
+    if not found:
+        msg = f"{path} has no rows; give one a material."
+        raise InputError(msg)
+    samples = Samples(path)
+    return [_row(path, place, record, samples) for place, record in found]
+
+
+def records(
+    path: Path, fields: Sequence[str], needed: Sequence[str] = ("material", "sample")
+) -> list[tuple[str, dict[str, Any]]]:
+    """Read the rows of a table, CSV or JSON, each with its place in the file.
+
+    Parameters
+    ----------
+    path
+        The table.
+    fields, needed
+        Columns that there may be, and that there must be.
+
+    Raises
+    ------
+    InputError
+        If it is no such table, or a column is missing.
+    """
     data = user_files.read(path)
     try:
         text = data.decode("utf-8-sig")
@@ -121,16 +147,29 @@ def read_mapping(path: Path) -> list[Row]:
         msg = f"{path} cannot be read ({error}); give a CSV or JSON file in UTF-8."
         raise InputError(msg) from error
     is_json = text.lstrip()[:1] in ("[", "{")
-    records = _json_records(path, text) if is_json else _csv_records(path, text)
-    if not records:
-        msg = f"{path} has no rows; give one a material."
+    if is_json:
+        return _json_records(path, text, fields)
+    return _csv_records(path, text, fields, needed)
+
+
+def check_columns(where: str, record: dict[str, Any], fields: Sequence[str]) -> dict[str, str]:
+    """Give the cells of a row as texts, empty where there is nothing.
+
+    Raises
+    ------
+    InputError
+        If the row has a column that is none of `fields`.
+    """
+    unknown = [key for key in record if key not in fields]
+    if unknown:
+        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(fields)}."
         raise InputError(msg)
-    samples = _Samples(path)
-    return [_row(path, place, record, samples) for place, record in records]
+    given = {key: record.get(key) for key in fields}
+    return {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
 
 
-class _Samples:
-    """The samples that a mapping file names, each looked up once."""
+class Samples:
+    """The samples that a table names, each looked up once."""
 
     def __init__(self, mapping: Path) -> None:
         self._folder = mapping.parent
@@ -139,6 +178,7 @@ class _Samples:
         self._named: dict[str, Sample] = {}
 
     def find(self, where: str, name: str, file: str) -> Sample:
+        """Give the sample of a file beside the table, or of library and presets."""
         if not file:
             return self._of_library(where, name)
         source = self._folder / file
@@ -162,19 +202,21 @@ class _Samples:
         return self._named[name]
 
 
-def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+def _json_records(path: Path, text: str, fields: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
         msg = f"{path} is not valid JSON ({error}); correct it."
         raise InputError(msg) from error
     if not isinstance(data, list) or not all(isinstance(record, dict) for record in data):
-        msg = f"{path} must be a list of objects with the keys {', '.join(_FIELDS)}."
+        msg = f"{path} must be a list of objects with the keys {', '.join(fields)}."
         raise InputError(msg)
     return [(f"entry {number}", record) for number, record in enumerate(data, 1)]
 
 
-def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+def _csv_records(
+    path: Path, text: str, fields: Sequence[str], needed: Sequence[str]
+) -> list[tuple[str, dict[str, Any]]]:
     # Not `splitlines`, which would break names at U+0085 and the like.
     lines = [line for line in re.split("\r\n|[\r\n]", text) if not line.startswith("#")]
     header = lines[0] if lines else ""
@@ -185,10 +227,10 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     except csv.Error as error:
         msg = f"{path}: a quotation mark is not closed ({error}); close or remove it."
         raise InputError(msg) from error
-    if "material" not in names or "sample" not in names:
+    if not set(needed) <= set(names):
         msg = (
             f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
-            f"{', '.join(_FIELDS)}, of which material and sample are needed."
+            f"{', '.join(fields)}, of which {' and '.join(needed)} are needed."
         )
         raise InputError(msg)
     records = []
@@ -203,14 +245,9 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     return records
 
 
-def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> Row:
+def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Row:
     where = f"{path}, {place}"
-    unknown = [key for key in record if key not in _FIELDS]
-    if unknown:
-        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(_FIELDS)}."
-        raise InputError(msg)
-    given = {key: record.get(key) for key in _FIELDS}
-    cells = {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
+    cells = check_columns(where, record, _FIELDS)
     if not cells["material"] or not cells["sample"]:
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)

@@ -16,6 +16,7 @@ SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
     "differences": "(material)",
+    "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "keep": "(material)",
     "materials": "()",
@@ -39,6 +40,8 @@ FIELDS = {
     "Request": "sample sigma model illuminant observer scene flat tolerance",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
+    "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
+    "chi_square freedom notes",
     "State": "kind reasons stamp",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version",
