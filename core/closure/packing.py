@@ -21,7 +21,11 @@ def pack(values: Array, steps: Array) -> str:
     >>> unpack(pack(np.array([[1.0, 2.0], [1.5, -0.3]]), steps), (0.5, 0.25)).tolist()
     [[1.0, 2.0], [1.5, -0.25]]
     """
-    integers = np.rint(values / steps).astype("<i2")
+    exact = np.rint(values / steps)
+    if np.abs(exact).max(initial=0) > np.iinfo(np.int16).max:
+        msg = "A value is more than 32,767 of its steps; take larger steps."
+        raise ValueError(msg)
+    integers = exact.astype("<i2")
     # High and low bytes apart: the high ones of small columns are all alike.
     planes = integers.T.copy().view(np.uint8).reshape(-1, 2).T
     return base64.b85encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")

@@ -354,11 +354,12 @@ def _between(table: Table, nodes: Array, light: Array, view: Array, azimuth: Arr
     across, along = fine.azimuth.size, fine.azimuth.size * fine.ratio.size
     for start in range(0, light.size, _CHUNK):
         part = slice(start, start + _CHUNK)
-        larger = np.maximum(light[part], view[part])
-        ratio = np.minimum(light[part], view[part]) / np.maximum(larger, 1e-300)
+        upper, lower = np.maximum(light[part], view[part]), np.minimum(light[part], view[part])
+        larger = np.minimum(upper, fine.polar[-1])
+        ratio = np.minimum(lower, larger) / np.maximum(larger, 1e-300)
         with np.errstate(invalid="ignore"):  # an infinite azimuth is NaN, like a missing one
             turned = np.arccos(np.cos(azimuth[part]))
-        i, by_polar = _place(fine.polar, np.minimum(larger, fine.polar[-1]))
+        i, by_polar = _place(fine.polar, larger)
         j, by_ratio = _place(fine.ratio, ratio)
         k, by_azimuth = _place(fine.azimuth, turned)
         corner = i * along + j * across + k

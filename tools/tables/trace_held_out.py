@@ -34,6 +34,8 @@ CASES = (
 POINTS = 2048
 FIELDS = 12
 PATHS = 6_400
+AT_THE_INSTRUMENT = 250_000
+"""Paths of a field and direction; at 45°/0° more, since σ is inferred there from small changes."""
 ORDERS = 64
 
 
@@ -69,7 +71,15 @@ def trace(task: tuple[str, float, int]) -> Array:
     heights = field(kind, sigma, rng)
     highest = height_field_tracer.tiles(heights)
     start = int(rng.integers(2**31))
-    series = height_field_tracer.looks(heights, highest, directions(), PATHS, start, ORDERS)
+    first, others = np.split(directions(), [1])
+    parts = ((first, AT_THE_INSTRUMENT), (others, PATHS))
+    series = np.concatenate(
+        [
+            height_field_tracer.looks(heights, highest, some, paths, start, ORDERS)
+            for some, paths in parts
+        ],
+        axis=1,
+    )
     powers = np.array(ALBEDOS) ** np.arange(1, ORDERS + 1)[:, np.newaxis]
     return np.asarray(series.T @ powers)
 
