@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...core import emissivity, instruments, reading
+from ...core import emissivity, instruments
 from ...core.errors import DomainError
 from ...core.limits import LARGEST_SIGMA
 from ...core.numerics.arrays import Array
@@ -116,7 +116,7 @@ def _albedo(sample: Sample, sigma: float, model: str) -> Array:
         tilt = math.radians(instruments.find(sample.instrument).view.tilt)
         seen = 1 - sample.reflectance
         return emissivity.albedo_from_directional(seen, tilt, sigma, model=model)
-    return reading.to_albedo(sample.reflectance, sigma, model, sample.instrument)
+    return emissivity.albedo_from_reading(sample.reflectance, sigma, sample.instrument, model=model)
 
 
 def _beyond(sample: Sample, albedo: Array, sigma: float) -> list[str]:

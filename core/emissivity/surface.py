@@ -40,6 +40,11 @@ class _Surface(Protocol):
     def albedo(self, found: Array, epsilon: Array) -> Array:
         """Invert `emissivity`."""
 
+    def of_reading(
+        self, reading: Array, sigma: npt.ArrayLike, instrument: str, slopes: str
+    ) -> Array:
+        """Give the albedo behind an instrument's reading."""
+
 
 MODELS: Mapping[str, _Surface] = MappingProxyType(
     {
@@ -173,6 +178,47 @@ def albedo_from_directional(
     surface = _of(model)
     epsilon = spectrum(emissivity, "the emissivity")
     return _in_double(surface.albedo, surface.of_direction(theta, sigma, slopes), epsilon)
+
+
+def albedo_from_reading(
+    reading: npt.ArrayLike,
+    sigma: npt.ArrayLike,
+    instrument: str = "45a:0",
+    *,
+    model: str = MODEL,
+    slopes: str = slope_law.DEFAULT,
+) -> Array:
+    """Find the albedo of facets behind an instrument's reading, by the same model as all else here.
+
+    Parameters
+    ----------
+    reading
+        r(λ), shape (..., bands).
+    sigma
+        Roughness, radians; broadcasts against the leading axes of `reading`.
+    instrument
+        One of `core.reading.INSTRUMENTS`.
+    model, slopes
+        As in `directional`.
+
+    Returns
+    -------
+    ρ(λ), shape (..., bands), in the precision of `reading`; above 1 where a reading is more than
+    white facets give.
+
+    Raises
+    ------
+    DomainError
+        As in `directional`, or the instrument is not known.
+
+    Examples
+    --------
+    >>> np.round(albedo_from_reading([0.2, 0.6], 0.0), 12).tolist()
+    [0.2, 0.6]
+    """
+    surface = _of(model)
+    r = spectrum(reading, "the reading")
+    return np.asarray(surface.of_reading(r, sigma, instrument, slopes))
 
 
 def check_model(model: str) -> None:
