@@ -20,7 +20,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
-from math import radians
+from dataclasses import replace
+from math import degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -36,10 +37,11 @@ from ..core.errors import (
     OutputError,
     RoughSpectraError,
 )
+from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
-from .matching import emission
+from .matching import emission, roughness
 from .matching.assess import Differences
 from .matching.request import AUTO, Request
 from .matching.solution import Solution
@@ -55,12 +57,14 @@ from .readings.emission import Emissivity, InBand
 from .samples import filter_response, library, readers
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
+from .samples.stated_sigma import Names, StatedSigma
 
 __all__ = [
     "CancelledError",
     "Differences",
     "DomainError",
     "Emissivity",
+    "Estimate",
     "Filter",
     "InBand",
     "InputError",
@@ -78,6 +82,7 @@ __all__ = [
     "bake",
     "differences",
     "emissivity",
+    "estimate",
     "find",
     "keep",
     "materials",
@@ -92,6 +97,9 @@ __all__ = [
     "write",
     "write_emissivity",
 ]
+
+
+_SIGMA = Names("sigma")
 
 
 def read(
@@ -169,6 +177,53 @@ def find(name: str) -> Sample:
     'ColorChecker 14 Green'
     """
     return library.load(name, preferences.user_folder())
+
+
+def estimate(
+    materials: Iterable[tuple[Sample | Sequence[Sample] | None, Sample | Sequence[Sample]]],
+    *,
+    model: str | None = None,
+    repeatability: float = RELATIVE,
+) -> Estimate:
+    r"""Estimate the roughness σ that rough surfaces share, from what was read of them.
+
+    Parameters
+    ----------
+    materials
+        Of each material what was read of a smooth surface (or its albedo, or None), and what was
+        read of the rough one. A list holds readings of several instruments or angles.
+    model
+        One of `core.models.NAMES` that knows roughness; None takes the usual one.
+    repeatability
+        Standard deviation of repeated readings, as a share of the reading.
+
+    Returns
+    -------
+    Its `is_told` says whether the readings tell σ, and `reason` why they don't, or what limits it.
+    `sigma` is in radians, NaN where it can't be told; `interval` is what noise leaves open, 95 %;
+    `by_model` is σ by each model, and `spread` its range; `albedo`, `residuals` and `notes`.
+
+    Raises
+    ------
+    DomainError
+        The samples cannot be used together, or the model does not know roughness.
+
+    Examples
+    --------
+    >>> columns = [(400, 0.61, 0.53), (500, 0.50, 0.42), (600, 0.32, 0.26), (700, 0.43, 0.35)]
+    >>> rows = "".join(f"{nm},{smooth},{rough}\n" for nm, smooth, rough in columns)
+    >>> _ = Path("card.csv").write_text("nm,Card,Sanded\n" + rows)
+    >>> card, sanded = read("card.csv")
+    >>> found = estimate([(card, sanded)])
+    >>> found.is_told, radians(20) < found.sigma < radians(35)
+    (True, True)
+    >>> estimate([(None, sanded)]).reason.partition(":")[0]
+    "σ can't be told from one reading"
+    """
+    given = [(smooth, rough) for smooth, rough in materials]
+    if model is None:
+        return roughness.of_samples(given, relative=repeatability)
+    return roughness.of_samples(given, model, repeatability)
 
 
 def emissivity(
@@ -303,6 +358,8 @@ def request(
     illuminant: str = "D65",
     observer: int = 2,
     tolerance: float = TOLERANCE,
+    rdq: float | None = None,
+    sdq: float | None = None,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -311,12 +368,12 @@ def request(
     sample
         What `read` or `find` gave, or a `Sample` of your own.
     sigma
-        Roughness σ, **radians**, 0 to π/2. None takes what the sample says, or else 0.
+        Roughness σ, **radians**, 0 to π/3. None takes what the sample says, or else 0.
     kind
         "reading" for the reflectance factor that an instrument printed of the rough surface,
         "albedo" for the reflectance of one facet. None takes what the sample says.
     model
-        "auto" for the cheapest that is good enough, or one of `core.models.NAMES`.
+        "auto", which is `core.models.TARGET`, or one of `core.models.NAMES`.
     illuminant
         Light under which the color is right: "D65", "A", "D50", "D55", "D75", "E", "F2", "F7",
         "F11" or "LED-B3".
@@ -324,23 +381,35 @@ def request(
         Of reports, 2 or 10 (degrees).
     tolerance
         Largest ΔE00 from the reference that "auto" accepts for a simpler model, 0.05 to 20.
+    rdq, sdq
+        Instead of σ, the rms slope of a profile or of an area as a profilometer prints it, rise
+        over run: σ = atan(Rdq) = atan(Sdq/√2). It is kept with the material as the source of σ.
 
     Raises
     ------
     DomainError
-        A setting is none of these.
+        A setting is none of these; or σ, Rdq and Sdq contradict each other.
     InputError
         The kind is neither.
 
     Examples
     --------
+    >>> request(find("brick"), rdq=0.35).sample.sigma_source
+    'Rdq 0.35 (19.3°)'
     >>> wanted = request(find("green"), sigma=radians(20), illuminant="D50")
     >>> wanted.model, wanted.illuminant, round(wanted.sigma, 3)
     ('auto', 'D50', 0.349)
     >>> request(find("green"), sigma=20)
     Traceback (most recent call last):
-    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/2, as math.radians(30) is.
+    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/3, as math.radians(30) is.
     """
+    if rdq is not None or sdq is not None:
+        stated = StatedSigma(None if sigma is None else degrees(sigma), rdq, sdq)
+        _, fault = stated.fault(_SIGMA)
+        if fault:
+            raise DomainError(f"Sample {sample.name!r}: {fault}.")
+        source = stated.source("")
+        sample = replace(sample, sigma_degrees=stated.settled, sigma_source=source)
     if sigma is None:
         sigma = radians(sample.sigma_degrees or 0.0)
     if kind is not None:

@@ -38,7 +38,11 @@ def validate(path: Path) -> Verdict:
         fields = preset.fields_of(document)
     except InputError as error:
         return Verdict((str(error),), ())
-    found = [*preset_fields.faults(fields), *preset_fields.unknown(fields)]
+    found = [
+        *preset_fields.faults(fields),
+        *preset_fields.beyond(fields),
+        *preset_fields.unknown(fields),
+    ]
     faults = [str(document.error(f"field '{field}'", sentence)) for field, sentence in found]
     # A spectrum with faults of its own is looked at even where another field is wrong as well.
     if any(field in ("wavelengths", "values") for field, _ in found):

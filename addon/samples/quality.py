@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from ...core.color import color_difference
 from ...core.errors import DomainError
-from ...core.limits import COLOR_NM, EYE_NM
+from ...core.limits import COLOR_NM, EYE_NM, sigma_fault
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
@@ -62,6 +62,10 @@ def check(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     found = [list(sentences) for sentences in check_each(samples)]
     for i, sentence in _ultraviolet_effect(samples):
         found[i].append(sentence)
+    for i, sample in enumerate(samples):
+        fault = "" if sample.sigma_degrees is None else sigma_fault(sample.sigma_degrees)
+        if fault:
+            found[i].append(f"{sample.name!r} states a roughness that no material has: {fault}")
     return [tuple(sentences) for sentences in found]
 
 

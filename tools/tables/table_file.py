@@ -9,8 +9,10 @@ from collections.abc import Mapping, Sequence
 
 _HEAD = '''# SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of the model "{name}" for `core.closure.table`, made by
-{maker}."""
+"""Numbers of the model "{name}" for `core.closure.table`.
+
+Made by {maker}.
+"""
 
 from __future__ import annotations
 
