@@ -69,7 +69,7 @@ def compute(
     """
     emissivity.check_model(model)
     if not 0 <= sigma <= LARGEST_SIGMA:
-        msg = f"σ is {sigma:g} radians; give 0 to π/2, as math.radians(30) is."
+        msg = f"σ is {sigma:g} radians ({math.degrees(sigma):g}°); give 0 to π/2, which is 90°."
         raise DomainError(msg)
     nm = sample.wavelengths
     if bands is None:

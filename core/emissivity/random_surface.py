@@ -29,7 +29,8 @@ from ..vcavity.slope_law import GAUSSIAN
 from . import random_surface_data as data
 
 ERROR_BOUND = 2e-3
-"""Absolute error of ε, θ ≤ 80°, every σ and albedo, against other surfaces of the same kind."""
+"""Absolute error of ε, θ ≤ 82°, σ ≤ 55°, every albedo, against other surfaces of the same kind.
+To σ = 40° it is 4e-4, which is the noise of both; beyond 84° the noise grows to 0.5 % of ε."""
 
 PLACES = (1 - np.cos(np.pi * np.arange(6) / 5)) / 2
 """Values of 1 - √(1 - ρ) at which ln S is tabulated; at the first one it is 0."""

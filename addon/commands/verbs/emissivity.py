@@ -41,11 +41,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="BASE",
         help="folder and base name: BASE.csv, BASE.bands.csv, BASE.png",
     )
-    parser.add_argument(
+    sigma = parser.add_mutually_exclusive_group()
+    sigma.add_argument(
         "--sigma",
         type=float,
         metavar="DEGREES",
-        help="roughness of all of them; without it what the files say, or 0",
+        help="roughness of all of them, whatever the files say; without it what they say, or 0",
+    )
+    sigma.add_argument(
+        "--rdq", type=float, metavar="SLOPE", help="the same as a profilometer's Rdq = tan σ"
+    )
+    sigma.add_argument(
+        "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
     )
     parser.add_argument(
         "--angles",
@@ -85,15 +92,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compute and write; exit status 0."""
-    from ....core import limits
     from ...matching import emission
     from ...preview import emission_files
+    from ...samples.stated_sigma import Names, StatedSigma
     from ...support import atomic_files
     from ..progress import counted
 
     atomic_files.check_base(options.output)
-    if options.sigma is not None and (fault := limits.sigma_fault(options.sigma)):
-        raise InputError(fault)
+    stated = StatedSigma(options.sigma, options.rdq, options.sdq)
+    if fault := stated.fault(Names("--sigma", "--rdq", "--sdq"))[1]:
+        raise InputError(f"{fault[0].upper()}{fault[1:]}.")
+    sigma = stated.settled
     degrees = options.angles or [math.degrees(angle) for angle in emission.ANGLES]
     outside = [angle for angle in degrees if not 0 <= angle <= 90]
     if outside:
@@ -103,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
     found = [
         emission.compute(
             sample,
-            math.radians(sample.sigma_degrees or 0 if options.sigma is None else options.sigma),
+            math.radians(sample.sigma_degrees or 0 if sigma is None else sigma),
             angles=[math.radians(angle) for angle in degrees],
             temperature=options.temperature,
             background=options.background,
