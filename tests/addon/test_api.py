@@ -16,8 +16,8 @@ SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
     "differences": "(material)",
-    "emissivity": "(sample, sigma=None, *, angles=(0.0, 0.5235987755982988, 1.0471975511965976, "
-    "1.3962634015954636), temperature=300.0, background=0.0, bands=None, model='reference')",
+    "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
+    "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "keep": "(material)",
@@ -129,7 +129,7 @@ def test_the_example_of(name, tmp_path, monkeypatch):
         ({"model": "mirror"}, "The model 'mirror' is not known; choose one of auto, lambert, "),
         ({"illuminant": "D93"}, "The illuminant 'D93' is not known; choose one of A, D50, "),
         ({"observer": 3}, "The observer 3 is not known; choose one of 2, 10."),
-        ({"kind": "gloss"}, "kind is 'gloss'; make it 'reading' or 'albedo'."),
+        ({"kind": "gloss"}, "kind is 'gloss'; make it 'reading', 'albedo' or 'emissivity'."),
     ],
 )
 def test_a_setting_that_no_material_could_store_is_refused(settings, sentence):

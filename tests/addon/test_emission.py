@@ -95,7 +95,7 @@ def test_a_roughness_that_is_none_is_refused():
 
 
 def test_tables_hold_the_numbers_and_read_back_as_emissivity(tmp_path):
-    sand, felt = infrared(source="sand.csv"), Sample("=Felt", NM[4:] + 1, ALBEDO[4:], "albedo")
+    sand, felt = infrared(source="sand.csv"), Sample("=Felt", NM[1:] + 1, ALBEDO[1:], "albedo")
     both = [api.emissivity(each, SIGMA, angles=[0, 1], background=250) for each in (sand, felt)]
     spectra, bands, *pictures = api.write_emissivity(both, tmp_path / "out" / "two")
     assert [path.name for path in pictures] == ["two.1.png", "two.2.png"]

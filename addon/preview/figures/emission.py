@@ -99,7 +99,8 @@ def _draw_bands(canvas: Array, axes: Axes, found: Emissivity, per_unit: float, l
 def _rounded(low: float, high: float) -> tuple[float, float]:
     """Give the ends of an axis that holds these numbers, on tenths unless they are small."""
     step = 0.1 if high - low > 0.15 or high > 0.3 else 0.02
-    return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
+    below, above = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return below * step, max(above, below + 1) * step
 
 
 def _ticks(first: float, last: float) -> list[float]:
