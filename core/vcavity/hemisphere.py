@@ -78,8 +78,8 @@ def series(
     Examples
     --------
     >>> row = series(0.0, np.radians(30), slopes="oren-nayar")
-    >>> np.round(1 - bounce_series.evaluate(row, np.array([0.5, 1.0])), 3).tolist()
-    [0.573, 0.0]
+    >>> np.round(1 - bounce_series.evaluate(row, np.array([0.5, 0.9])), 3).tolist()
+    [0.573, 0.142]
     >>> series(0.7, 0.0)[:3].tolist()
     [1.0, 0.0, 0.0]
     """
