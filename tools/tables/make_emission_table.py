@@ -63,7 +63,7 @@ def main() -> int:
 
 
 def trace(sigma: float, field: int, walks: int) -> Array:
-    """Sums of one field at roughness σ, degrees: (polar, orders)."""
+    """Give the sums of one field at roughness σ, degrees: (polar, orders)."""
     from . import emission_tracer, height_field_tracer
 
     rng = np.random.default_rng([20261130, round(sigma * 10), field])
@@ -100,8 +100,8 @@ def judge(found: list[Array]) -> None:
         noise = of_each.std(axis=0) / np.sqrt(len(fields)) / gains(met, ALBEDOS)
         below = np.array(POLAR) <= STEEP
         sys.stdout.write(
-            f"σ {sigma:4g}°, {len(fields)} fields: the polynomial misses ε by {missed.max():.3%} of "
-            f"it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} beyond\n"
+            f"σ {sigma:4g}°, {len(fields)} fields: the polynomial misses ε by {missed.max():.3%} "
+            f"of it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} beyond\n"
         )
 
 
