@@ -101,7 +101,7 @@ def judge(found: list[Array]) -> None:
         below = np.array(POLAR) <= STEEP
         sys.stdout.write(
             f"σ {sigma:4g}°, {len(fields)} fields: the form misses ε by {missed.max():.3%} "
-            f"of it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} beyond\n"
+            f"of it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} above\n"
         )
 
 
