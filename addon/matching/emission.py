@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...core import emissivity, instruments, reading
+from ...core import emissivity, instruments
 from ...core.errors import DomainError
 from ...core.limits import LARGEST_SIGMA
 from ...core.numerics.arrays import Array
@@ -69,7 +69,7 @@ def compute(
     """
     emissivity.check_model(model)
     if not 0 <= sigma <= LARGEST_SIGMA:
-        msg = f"σ is {sigma:g} radians; give 0 to π/2, as math.radians(30) is."
+        msg = f"σ is {sigma:g} radians ({math.degrees(sigma):g}°); give 0 to π/2, which is 90°."
         raise DomainError(msg)
     nm = sample.wavelengths
     if bands is None:
@@ -116,7 +116,7 @@ def _albedo(sample: Sample, sigma: float, model: str) -> Array:
         tilt = math.radians(instruments.find(sample.instrument).view.tilt)
         seen = 1 - sample.reflectance
         return emissivity.albedo_from_directional(seen, tilt, sigma, model=model)
-    return reading.to_albedo(sample.reflectance, sigma, model, sample.instrument)
+    return emissivity.albedo_from_reading(sample.reflectance, sigma, sample.instrument, model=model)
 
 
 def _beyond(sample: Sample, albedo: Array, sigma: float) -> list[str]:

@@ -211,7 +211,7 @@ def _emissivity(nm: Array, values: Array) -> Iterator[str]:
         if count:
             bands = "one band" if count == 1 else f"{count} bands"
             yield (
-                f"is {limit} in {bands}, by {values[peak]:.4g} at {nm[peak]:g} nm, which is noise "
+                f"is {limit} in {bands}, {values[peak]:.4g} at {nm[peak]:g} nm, which is noise "
                 f"or a wrong temperature; it is kept, and counts as {limit[-1]} in computing."
             )
 

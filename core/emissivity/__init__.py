@@ -11,12 +11,14 @@ apparent         what temperature a radiometer tells, among warm or cold surroun
 """
 
 from .apparent import apparent_temperature
-from .band import Filter, band_emissivity
+from .band import Band, Filter, band_emissivity
 from .planck import radiance
 from .surface import (
     MODEL,
     MODELS,
     albedo_from_directional,
+    albedo_from_reading,
+    check_model,
     directional,
     hemispherical,
 )
@@ -24,10 +26,13 @@ from .surface import (
 __all__ = [
     "MODEL",
     "MODELS",
+    "Band",
     "Filter",
     "albedo_from_directional",
+    "albedo_from_reading",
     "apparent_temperature",
     "band_emissivity",
+    "check_model",
     "directional",
     "hemispherical",
     "radiance",

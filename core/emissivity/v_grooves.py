@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ..instruments import curves
 from ..numerics.arrays import Array
 from ..vcavity import bounce_series, hemisphere
 
@@ -42,3 +43,14 @@ def albedo(rows: Array, epsilon: Array) -> Array:
     [0.25, 1.5]
     """
     return bounce_series.invert(rows, 1 - epsilon)
+
+
+def of_reading(reading: Array, sigma: npt.ArrayLike, instrument: str, slopes: str) -> Array:
+    """Give the albedo behind an instrument's reading; errors as in `core.reading.to_albedo`.
+
+    Examples
+    --------
+    >>> of_reading(np.array([0.25, 1.0]), 0.0, "45a:0", "gaussian").tolist()
+    [0.25, 1.0]
+    """
+    return bounce_series.invert(curves.series(instrument, slopes).rows(sigma), reading)

@@ -16,6 +16,8 @@ SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
     "differences": "(material)",
+    "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
+    "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "keep": "(material)",
@@ -23,11 +25,13 @@ SIGNATURES = {
     "paused": "()",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
+    "read_filter": "(path)",
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
     "tolerance=1.0, rdq=None, sdq=None)",
     "settle": "(material)",
     "state": "(material)",
+    "write_emissivity": "(found, base)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
 """Every function, and how it is called. A script somewhere calls it so: adding an argument with a
@@ -43,6 +47,10 @@ FIELDS = {
     "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
     "chi_square freedom notes",
     "State": "kind reasons stamp",
+    "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
+    "directional hemispherical bands warnings",
+    "InBand": "name first last directional hemispherical apparent",
+    "Filter": "wavelengths response",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
@@ -121,7 +129,7 @@ def test_the_example_of(name, tmp_path, monkeypatch):
         ({"model": "mirror"}, "The model 'mirror' is not known; choose one of auto, lambert, "),
         ({"illuminant": "D93"}, "The illuminant 'D93' is not known; choose one of A, D50, "),
         ({"observer": 3}, "The observer 3 is not known; choose one of 2, 10."),
-        ({"kind": "gloss"}, "kind is 'gloss'; make it 'reading' or 'albedo'."),
+        ({"kind": "gloss"}, "kind is 'gloss'; make it 'reading', 'albedo' or 'emissivity'."),
     ],
 )
 def test_a_setting_that_no_material_could_store_is_refused(settings, sentence):

@@ -200,9 +200,9 @@ def test_an_emissivity_has_no_color_and_its_noise_is_named():
     noisy = changed(changed(SMOOTH, 2, 1.002), 7, -0.01)
     color, above, below = sentences(noisy, nm, kind="emissivity")
     assert "holds emissivity, of 8000 to 14000 nm: it has no color" in color
-    assert "is above 1 in one band, by 1.002 at 8400 nm" in above
+    assert "is above 1 in one band, 1.002 at 8400 nm" in above
     assert above.endswith("counts as 1 in computing.")
-    assert "is below 0 in one band, by -0.01" in below
+    assert "is below 0 in one band, -0.01" in below
     assert below.endswith("counts as 0 in computing.")
     # Also where its bands are visible, and beside readings with the same bands.
     one = Sample("Warm", NM, SMOOTH, "emissivity")

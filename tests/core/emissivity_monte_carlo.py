@@ -13,14 +13,14 @@ import numpy as np
 import vcavity_monte_carlo as grooves
 
 
-def arrivals(theta, sigma, *, paths, bounces=400, seed=0, **law):
+def arrivals(theta, sigma, slopes, *, paths, bounces=400, seed=0):
     """Estimate P_1 … P_K for light from `theta` (radians), shape (bounces,)."""
     random = np.random.default_rng(seed)
     total = np.zeros(bounces)
     blocks = -(-paths // grooves.BLOCK)
     for block in range(blocks):
         slope_rank, azimuth_rank, place = grooves._stratified(random, block, blocks)
-        slope = grooves._slopes(slope_rank, sigma, **law)
+        slope = grooves.SLOPES[slopes](slope_rank, sigma)
         light = grooves._direction(theta, 2 * np.pi * azimuth_rank)
         total += _hits(random, slope, light, 2 * place - 1, bounces)
     return total / (blocks * grooves.BLOCK)

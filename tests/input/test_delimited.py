@@ -401,6 +401,7 @@ def test_a_first_column_with_the_illuminant_is_what_colors_were_computed_for(tmp
         "# kind: emissivity\n# wavelength_unit: um\n8,0.9\n9,0.8\n",
         "# kind: emissivity\nname,8000 nm,9000 nm\nsand,0.9,0.8\n",
         "Y units: Emissivity\nwavelength (um),sand\n8,0.9\n9,0.8\n",
+        "Emissivity,8000 nm,9000 nm\nsand,0.9,0.8\n",
     ],
 )
 def test_emissivity_is_read_as_what_it_is(tmp_path, text):

@@ -11,7 +11,7 @@ import pytest
 
 from tests.integration.support import ROOT, SECONDS, contents, rgb_material, spectrum_csv
 
-VERBS = ("analyze", "assign", "bake", "check", "import", "merge", "search")
+VERBS = ("analyze", "assign", "bake", "check", "emissivity", "import", "merge", "search")
 
 
 def stored(name):
@@ -216,3 +216,53 @@ def test_readings_that_replace_others_are_like_new_files(scene_file, main, tmp_p
     assert main("bake", "--blend", scene_file, *words).status == 0
     assert json.loads(target.read_bytes())["readings"][0]["material"] == "Alpha"
     assert target.stat().st_mode == (tmp_path / "other").stat().st_mode
+
+
+WARM = ROOT / "tests" / "fixtures" / "ecostress" / "emissivity.spectrum.txt"
+
+
+def test_emissivity_of_a_file_and_of_a_preset(main, tmp_path):
+    base = tmp_path / "out" / "both"
+    options = (
+        "--rdq",
+        "0.36",
+        "--background",
+        "250",
+        "--angles",
+        "0",
+        "60",
+        "--band",
+        "8000-12000",
+    )
+    result = main("emissivity", WARM, "--output", base, *options)
+    assert result.status == 0, result.err
+    assert "1 sample; wrote both.csv, both.bands.csv, both.png" in result.err
+    assert "counts as 1 in computing" in result.err
+    assert {*contents(base.parent)} == {"both.csv", "both.bands.csv", "both.png"}
+    table = (base.parent / "both.bands.csv").read_text("utf-8")
+    assert "Test Sand σ 19.7989°,19.7989,reference,8000-12000 nm,8000,12000,300,250,60," in table
+    assert (base.parent / "both.png").read_bytes()[:4] == b"\x89PNG"
+    result = main("emissivity", WARM, "green", "--output", base, "--model", "surface")
+    assert result.status == 0, result.err
+    assert "2 samples" in result.err
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (("green", "--band", "8-14"), "covers 380 to 780 nm"),
+        (("green", "--band", "eight"), "--band is 'eight'"),
+        (("green", "--angles", "95"), "--angles holds 95"),
+        (("green", "--rdq", "-1"), "--rdq is -1"),
+        (("green", "--sigma", "95"), "give 0 to π/2"),
+        (("green", "--sigma", "70", "--model", "surface"), "ends at 65°"),
+        (("green", "--response", "no.csv"), "no.csv"),
+        (("gone.csv",), "gone.csv"),
+        (("no such preset",), "no such preset"),
+    ],
+)
+def test_emissivity_refuses_in_one_sentence_and_writes_nothing(main, tmp_path, words, fault):
+    result = main("emissivity", *words, "--output", tmp_path / "out" / "it")
+    assert result.status == 2
+    assert fault in result.err
+    assert not (tmp_path / "out").exists()

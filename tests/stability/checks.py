@@ -443,3 +443,29 @@ def check_cycles_grazing(reflectance):
     wide = cycles.reflectance(color, 1.0, theta.astype(float), float(view), float(azimuth))
     # 20 float32 roundings of terms up to 1.
     assert np.max(np.abs(single - wide)) <= 20 * np.finfo(np.float32).eps
+
+
+def check_white_emits_nothing(emissivity):
+    """White facets absorb nothing, so they emit nothing: not even what a sum has lost."""
+    theta, sigma = np.radians([[0.0], [45.0], [80.0], [89.9]]), np.radians([5.0, 30.0, 50.0])
+    for t in theta.ravel():
+        for s in sigma:
+            assert abs(float(emissivity(np.ones(1), t, s)[..., 0])) <= 1e-12
+
+
+def check_cold_band(band_emissivity):
+    """A gray body is as gray when it is so cold that its light is below the smallest number."""
+    nm = np.array([3000.0, 5000.0])
+    found = silent(lambda: band_emissivity(np.full(2, 0.73), nm, 2.0, (3000.0, 5000.0)))
+    assert abs(float(found) - 0.73) <= 1e-12
+
+
+def check_long_waves(radiance):
+    """Where hc/λkT is small, a black body goes over into Rayleigh and Jeans's 2ckT/λ⁴."""
+    nm, kelvin = 1e6, np.array([1e5, 1e7, 1e9, 1e12])
+    light_speed, boltzmann = 299_792_458.0, 1.380649e-23
+    expected = 2 * light_speed * boltzmann * kelvin / (nm * 1e-9) ** 4 * 1e-6
+    x = 14387.768775 * 1e3 / (nm * kelvin)
+    # The next terms of the expansion, 1 - x/2 + x²/12; the constant in x has ten digits.
+    expected *= 1 - x / 2 + x * x / 12
+    np.testing.assert_allclose(silent(lambda: radiance(nm, kelvin)), expected, rtol=1e-11)

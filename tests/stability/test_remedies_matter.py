@@ -107,6 +107,11 @@ WITHOUT_REMEDY = {
     "test_cycles_lobe_at_grazing": [
         lambda: checks.check_cycles_grazing(textbook.cycles_reflectance),
     ],
+    "test_white_facets_emit_nothing": [
+        lambda: checks.check_white_emits_nothing(textbook.emissivity_by_integral),
+    ],
+    "test_band_of_a_cold_body": [lambda: checks.check_cold_band(textbook.band_emissivity)],
+    "test_black_body_at_long_waves": [lambda: checks.check_long_waves(textbook.planck)],
 }
 
 CASES = [

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The core at the places where methods fail; docs/stability.md tells of each."""
 
+from functools import partial
+
 import bpy  # noqa: F401, before mathutils, which comes with it
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from rough_spectra.addon.samples.sample import Sample
 
 from core import (
     cycles,
+    emissivity,
     models,
     oren_nayar,
     reading,
@@ -195,3 +198,16 @@ def test_cycles_lobe_without_roughness():
 
 def test_cycles_lobe_at_grazing():
     checks.check_cycles_grazing(cycles.reflectance)
+
+
+@pytest.mark.parametrize("model", list(emissivity.MODELS))
+def test_white_facets_emit_nothing(model):
+    checks.check_white_emits_nothing(partial(emissivity.directional, model=model))
+
+
+def test_band_of_a_cold_body():
+    checks.check_cold_band(emissivity.band_emissivity)
+
+
+def test_black_body_at_long_waves():
+    checks.check_long_waves(emissivity.radiance)

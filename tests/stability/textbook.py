@@ -223,3 +223,26 @@ def reading_with_warnings(albedo, sigma):
 def root_without_nan(values, sigma):
     """Take a missing band for black, as nan_to_num does."""
     return np.nan_to_num(reading.to_albedo(np.nan_to_num(values), sigma))
+
+
+def emissivity_by_integral(albedo, theta, sigma):
+    """1 - ρ_dh of the published model, integrated over the view."""
+    points, weights = np.polynomial.legendre.leggauss(16)
+    theta_r = np.arccos(np.sqrt((points + 1) / 2))[:, np.newaxis]
+    delta_phi = (points + 1) / 2 * np.pi
+    r = oren_nayar.reflectance(albedo, theta, theta_r, delta_phi, sigma)
+    return 1 - np.einsum("i,j,ijb->b", weights / 2, weights / 2, r)
+
+
+def planck(nm, kelvin):
+    """Planck's law as it is printed."""
+    h, c, k = 6.62607015e-34, 299_792_458.0, 1.380649e-23
+    meters = np.asarray(nm) * 1e-9
+    return 2 * h * c**2 / meters**5 / (np.exp(h * c / (meters * k * kelvin)) - 1) * 1e-6
+
+
+def band_emissivity(emissivity, wavelengths, kelvin, band):
+    """Weigh with Planck's law as it is printed."""
+    nm = np.linspace(*band, 201)
+    light = planck(nm, kelvin)
+    return np.sum(light * np.interp(nm, wavelengths, emissivity)) / np.sum(light)

@@ -509,6 +509,24 @@ def _exact(is_turning: bool) -> Run:
     return run
 
 
+def _emissivity(_folder: Path) -> Run:
+    """Tell what three infrared samples emit, by either model."""
+    from rough_spectra.addon.matching import emission
+    from rough_spectra.addon.samples.sample import Sample
+    from rough_spectra.core.emissivity import MODELS
+
+    nm, sigmas = np.linspace(7500.0, 14500.0, 141), _sigmas(2)
+    samples = [Sample("Sand", nm, np.full(nm.size, rho), "albedo") for rho in (0.1, 0.4, 0.8)]
+
+    def run() -> None:
+        for sigma in next(sigmas):
+            for model in MODELS:
+                for sample in samples:
+                    emission.compute(sample, 0.7 * sigma, model=model)
+
+    return run
+
+
 def _hemisphere(_folder: Path) -> Run:
     """Match at all models and look at all angles, as a picture of the plots does."""
     from rough_spectra.addon.blender import working_space
@@ -540,6 +558,7 @@ TASKS: dict[str, Callable[[Path], Run]] = {
     ),
     "solve by every model": _drag_models,
     "match for two lights": _hemisphere,
+    "emissivity of samples": _emissivity,
     "assign to 100 at once": _assign_many,
     "assign to 25, one by one": _assign_single,
     "first of a session": _first,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the table of what random surfaces reflect into the whole hemisphere; needs numba to trace.
 
-    python -m tools.tables.make_emission_table FOLDER [--fields 16] [--walks 40000]
+    python -m tools.tables.make_emission_table FOLDER [--fields 36] [--walks 40000]
     python -m tools.tables.make_emission_table FOLDER --write
 
 Every σ and field is a file of its own in the folder, so that an interrupted run goes on where it
@@ -44,7 +44,7 @@ def main() -> int:
     """Trace what is not in the folder yet, and say what the table misses."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--fields", type=int, default=16)
+    parser.add_argument("--fields", type=int, default=36)
     parser.add_argument("--walks", type=int, default=40_000, help="a field; a square is best")
     parser.add_argument("--write", action="store_true", help=f"write {TARGET.name}, trace nothing")
     options = parser.parse_args()
@@ -63,7 +63,7 @@ def main() -> int:
 
 
 def trace(sigma: float, field: int, walks: int) -> Array:
-    """Sums of one field at roughness σ, degrees: (polar, orders)."""
+    """Give the sums of one field at roughness σ, degrees: (polar, orders)."""
     from . import emission_tracer, height_field_tracer
 
     rng = np.random.default_rng([20261130, round(sigma * 10), field])
@@ -100,8 +100,8 @@ def judge(found: list[Array]) -> None:
         noise = of_each.std(axis=0) / np.sqrt(len(fields)) / gains(met, ALBEDOS)
         below = np.array(POLAR) <= STEEP
         sys.stdout.write(
-            f"σ {sigma:4g}°, {len(fields)} fields: the polynomial misses ε by {missed.max():.3%} of "
-            f"it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} beyond\n"
+            f"σ {sigma:4g}°, {len(fields)} fields: the form misses ε by {missed.max():.3%} "
+            f"of it at worst, noise {noise[below].max():.3%} to {STEEP}°, {noise.max():.3%} above\n"
         )
 
 

@@ -18,7 +18,7 @@ from .plot import Axes, Key
 _MICROMETERS = 2500.0
 """Nanometers from which on the axis is in micrometers."""
 
-_TICKS = 6
+_TICKS = 8
 """Marks along the axis, about."""
 
 _WHITE, _BLACK = (1.0, 1.0, 1.0), (0.1, 0.1, 0.1)
@@ -54,12 +54,18 @@ def emission(canvas: Array, found: Emissivity, look: Look) -> list[lines.Line]:
     per_unit, unit = (1000.0, "µm") if nm[-1] > _MICROMETERS else (1.0, "nm")
     size = canvas.shape[1], canvas.shape[0]
     below = math.ceil(8 * look.scale + text.height(look.font))
-    peak = max(float(values.max()) for values in shown)
     ends = (float(nm[0] / per_unit), float(nm[-1] / per_unit))
-    axes = plot.axes_of(size, look, ends, plot.ceiling(max(peak, 0.02)), below)
+    # Emissivities are mostly near 1: the axis begins where they do.
+    values = np.concatenate([curve.ravel() for curve in shown])
+    levels = _ticks(*_rounded(float(values.min()), float(values.max())))
+    head = plot.legend_height(look) + round(2 * look.scale)
+    axes = Axes(
+        *(plot.margin(levels, look), head, size[0] - 1, size[1] - below),
+        ends,
+        (levels[0], levels[-1]),
+    )
     _draw_bands(canvas, axes, found, per_unit, look)
-    top = axes.y[1]
-    plot.draw_grid(canvas, axes, (0, top / 4, top / 2, 3 * top / 4, top), look, named=True)
+    plot.draw_grid(canvas, axes, levels, look, named=True)
     row = axes.bottom + 6 * look.scale + text.height(look.font)
     ticks = _ticks(*ends)
     names = [*(f"{tick:g}" for tick in ticks[:-1]), f"{ticks[-1]:g} {unit}"]
@@ -88,6 +94,13 @@ def _draw_bands(canvas: Array, axes: Axes, found: Emissivity, per_unit: float, l
             for end in (band.first, band.last)
         )
         raster.rectangle(canvas, (left, axes.top, right, axes.bottom), look.grid, 0.5)
+
+
+def _rounded(low: float, high: float) -> tuple[float, float]:
+    """Give the ends of an axis that holds these numbers, on tenths unless they are small."""
+    step = 0.1 if high - low > 0.15 or high > 0.3 else 0.02
+    below, above = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return below * step, max(above, below + 1) * step
 
 
 def _ticks(first: float, last: float) -> list[float]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -63,7 +64,9 @@ def read(
         name = min(set(others) - {*keyed, *color}, default=None)
     first = "" if 0 in bands or statements.field_of(header[0]) else header[0]
     other = series.other_quantity(first)
-    if other:
+    if other == "emissivity":
+        said = replace(said, kind="emissivity")
+    elif other:
         raise document.not_reflectance(f"line {line}, column {quote(header[0])}", other)
     texts = [*([] if name is None else [name]), *keyed, *color]
     unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]

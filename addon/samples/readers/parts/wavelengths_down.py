@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import (
     label_words,
@@ -107,6 +108,7 @@ def read(
             lambda band: f"line {block.lines[band]}",
         )
         known = {**fields, **own.get(column, {})}
+        name = from_cell(label) if said.escaped else label
         generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
         alone = known.get("name") or document.path.stem
         samples.append(
@@ -115,7 +117,7 @@ def read(
                 replace(said, kind="emissivity") if column in emitting else said,
                 known,
                 found,
-                name=alone if generic else label or f"{document.path.stem} {column}",
+                name=alone if generic else name or f"{document.path.stem} {column}",
                 position=place,
                 notes=not_read(unread),
             )
