@@ -15,6 +15,7 @@ from rough_spectra.addon import api
 SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
+    "compare": "(first, second)",
     "differences": "(material)",
     "find": "(name)",
     "keep": "(material)",
@@ -39,6 +40,8 @@ FIELDS = {
     "Request": "sample sigma model illuminant observer scene flat tolerance",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
+    "Apart": "first second delta_e_00 delta_l delta_a delta_b delta_ab shift",
+    "Comparison": "measured albedos roughness interreflection model illuminant observer warnings",
     "State": "kind reasons stamp",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version",
