@@ -129,6 +129,13 @@ def test_samples_on_different_wavelengths_and_instruments_compare():
     assert 0.03 < found.interreflection[1] < 0.3
 
 
+def test_a_gray_is_the_same_gray_on_every_grid():
+    fine = np.arange(380.0, 731, 5)
+    pair = [api.Sample("gray", nm, np.full(nm.size, 0.4), "albedo") for nm in (BANDS, fine)]
+    found = api.compare(*pair)
+    assert found.albedos.delta_e_00 == pytest.approx(0, abs=1e-9)
+
+
 def test_roughness_alone_is_what_the_page_on_the_2007_report_has():
     green = replace(api.find("green"), kind="albedo")
     for observer, ab, equal in ((2, 4.37, 1.60), (10, 3.96, 1.42)):
