@@ -42,7 +42,9 @@ from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
 from .matching import emission, roughness
+from .matching import compare as matching_compare
 from .matching.assess import Differences
+from .matching.compare import Apart, Comparison
 from .matching.request import AUTO, Request
 from .matching.solution import Solution
 from .material import changes, derive, preferences, selection, settled, storage
@@ -60,7 +62,9 @@ from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
 
 __all__ = [
+    "Apart",
     "CancelledError",
+    "Comparison",
     "Differences",
     "DomainError",
     "Emissivity",
@@ -80,6 +84,7 @@ __all__ = [
     "State",
     "assign",
     "bake",
+    "compare",
     "differences",
     "emissivity",
     "estimate",
@@ -417,6 +422,41 @@ def request(
     return Request(
         sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
     )
+
+
+def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
+    """Tell how far two samples are apart, as measured and as the albedos behind.
+
+    Parameters
+    ----------
+    first, second
+        What is compared. A sample alone stands for `request(sample)`.
+
+    Returns
+    -------
+    `measured` between what an instrument at 45°/0° reads, `albedos` between the albedos, and
+    `roughness`, for each of the two what its roughness does: from its albedo to its reading. Each
+    has `delta_e_00`; `delta_l`, `delta_a` and `delta_b`, second less first; `delta_ab`; and
+    `shift`, the distance in a*b* once both have the luminance of the first. `interreflection` is
+    the share of each one's reading that met more than one facet.
+
+    Raises
+    ------
+    DomainError
+        Model, illuminant or observer differ, or a spectrum does not cover the visible range.
+
+    Examples
+    --------
+    >>> green = find("green")
+    >>> smooth, rough = (request(green, radians(degrees), kind="albedo") for degrees in (0, 45))
+    >>> found = compare(smooth, rough)
+    >>> round(found.measured.delta_e_00, 1), round(found.albedos.delta_e_00, 1)
+    (8.1, 0.0)
+    >>> round(found.measured.shift, 1), round(found.interreflection[1], 2)
+    (1.9, 0.06)
+    """
+    pair = (request(what) if isinstance(what, Sample) else what for what in (first, second))
+    return matching_compare.compare(*pair)
 
 
 def assign(

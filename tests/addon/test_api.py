@@ -15,6 +15,7 @@ from rough_spectra.addon import api
 SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
+    "compare": "(first, second)",
     "differences": "(material)",
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
     "bands=None, model='reference')",
@@ -46,6 +47,8 @@ FIELDS = {
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
     "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
     "chi_square freedom notes",
+    "Apart": "first second delta_e_00 delta_l delta_a delta_b delta_ab shift",
+    "Comparison": "measured albedos roughness interreflection model illuminant observer warnings",
     "State": "kind reasons stamp",
     "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
     "directional hemispherical bands warnings",

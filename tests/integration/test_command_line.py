@@ -11,7 +11,18 @@ import pytest
 
 from tests.integration.support import ROOT, SECONDS, contents, rgb_material, spectrum_csv
 
-VERBS = ("analyze", "assign", "bake", "check", "emissivity", "import", "merge", "search")
+VERBS = (
+    "analyze",
+    "assign",
+    "bake",
+    "check",
+    "compare",
+    "emissivity",
+    "estimate",
+    "import",
+    "merge",
+    "search",
+)
 
 
 def stored(name):

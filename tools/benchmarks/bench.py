@@ -19,6 +19,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+from unittest import mock
 
 import bpy
 import numpy as np
@@ -41,6 +42,8 @@ from rough_spectra.core.numerics import direction_grid
 MATERIALS = 1000
 ROWS = 100_000
 BANDS = 31
+FEW_PAIRS = 66
+"""As many as a step of σ asks for at once: two materials in 33 directions."""
 PEER_SPECTRA = 50
 """The peer takes most of a millisecond for each, so it gets fewer; times are a spectrum's."""
 SIGMA = np.pi / 6
@@ -185,6 +188,36 @@ def xyz_row() -> Row:
     )
 
 
+def delta_e_rows() -> list[Row]:
+    """Color differences of many pairs and of a slider's few, beside the peer and in one block."""
+    rng = np.random.default_rng(2)
+    rows = []
+    for count, repetitions in ((ROWS, 15), (FEW_PAIRS, 400)):
+        lab = rng.uniform((0, -60, -60), (100, 60, 60), (count, 3))
+        other = lab + rng.normal(0, 3, lab.shape)
+
+        def task(lab: Any = lab, other: Any = other) -> Any:
+            return color_difference.delta_e(lab, other)
+
+        def peer(lab: Any = lab, other: Any = other) -> Any:
+            return colour().delta_E(lab, other, method="CIE 2000")
+
+        error = f"{float(np.max(np.abs(task() - peer()))):.0e}, from the peer"
+        took, beside = best_milliseconds(task, peer, repetitions=repetitions)
+        named = f"ΔE00 of {count:,} pairs, float64"
+        rate = f"{count / took / 1e3:,.1f} million pairs/s"
+        rows.append(Row(named, took, "`colour.delta_E`", beside, rate, error))
+
+        def whole(task: Callable[[], Any] = task, count: int = count) -> Any:
+            with mock.patch.object(color_difference, "_PAIRS", count):
+                return task()
+
+        if count == ROWS:
+            took, beside = best_milliseconds(task, whole, repetitions=repetitions)
+            rows.append(Row(named, took, "the same in one block", beside, rate, error))
+    return rows
+
+
 def assign_row() -> Row:
     """Assign presets to many materials of one file."""
     samples = presets.load_all("colorchecker")
@@ -213,7 +246,7 @@ def assign_row() -> Row:
 
 def compute() -> list[Row]:
     """Run all benchmarks; the extension has to be registered."""
-    return [reflectance_row(), to_albedo_row(), xyz_row(), assign_row()]
+    return [reflectance_row(), to_albedo_row(), xyz_row(), *delta_e_rows(), assign_row()]
 
 
 def environment() -> str:
