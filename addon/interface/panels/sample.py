@@ -8,8 +8,9 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from ....core import limits
+from ....core import limits, white_scale
 from ...material import derivation, settled
+from ...material.properties import STATED_PLAQUE
 from ..operators import common
 from . import redraw, sentences, text
 from .icon_values import icon_value
@@ -46,8 +47,9 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
     column = layout.column()
     column.enabled = material.is_editable
     column.prop(group, "kind")
-    if inputs.kind == "reading":
+    if inputs.kind == "reading" or inputs.white[0] != white_scale.PERFECT:
         column.prop(group, "instrument")
+    draw_white(column, group)
     column.prop(group, "sigma", slider=True)
     _draw_sigma_range(column, settled.derived(shown.facts))
     if shown.facts.analyzed:
@@ -58,6 +60,16 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
     column.prop(group, "model")
     if inputs.model == "auto":
         column.prop(group, "tolerance")
+
+
+def draw_white(layout: Any, owner: Any) -> None:
+    """Ask which white the values are relative to; `owner` has the properties."""
+    layout.prop(owner, "white")
+    if owner.white in (white_scale.PERFECT, ""):
+        return
+    layout.prop(owner, "plaque")
+    if owner.plaque == STATED_PLAQUE:
+        layout.prop(owner, "white_factor")
 
 
 def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:
