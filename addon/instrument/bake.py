@@ -38,6 +38,7 @@ from ..readings.document import (
     Readings,
     Triple,
 )
+from ..samples import stated_white
 from . import measure, rendered
 
 _IN_SCENE = (
@@ -262,6 +263,8 @@ def _predicted(
         xyz=_triple(100 * xyz, 4),
         lab=_triple(color_difference.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
         preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
+        white=stated_white.told(sample.white, sample.white_factor, sample.plaque),
+        white_factor=round(sample.scale, 6),
     )
 
 

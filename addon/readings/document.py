@@ -27,7 +27,8 @@ class Predicted:
     """Reading that the core computes from the stored spectrum.
 
     Wavelengths are nanometers, values reflectance factors (1 is the perfect white diffuser), and
-    XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`.
+    XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`. `white` says what the stored
+    spectrum itself is relative to, and `white_factor` what it was multiplied by.
     """
 
     kind: str
@@ -41,6 +42,8 @@ class Predicted:
     xyz: Triple
     lab: Triple
     preview: Triple
+    white: str = "perfect diffuser"
+    white_factor: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...core.errors import InputError
-from . import library_files, quality, readers
+from . import library_files, quality, readers, stated_white
 from .library_files import Added
 from .sample import Sample
 
@@ -31,7 +31,8 @@ class Found:
     @property
     def sentences(self) -> tuple[str, ...]:
         """Warnings, and what else the reader has to tell."""
-        return (*self.sample.notes, *self.warnings)
+        remark = stated_white.remark(self.sample)
+        return (*self.sample.notes, *((remark,) if remark else ()), *self.warnings)
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,27 @@ def read(paths: Iterable[str | os.PathLike[str]]) -> Batch:
         for sample, judged in zip(samples, quality.check(samples), strict=True):
             found.append(Found(path, sample, judged))
     return Batch(tuple(found), tuple(refused))
+
+
+def relative_to(batch: Batch, white: str | None, factor: object) -> Batch:
+    """Give the same samples, relative to a white that the user states.
+
+    Parameters
+    ----------
+    batch
+        What was read.
+    white, factor
+        As `stated_white.fields` takes them; None leaves what the files say.
+
+    Raises
+    ------
+    InputError
+        If they cannot be used.
+    """
+    stated = [
+        replace(each, sample=stated_white.given(each.sample, white, factor)) for each in batch.found
+    ]
+    return replace(batch, found=tuple(stated))
 
 
 def add(found: Sequence[Found], collection: str, folder: Path) -> list[Added]:

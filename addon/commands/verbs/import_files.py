@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ....core.errors import InputError
 from ...support.shown_text import out, tell
+from . import assign
 
 NAME = "import"
 SUMMARY = "add the samples of measurement files to the library"
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--folder", type=Path, metavar="DIR", help="another library than the user's own"
     )
+    assign.add_white_arguments(parser)
     parser.add_argument(
         "--keep-going",
         action="store_true",
@@ -41,7 +43,9 @@ def run(options: argparse.Namespace) -> int:
     from ...material import preferences
     from ...samples import importing
 
-    batch = importing.read(options.files)
+    batch = importing.relative_to(
+        importing.read(options.files), options.white, options.white_factor
+    )
     if batch.refused and not options.keep_going:
         raise InputError(batch.refused[0])
     for each in batch.found:

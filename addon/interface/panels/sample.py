@@ -10,7 +10,6 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ....core import limits, white_scale
 from ...material import derivation, settled
-from ...material.properties import STATED_PLAQUE
 from ..operators import common
 from . import redraw, sentences, text
 from .icon_values import icon_value
@@ -49,7 +48,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
     column.prop(group, "kind")
     if inputs.kind == "reading" or inputs.white[0] != white_scale.PERFECT:
         column.prop(group, "instrument")
-    draw_white(column, group)
+    common.draw_white(column, group)
     column.prop(group, "sigma", slider=True)
     _draw_sigma_range(column, settled.derived(shown.facts))
     if shown.facts.analyzed:
@@ -60,16 +59,6 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
     column.prop(group, "model")
     if inputs.model == "auto":
         column.prop(group, "tolerance")
-
-
-def draw_white(layout: Any, owner: Any) -> None:
-    """Ask which white the values are relative to; `owner` has the properties."""
-    layout.prop(owner, "white")
-    if owner.white in (white_scale.PERFECT, ""):
-        return
-    layout.prop(owner, "plaque")
-    if owner.plaque == STATED_PLAQUE:
-        layout.prop(owner, "white_factor")
 
 
 def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:

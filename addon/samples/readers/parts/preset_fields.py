@@ -186,7 +186,7 @@ RULES: dict[str, Rule] = {
     "device": _text(),
     "white": _choice(tuple(white_scale.REGISTRY)),
     "white_factor": _rule(
-        lambda value: is_number(value) or value in PLAQUES,
+        lambda value: is_number(value) or (isinstance(value, str) and value in PLAQUES),
         f"must be a number near 1, or {' or '.join(map(repr, PLAQUES))}",
     ),
     "condition": _choice(("M0", "M1", "M2", "M3")),
