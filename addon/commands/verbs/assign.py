@@ -29,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg (or rdq, or sdq), kind, white, white_factor; a sample without a file is a preset "
-        "or of the library",
+        "sigma_deg (or rdq, or sdq), kind, white, white_factor; a sample without a file is a "
+        "preset or of the library",
     )
     source.add_argument(
         "--by-name",

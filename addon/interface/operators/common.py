@@ -72,7 +72,7 @@ class WhiteOptions:
 
 
 def stated_white(operator: Any) -> tuple[str | None, Any]:
-    """Give white and factor of an operator's `WhiteOptions`, as `samples.stated_white` takes them."""
+    """Give white and factor of an operator's `WhiteOptions`, for `samples.stated_white`."""
     if operator.white == AS_FILE:
         return None, None
     factors = {STATED_PLAQUE: round(operator.white_factor, 6), UNKNOWN_PLAQUE: None}
