@@ -66,12 +66,12 @@ def read(paths: Iterable[str | os.PathLike[str]]) -> Batch:
     return Batch(tuple(found), tuple(refused))
 
 
-def relative_to(batch: Batch, white: str | None, factor: object) -> Batch:
+def relative_to(found: Iterable[Found], white: str | None, factor: object) -> list[Found]:
     """Give the same samples, relative to a white that the user states.
 
     Parameters
     ----------
-    batch
+    found
         What was read.
     white, factor
         As `stated_white.fields` takes them; None leaves what the files say.
@@ -81,10 +81,7 @@ def relative_to(batch: Batch, white: str | None, factor: object) -> Batch:
     InputError
         If they cannot be used.
     """
-    stated = [
-        replace(each, sample=stated_white.given(each.sample, white, factor)) for each in batch.found
-    ]
-    return replace(batch, found=tuple(stated))
+    return [replace(each, sample=stated_white.given(each.sample, white, factor)) for each in found]
 
 
 def add(found: Sequence[Found], collection: str, folder: Path) -> list[Added]:

@@ -65,7 +65,7 @@ def given(sample: Sample, white: Any, factor: Any) -> Sample:
 def told(white: str, factor: float | None, plaque: str) -> str:
     """Say in words what values are relative to, such as "8°/d certificate, sintered PTFE"."""
     known = white_scale.REGISTRY.get(white)
-    words = [white if known is None else known.menu[:1].lower() + known.menu[1:]]
+    words = [white if known is None else known.menu.lower()]
     if plaque:
         words.append(PLAQUES.get(plaque, plaque))
     if factor is not None:

@@ -43,16 +43,15 @@ def run(options: argparse.Namespace) -> int:
     from ...material import preferences
     from ...samples import importing
 
-    batch = importing.relative_to(
-        importing.read(options.files), options.white, options.white_factor
-    )
+    batch = importing.read(options.files)
     if batch.refused and not options.keep_going:
         raise InputError(batch.refused[0])
-    for each in batch.found:
+    found = importing.relative_to(batch.found, options.white, options.white_factor)
+    for each in found:
         for sentence in each.sentences:
             tell(f"warning: {each.path}: {sentence}")
     folder = options.folder or preferences.user_folder()
-    added = importing.add(batch.found, options.collection, folder) if batch.found else []
+    added = importing.add(found, options.collection, folder) if found else []
     for each_added in added:
         for sample_id in each_added.ids:
             out(sample_id)

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from math import radians
 from typing import TYPE_CHECKING, Any
 
@@ -60,16 +59,13 @@ def waiting(context: Any) -> Iterator[None]:
 def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Found) -> set[str]:
     """Do with samples what the operator's `ImportOptions` say, and report it."""
     from ...material import preferences
-    from ...samples import importing, stated_white
+    from ...samples import importing
 
     said = ""
     assigned: list[tuple[Any, Solution]] = []
-    white, factor = common.stated_white(operator)
     try:
-        active, *chosen = (
-            replace(each, sample=stated_white.given(each.sample, white, factor))
-            for each in (active, *chosen)
-        )
+        white = common.stated_white(operator)
+        active, *chosen = importing.relative_to((active, *chosen), *white)
         if operator.add_to_library:
             added = importing.add(chosen, operator.collection, preferences.user_folder())
             said = importing.summary(added)
