@@ -76,6 +76,9 @@ REGISTRY: Mapping[str, White] = MappingProxyType(
 PTFE = "ptfe"
 """Name of the plaque of sintered PTFE (Spectralon, Zenith, Fluorilon and others)."""
 
+STATED, UNKNOWN = "stated", "unknown"
+"""What a menu of plaques has for one whose factor is stated, and for one that nobody knows."""
+
 PTFE_FACTORS: Mapping[str, float] = MappingProxyType({"45:0": 1.0156, "8:d": 0.99})
 """Reflectance factor of sintered PTFE by geometry: as NIST measured it at 45°/0°, and as
 certificates of a sphere say. Pieces differ by some thousandths, and a little with wavelength."""

@@ -41,7 +41,6 @@ INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGI
 WHITE_ITEMS = tuple(
     (w.name, w.menu, w.description, w.number) for w in white_scale.REGISTRY.values()
 )
-STATED_PLAQUE, UNKNOWN_PLAQUE = "stated", "unknown"
 PLAQUE_ITEMS = (
     (
         white_scale.PTFE,
@@ -50,8 +49,13 @@ PLAQUE_ITEMS = (
         f"{white_scale.PTFE_FACTORS['8:d']:g} in a sphere, 8°/d",
         0,
     ),
-    (STATED_PLAQUE, "Stated Factor", "Another plaque, whose factor you know", 1),
-    (UNKNOWN_PLAQUE, "Not Known", "Fits where certificate and instrument are of one geometry", 2),
+    (white_scale.STATED, "Stated Factor", "Another plaque, whose factor you know", 1),
+    (
+        white_scale.UNKNOWN,
+        "Not Known",
+        "Fits where certificate and instrument are of one geometry",
+        2,
+    ),
 )
 MODEL_ITEMS = (
     ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),

@@ -19,7 +19,6 @@ from ...core import white_scale
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..blender.working_space import working_space_name
-from .properties import STATED_PLAQUE, UNKNOWN_PLAQUE
 
 _FIRST_TOLERANCE = 1.0
 """ΔE00; that of all materials before it could be set: it must never change."""
@@ -165,10 +164,10 @@ def white(group: Any) -> White:
     name, plaque = group.white, group.plaque
     if name == white_scale.PERFECT:
         return _PERFECT
-    if plaque == STATED_PLAQUE:
+    if plaque == white_scale.STATED:
         # Single precision, as with `sigma`.
         return name, shader_nodes.comparable(round(group.white_factor, 6)), ""
-    return name, None, "" if plaque == UNKNOWN_PLAQUE else plaque
+    return name, None, "" if plaque == white_scale.UNKNOWN else plaque
 
 
 def engine_is_flat() -> bool:

@@ -26,7 +26,7 @@ from ..samples.sample import Sample
 from ..support.version import version
 from . import changes, snapshot, state
 from .derivation import DERIVATION, Stamp, get_stamp, settings, to_text
-from .properties import SCHEMA, STATED_PLAQUE, UNKNOWN_PLAQUE
+from .properties import SCHEMA
 from .snapshot import (
     Inputs,
     elsewhere,
@@ -196,10 +196,10 @@ def _white_properties(sample: Sample) -> tuple[str, str, float | None]:
     """Give the white, the plaque and its factor as the material's properties have them."""
     plaque = sample.plaque
     if sample.white_factor is not None and sample.white != white_scale.PERFECT:
-        plaque = STATED_PLAQUE
+        plaque = white_scale.STATED
     elif not plaque:
         # Who chooses another white later most likely has this plaque.
-        plaque = white_scale.PTFE if sample.white == white_scale.PERFECT else UNKNOWN_PLAQUE
+        plaque = white_scale.PTFE if sample.white == white_scale.PERFECT else white_scale.UNKNOWN
     return sample.white, plaque, sample.white_factor
 
 

@@ -20,8 +20,6 @@ from ...material.properties import (
     PLAQUE,
     SHADER_ITEMS,
     SIGMA,
-    STATED_PLAQUE,
-    UNKNOWN_PLAQUE,
     WHITE,
     WHITE_FACTOR,
     WHITE_ITEMS,
@@ -75,7 +73,7 @@ def stated_white(operator: Any) -> tuple[str | None, Any]:
     """Give white and factor of an operator's `WhiteOptions`, for `samples.stated_white`."""
     if operator.white == AS_FILE:
         return None, None
-    factors = {STATED_PLAQUE: round(operator.white_factor, 6), UNKNOWN_PLAQUE: None}
+    factors = {white_scale.STATED: round(operator.white_factor, 6), white_scale.UNKNOWN: None}
     if operator.white == white_scale.PERFECT:
         return operator.white, None
     return operator.white, factors.get(operator.plaque, operator.plaque)
@@ -87,7 +85,7 @@ def draw_white(layout: Any, owner: Any) -> None:
     if owner.white in ("", AS_FILE, white_scale.PERFECT):
         return
     layout.prop(owner, "plaque")
-    if owner.plaque == STATED_PLAQUE:
+    if owner.plaque == white_scale.STATED:
         layout.prop(owner, "white_factor")
 
 
