@@ -66,7 +66,7 @@ def faults(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
             yield name, fault
     if all(RULES[name].fault(fields[name]) == "" for name in _WHITE if name in fields):
         white, fault = white_fields(*map(fields.get, _WHITE))
-        instrument = fields.get("instrument")
+        instrument: Any = fields.get("instrument")
         if not fault and RULES["instrument"].fault(instrument) == "":
             fault = white_scale.fault(
                 white.get("white", white_scale.PERFECT),
@@ -80,7 +80,7 @@ def faults(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
 
 def beyond(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Give a σ that no material has. A file may keep it: another one can be chosen."""
-    sigma = fields.get(FIELDS.degrees)
+    sigma: Any = fields.get(FIELDS.degrees)
     if is_number(sigma) and MATCHED_SIGMA_DEGREES < sigma <= LARGEST_SIGMA_DEGREES:
         yield FIELDS.degrees, sigma_fault(sigma).rstrip(".")
 
