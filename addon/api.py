@@ -41,8 +41,8 @@ from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
-from .matching import emission, roughness
 from .matching import compare as matching_compare
+from .matching import emission, roughness
 from .matching.assess import Differences
 from .matching.compare import Apart, Comparison
 from .matching.request import AUTO, Request
@@ -56,7 +56,7 @@ from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings
 from .readings.emission import Emissivity, InBand
-from .samples import filter_response, library, readers
+from .samples import filter_response, library, readers, stated_white
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
@@ -365,6 +365,8 @@ def request(
     tolerance: float = TOLERANCE,
     rdq: float | None = None,
     sdq: float | None = None,
+    white: str | None = None,
+    white_factor: float | str | None = None,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -389,18 +391,25 @@ def request(
     rdq, sdq
         Instead of σ, the rms slope of a profile or of an area as a profilometer prints it, rise
         over run: σ = atan(Rdq) = atan(Sdq/√2). It is kept with the material as the source of σ.
+    white, white_factor
+        What the values are relative to: "perfect" for the perfect diffuser, or the certificate of
+        the instrument's white plaque, "45:0" or "8:d"; and the plaque's true reflectance factor at
+        the instrument's geometry over the certificate's value, or "ptfe" for sintered PTFE. None
+        takes what the sample says. The values stay as measured.
 
     Raises
     ------
     DomainError
         A setting is none of these; or σ, Rdq and Sdq contradict each other.
     InputError
-        The kind is neither.
+        The kind is neither, or the white's factor does not follow from what is stated.
 
     Examples
     --------
     >>> request(find("brick"), rdq=0.35).sample.sigma_source
     'Rdq 0.35 (19.3°)'
+    >>> round(request(find("brick"), white="8:d", white_factor="ptfe").sample.scale, 4)
+    1.0259
     >>> wanted = request(find("green"), sigma=radians(20), illuminant="D50")
     >>> wanted.model, wanted.illuminant, round(wanted.sigma, 3)
     ('auto', 'D50', 0.349)
@@ -419,6 +428,7 @@ def request(
         sigma = radians(sample.sigma_degrees or 0.0)
     if kind is not None:
         sample = sample.taken_as(kind)
+    sample = stated_white.given(sample, white, white_factor)
     return Request(
         sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
     )

@@ -84,7 +84,7 @@ def rdq_from_sigma(sigma: npt.ArrayLike) -> Array:
     if (angle < 0).any() or (angle >= np.pi / 2).any():
         msg = "σ has to be 0 or larger and below π/2 to have a slope."
         raise DomainError(msg)
-    return np.tan(angle)
+    return np.asarray(np.tan(angle))
 
 
 def sdq_from_sigma(sigma: npt.ArrayLike) -> Array:

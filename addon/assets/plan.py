@@ -138,7 +138,7 @@ def assets(
     InputError
         Nothing was chosen, σ is out of range, or a sample without σ has to keep its own.
     """
-    stated = {}
+    stated: dict[float | None, StatedSigma] = {}
     for given in sigmas:
         sigma = given if isinstance(given, StatedSigma) else StatedSigma(float(given))
         if msg := _fault(sigma):

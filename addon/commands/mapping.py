@@ -20,14 +20,14 @@ from ...core import limits
 from ...core.errors import InputError, MaterialError
 from .. import api
 from ..material import preferences, selection
-from ..samples import library, readers
+from ..samples import library, readers, stated_white
 from ..samples.sample import COLORED, Kind, Sample
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
 
 _SIGMA = Names("sigma_deg")
 _OPTIONS = Names("--sigma", "--rdq", "--sdq")
-_FIELDS = ("material", "sample", "file", *_SIGMA, "kind")
+_FIELDS = ("material", "sample", "file", *_SIGMA, "kind", "white", "white_factor")
 
 
 @dataclass(frozen=True)
@@ -257,6 +257,10 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
         raise InputError(msg)
     if cells["kind"]:
         sample = sample.taken_as(cast(Kind, cells["kind"]))
+    try:
+        sample = stated_white.given(sample, cells["white"], cells["white_factor"])
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from error
     sigma = StatedSigma(*(_number(where, name, cells[name]) for name in _SIGMA))
     _, fault = sigma.fault(_SIGMA)
     if fault:
@@ -292,8 +296,9 @@ def _request(row: Row, sigma: StatedSigma, options: argparse.Namespace) -> api.R
         where, degrees = f"Material {row.material!r}", sigma.settled
     if fault := limits.sigma_fault(degrees or 0.0):
         raise InputError(f"{where}: {fault}")
+    sample = stated_white.given(row.sample, options.white, options.white_factor)
     return api.request(
-        _with_sigma(row.sample, sigma, "Stated as an option."),
+        _with_sigma(sample, sigma, "Stated as an option."),
         math.radians(degrees or 0.0),
         kind=options.kind,
         model=options.model,

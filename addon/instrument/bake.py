@@ -38,6 +38,7 @@ from ..readings.document import (
     Readings,
     Triple,
 )
+from ..samples import stated_white
 from . import measure, rendered
 
 _IN_SCENE = (
@@ -265,6 +266,8 @@ def _predicted(
         preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
         albedo_lowest=lowest,
         albedo_highest=highest,
+        white=stated_white.told(sample.white, sample.white_factor, sample.plaque),
+        white_factor=round(sample.scale, 6),
     )
 
 

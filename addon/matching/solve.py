@@ -280,8 +280,8 @@ def _infeasible(request: Request) -> str:
     sample = request.sample
     if sample.kind == "albedo" or request.model == "lambert":
         return ""
-    peak = int(np.argmax(sample.values))
-    value = float(sample.values[peak])
+    peak = int(np.argmax(sample.reflectance))
+    value = float(sample.reflectance[peak])
     limit = float(reading.white_reading(request.sigma, request.model, sample.instrument))
     if value <= limit * (1 + _ENOUGH):
         return ""

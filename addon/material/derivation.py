@@ -11,6 +11,7 @@ from collections import OrderedDict
 from typing import Any, NamedTuple
 
 from ...core.numerics.memoized import enlist, memoized
+from ..samples import stated_white
 from . import snapshot
 from .snapshot import Inputs
 
@@ -93,6 +94,7 @@ def settings(found: Inputs) -> dict[str, str]:
         "spectrum": hashlib.sha256(found.spectrum.encode()).hexdigest()[:16],
         "kind": found.kind,
         "instrument": found.instrument,
+        "white": stated_white.told(*found.white),
         "σ": f"{found.sigma_degrees:.5f}".rstrip("0").rstrip(".") + "°",
         "illuminant": found.illuminant,
         "model": found.model,

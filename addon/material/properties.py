@@ -18,7 +18,7 @@ from bpy.props import (
 )
 from bpy.types import Material, PropertyGroup
 
-from ...core import limits, models
+from ...core import limits, models, white_scale
 from ...core.instruments import REGISTRY
 from ..matching import shaders
 from . import changes
@@ -38,6 +38,25 @@ KIND_ITEMS = (
     ("albedo", "Albedo", "Reflectance of one facet: what the smooth material reflects", 1),
 )
 INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGISTRY.values())
+WHITE_ITEMS = tuple(
+    (w.name, w.menu, w.description, w.number) for w in white_scale.REGISTRY.values()
+)
+PLAQUE_ITEMS = (
+    (
+        white_scale.PTFE,
+        "Sintered PTFE",
+        f"Spectralon and its like: {white_scale.PTFE_FACTORS['45:0']:g} at 45°/0°, "
+        f"{white_scale.PTFE_FACTORS['8:d']:g} in a sphere, 8°/d",
+        0,
+    ),
+    (white_scale.STATED, "Stated Factor", "Another plaque, whose factor you know", 1),
+    (
+        white_scale.UNKNOWN,
+        "Not Known",
+        "Fits where certificate and instrument are of one geometry",
+        2,
+    ),
+)
 MODEL_ITEMS = (
     ("auto", "Auto", "Random rough surfaces, all bounces: the closest to real ones", 3),
     *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
@@ -91,6 +110,24 @@ SIGMA = {
 }
 """The slider of σ, wherever it stands."""
 
+WHITE = {"name": "White", "description": "What the values are relative to"}
+PLAQUE = {
+    "name": "Plaque",
+    "description": "White plaque that the instrument was set to",
+    "items": PLAQUE_ITEMS,
+}
+WHITE_FACTOR = {
+    "name": "White's Factor",
+    "description": "The plaque's true reflectance factor at the instrument's geometry, over the "
+    "value of its certificate",
+    "default": 1.0,
+    "precision": 4,
+    "step": 0.1,
+    "min": white_scale.FACTORS[0],
+    "max": white_scale.FACTORS[1],
+}
+"""The white of a reading, wherever it is asked for."""
+
 
 class RoughSpectraMaterial(PropertyGroup):
     """Measured spectrum of a material, its roughness, and what was derived from them."""
@@ -107,6 +144,9 @@ class RoughSpectraMaterial(PropertyGroup):
         items=INSTRUMENT_ITEMS,
         update=changes.on_setting,
     )
+    white: EnumProperty(**WHITE, items=WHITE_ITEMS, update=changes.on_setting)
+    plaque: EnumProperty(**PLAQUE, update=changes.on_setting)
+    white_factor: FloatProperty(**WHITE_FACTOR, update=changes.on_setting)
     spectrum: StringProperty(name="Spectrum", description="Wavelengths and values, as JSON")
     details: StringProperty(name="Details", description="What else the file said, as JSON")
     sigma: FloatProperty(**SIGMA, update=changes.on_setting)

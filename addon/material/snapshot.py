@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...core import white_scale
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..blender.working_space import working_space_name
@@ -26,6 +27,12 @@ _FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
 _KEPT = 1024
 """Materials whose answers are kept; with an analyzed scene one has about 7 kB of texts."""
+
+
+White = tuple[str, float | None, str]
+"""As a `Sample` states it: white, its factor or None, and plaque or an empty text."""
+
+_PERFECT: White = (white_scale.PERFECT, None, "")
 
 
 class Inputs(NamedTuple):
@@ -42,6 +49,8 @@ class Inputs(NamedTuple):
     flat
         Whether the engine ignores diffuse roughness, as far as the color follows from that: with
         a scene only.
+    white
+        Which white, what its factor is, and which plaque: of `stated_white`.
     """
 
     spectrum: str
@@ -54,6 +63,7 @@ class Inputs(NamedTuple):
     tolerance: float
     scene_view: str
     flat: bool
+    white: White = _PERFECT
 
 
 class Snapshot(NamedTuple):
@@ -149,6 +159,17 @@ def tolerance(group: Any) -> float:
     return round(group.tolerance, 5)
 
 
+def white(group: Any) -> White:
+    """Give the white that the values are relative to, as the user entered it."""
+    name, plaque = group.white, group.plaque
+    if name == white_scale.PERFECT:
+        return _PERFECT
+    if plaque == white_scale.STATED:
+        # Single precision, as with `sigma`.
+        return name, shader_nodes.comparable(round(group.white_factor, 6)), ""
+    return name, None, "" if plaque == white_scale.UNKNOWN else plaque
+
+
 def engine_is_flat() -> bool:
     """Whether the scene's render engine ignores diffuse roughness."""
     return _engine() in _FLAT_ENGINES
@@ -182,6 +203,8 @@ def digest(found: Inputs) -> str:
         told += (found.scene_view, engine_words(found.flat))
     if found.tolerance != _FIRST_TOLERANCE:
         told += (f"{found.tolerance}",)  # so that older stamps stay valid
+    if found.white != _PERFECT:
+        told += (repr(found.white),)
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
 
 
@@ -203,6 +226,7 @@ def _inputs(group: Any, analysis: str, engine: str) -> Inputs:
         shader_nodes.comparable(tolerance(group)),
         view,
         bool(view) and engine in _FLAT_ENGINES,
+        white(group),
     )
 
 

@@ -12,9 +12,11 @@ import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from ...core import white_scale
 from ...core.limits import MATCHED_SIGMA_DEGREES
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
+from ..samples import stated_white
 from . import snapshot
 from .derivation import (
     DERIVATION,
@@ -141,6 +143,7 @@ def beyond(sigma_degrees: float) -> str:
 
 
 _NONE = State("none")
+_PERFECT = stated_white.told(white_scale.PERFECT, None, "")
 
 
 def _stale_reasons(found: Snapshot) -> list[str]:
@@ -155,8 +158,9 @@ def _stale_reasons(found: Snapshot) -> list[str]:
 def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
     if stamp.inputs == snapshot.digest(found):
         return []
-    before = dict(stamp.settings)
-    now = settings(found)
+    before, now = dict(stamp.settings), settings(found)
+    if before:
+        before.setdefault("white", _PERFECT)  # an older stamp knows no other
     changes = []
     for label, value in before.items():
         if now.get(label, value) == value:

@@ -13,7 +13,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from ...core import limits
+from ...core import limits, white_scale
 from ...core.errors import InputError, MaterialError, RoughSpectraError
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes, working_space
@@ -43,7 +43,7 @@ _DETAILS = (
 _SENTENCES = ("notes", "altered")
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
-_MENUS = ("kind", "instrument", "illuminant", "observer", "model", "shader")
+_MENUS = ("kind", "instrument", "white", "plaque", "illuminant", "observer", "model", "shader")
 
 _UNREADABLE = (
     *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
@@ -68,7 +68,11 @@ def store(material: Any, request: Request, shader: str) -> None:
         group.details = json.dumps(
             {key: getattr(sample, key) for key in _DETAILS}
             | {key: list(getattr(sample, key)) for key in _SENTENCES}
+            | {"white_factor": sample.white_factor}
         )
+        group.white, group.plaque, factor = _white_properties(sample)
+        if factor is not None:
+            group.white_factor = factor
         group.sigma = request.sigma
         group.sigma_source = sample.sigma_source
         group.illuminant = request.illuminant
@@ -111,6 +115,7 @@ def load(material: Any, view: SceneView | None = None) -> Request:
             group.instrument,
             group.sigma_source,
             group.source,
+            snapshot.white(group),
         )
     except _UNREADABLE as error:
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
@@ -145,10 +150,21 @@ def fault(material: Any, view: SceneView | None = None) -> str:
 
 @memoized(maxsize=256)
 def _sample(
-    name: str, spectrum: str, details: str, kind: Any, instrument: str, about_sigma: str, cited: str
+    name: str,
+    spectrum: str,
+    details: str,
+    kind: Any,
+    instrument: str,
+    about_sigma: str,
+    cited: str,
+    white: snapshot.White,
 ) -> Sample:
     """Read a sample from what is stored of it; once, while a slider is dragged."""
     bands, more = json.loads(spectrum), json.loads(details or "{}")
+    relative_to, factor, plaque = white
+    exact = more.get("white_factor")
+    if factor is not None and isinstance(exact, float) and round(exact, 6) == factor:
+        factor = exact  # the property holds fewer digits than the file had
     lists = ("lab", "xyz", *_SENTENCES)
     pairs = {key: tuple(more[key]) for key in lists if more.get(key)}
     plain = {key: more[key] for key in _DETAILS if key in more and key not in pairs}
@@ -167,10 +183,24 @@ def _sample(
         instrument=instrument,
         sigma_source=about_sigma,
         source=cited,
+        white=relative_to,
+        white_factor=factor,
+        plaque=plaque,
         **(plain | pairs),
     )
     tristimulus.weights(sample.wavelengths)  # refuses what holds too little of a color
     return sample
+
+
+def _white_properties(sample: Sample) -> tuple[str, str, float | None]:
+    """Give the white, the plaque and its factor as the material's properties have them."""
+    plaque = sample.plaque
+    if sample.white_factor is not None and sample.white != white_scale.PERFECT:
+        plaque = white_scale.STATED
+    elif not plaque:
+        # Who chooses another white later most likely has this plaque.
+        plaque = white_scale.PTFE if sample.white == white_scale.PERFECT else white_scale.UNKNOWN
+    return sample.white, plaque, sample.white_factor
 
 
 def _color(numbers: tuple[Any, ...]) -> tuple[float, float, float]:
@@ -233,6 +263,10 @@ def _refuse_damaged(material: Any) -> None:
         else:
             continue
         raise MaterialError(f"Material {material.name!r}: {msg}")
+    white, factor, plaque = snapshot.white(group)
+    fault = white_scale.fault(white, group.instrument, factor, plaque)
+    if fault:
+        raise MaterialError(f"Material {material.name!r}: {fault}.")
     beyond = state.beyond(snapshot.sigma_degrees(group))
     if beyond:
         raise MaterialError(f"Material {material.name!r}: {beyond}.")

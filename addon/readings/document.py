@@ -30,6 +30,8 @@ class Predicted:
     XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`. The sample's own reading
     leaves albedos open from `albedo_lowest` to `albedo_highest`, one a band, while σ is unknown;
     both are the albedo where that was measured, and empty where no roughness fits the reading.
+    `white` says what the stored spectrum itself is relative to, and `white_factor` what it was
+    multiplied by.
     """
 
     kind: str
@@ -45,6 +47,8 @@ class Predicted:
     preview: Triple
     albedo_lowest: tuple[float, ...] = ()
     albedo_highest: tuple[float, ...] = ()
+    white: str = "perfect diffuser"
+    white_factor: float = 1.0
 
 
 @dataclass(frozen=True)

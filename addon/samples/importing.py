@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...core.errors import InputError
-from . import library_files, quality, readers
+from . import library_files, quality, readers, stated_white
 from .library_files import Added
 from .sample import Sample
 
@@ -31,7 +31,8 @@ class Found:
     @property
     def sentences(self) -> tuple[str, ...]:
         """Warnings, and what else the reader has to tell."""
-        return (*self.sample.notes, *self.warnings)
+        remark = stated_white.remark(self.sample)
+        return (*self.sample.notes, *((remark,) if remark else ()), *self.warnings)
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,24 @@ def read(paths: Iterable[str | os.PathLike[str]]) -> Batch:
         for sample, judged in zip(samples, quality.check(samples), strict=True):
             found.append(Found(path, sample, judged))
     return Batch(tuple(found), tuple(refused))
+
+
+def relative_to(found: Iterable[Found], white: str | None, factor: object) -> list[Found]:
+    """Give the same samples, relative to a white that the user states.
+
+    Parameters
+    ----------
+    found
+        What was read.
+    white, factor
+        As `stated_white.fields` takes them; None leaves what the files say.
+
+    Raises
+    ------
+    InputError
+        If they cannot be used.
+    """
+    return [replace(each, sample=stated_white.given(each.sample, white, factor)) for each in found]
 
 
 def add(found: Sequence[Found], collection: str, folder: Path) -> list[Added]:

@@ -313,7 +313,7 @@ def _merge(
 
 def _identity(sample: Sample) -> tuple[object, ...]:
     spectrum = sample.wavelengths.tobytes(), sample.values.tobytes()
-    return (*spectrum, sample.kind, sample.instrument)
+    return (*spectrum, sample.kind, sample.instrument, sample.scale)
 
 
 def _is_name(stored: str, name: str) -> bool:

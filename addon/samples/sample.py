@@ -19,6 +19,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...core import white_scale
 from ...core.errors import InputError
 from ...core.instruments import REGISTRY
 from ...core.limits import EYE_NM
@@ -97,6 +98,12 @@ class Sample:
         Sentences that the reader wants the user to see.
     altered
         Sentences that say what is not as the file has it, such as ``"Two scans were averaged."``.
+    white
+        What the values are relative to, one of `core.white_scale.REGISTRY`.
+    white_factor
+        What `core.white_scale.factor` calls stated; None where it is not.
+    plaque
+        The white plaque by a name of `core.white_scale`, or empty.
 
     Raises
     ------
@@ -127,18 +134,27 @@ class Sample:
     xyz: tuple[float, float, float] | None = None
     notes: tuple[str, ...] = ()
     altered: tuple[str, ...] = ()
+    white: str = white_scale.PERFECT
+    white_factor: float | None = None
+    plaque: str = ""
+
+    @property
+    def scale(self) -> float:
+        """What the values are multiplied by to be relative to the perfect diffuser."""
+        return white_scale.factor(self.white, self.instrument, self.white_factor, self.plaque)
 
     @property
     def reflectance(self) -> NDArray[np.float64]:
-        """The values to compute with, shape (bands,): noise below 0 counts as 0.
+        """The values to compute with, shape (bands,), relative to the perfect diffuser.
 
-        An albedo above 1 counts as 1. Of an emissivity it is what the surface does not emit, 1 - ε,
-        from 0 to 1: by Kirchhoff's law what it reflects of light from all around. `quality` says so
-        of every sample in which something counts as something else.
+        Noise below 0 counts as 0, an albedo above 1 as 1. Of an emissivity it is what the surface
+        does not emit, 1 - ε, from 0 to 1: by Kirchhoff's law what it reflects of light from all
+        around. `quality` says so of every sample in which something counts as something else.
         """
         if self.kind == "emissivity":
             return np.clip(1.0 - self.values, 0.0, 1.0)
-        return np.clip(self.values, 0.0, 1.0 if self.kind == "albedo" else None)
+        scaled = self.values if self.scale == 1.0 else self.values * self.scale
+        return np.clip(scaled, 0.0, 1.0 if self.kind == "albedo" else None)
 
     @property
     def has_color(self) -> bool:
@@ -206,13 +222,19 @@ class Sample:
             if not observer.is_integer():
                 raise InputError(f"{where}: the observer is {observer:g}; make it 2 or 10.")
             object.__setattr__(self, "observer", int(observer))
+        if self.white_factor is not None:
+            [factor] = _finite(where, "white_factor", (self.white_factor,), 1)
+            object.__setattr__(self, "white_factor", factor)
+        fault = white_scale.fault(self.white, self.instrument, self.white_factor, self.plaque)
+        if fault:
+            raise InputError(f"{where}: {fault}.")
 
 
 _HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivity"}
 
 _TEXTS = (
     *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
-    *("license", "position", "device", "condition", "illuminant"),
+    *("license", "position", "device", "condition", "illuminant", "white", "plaque"),
 )
 _texts_of = attrgetter(*_TEXTS)
 

@@ -80,11 +80,18 @@ FULL = Sample(
     xyz=(0.1, 0.2, 0.3),
     notes=("One.", "Two."),
     altered=("Two scans were averaged.",),
+    white="45:0",
+    white_factor=1 / 1.03,
 )
 
 
 def test_every_field_comes_back_to_the_last_bit(tmp_path):
-    left = [f.name for f in dataclasses.fields(Sample) if getattr(FULL, f.name) is f.default]
+    plaque = dataclasses.replace(FULL, white_factor=None, plaque="ptfe")
+    left = [
+        f.name
+        for f in dataclasses.fields(Sample)
+        if getattr(FULL, f.name) is f.default and getattr(plaque, f.name) is f.default
+    ]
     assert left == [], "give the sample above a value for each field"
     plain = sample("plain")
     assert library.add([FULL, plain], "mine", tmp_path).names == (FULL.name, "plain")
@@ -95,6 +102,8 @@ def test_every_field_comes_back_to_the_last_bit(tmp_path):
     assert first.sigma_degrees == 1 / 7
     assert any("below 0" in sentence for sentence in first.warnings)
     assert second.warnings == ()
+    library.add([plaque], "plaques", tmp_path)
+    assert same(readers.read(tmp_path / "plaques.json")[0], plaque)
 
 
 TEXTS = st.text(max_size=20) | st.sampled_from(
@@ -111,8 +120,14 @@ SPECTRA = st.lists(
 TEXT_FIELDS = [
     field.name
     for field in dataclasses.fields(Sample)
-    if field.type == "str" and field.default == ""
+    if field.type == "str" and field.default == "" and field.name != "plaque"
 ]
+WHITES = st.one_of(
+    st.just({}),
+    st.fixed_dictionaries(
+        {"white": st.sampled_from(["45:0", "8:d"]), "white_factor": st.floats(0.5, 2.0)}
+    ),
+)
 
 
 @st.composite
@@ -131,6 +146,7 @@ def samples(draw):
         xyz=draw(TRIPLES),
         notes=draw(st.lists(TEXTS, max_size=2).map(tuple)),
         altered=draw(st.lists(TEXTS, max_size=2).map(tuple)),
+        **draw(WHITES),
         **{name: draw(TEXTS) for name in draw(st.sets(st.sampled_from(TEXT_FIELDS), max_size=3))},
     )
 

@@ -213,7 +213,7 @@ def infeasible() -> None:
     """Show a reading that is brighter than white facets of this roughness would give."""
     thing = _fresh()
     path = _write("chalk.csv", "wavelength,Chalk\n" + "\n".join(f"{nm},0.94" for nm in BANDS))
-    bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(65))
+    bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(60))
     thing.active_material.rough_spectra.model = "two-bounce"
 
 

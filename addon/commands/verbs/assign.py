@@ -29,7 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg (or rdq, or sdq), kind; a sample without a file is a preset or of the library",
+        "sigma_deg (or rdq, or sdq), kind, white, white_factor; a sample without a file is a "
+        "preset or of the library",
     )
     source.add_argument(
         "--by-name",
@@ -62,6 +63,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
     )
     parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
+    add_white_arguments(parser)
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
     parser.add_argument(
@@ -81,10 +83,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, metavar="FILE", help="save here, not over the file")
 
 
+def add_white_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare which white the spectra are relative to."""
+    from ....core import white_scale
+
+    parser.add_argument(
+        "--white",
+        choices=tuple(white_scale.REGISTRY),
+        help="what the spectra are relative to: the perfect diffuser, or the certificate of the "
+        "instrument's white plaque at this geometry; without it what the files say, or perfect",
+    )
+    parser.add_argument(
+        "--white-factor",
+        metavar="FACTOR",
+        help="the plaque's true factor at the instrument's geometry over its certificate's value, "
+        f"or {white_scale.PTFE} for sintered PTFE",
+    )
+
+
 def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
     from ... import api
     from ...blender.blend_file import destination, save
+    from ...samples import stated_white
     from .. import mapping
     from ..progress import counted
 
@@ -92,7 +113,9 @@ def run(options: argparse.Namespace) -> int:
     rows = mapping.rows(options)
     pairs = mapping.pair(rows, options)
     solutions = api.assign(pairs, options.shader)
-    for (material, _), solution in zip(pairs, solutions, strict=True):
+    for (material, request), solution in zip(pairs, solutions, strict=True):
+        if remark := stated_white.remark(request.sample):
+            tell(f"note: material {material.name!r}: {remark}")
         for warning in solution.warnings:
             tell(f"warning: material {material.name!r}: {warning}")
     path = save(options.output)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ....core.errors import InputError
 from ...support.shown_text import out, tell
+from . import assign
 
 NAME = "import"
 SUMMARY = "add the samples of measurement files to the library"
@@ -29,6 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--folder", type=Path, metavar="DIR", help="another library than the user's own"
     )
+    assign.add_white_arguments(parser)
     parser.add_argument(
         "--keep-going",
         action="store_true",
@@ -44,11 +46,12 @@ def run(options: argparse.Namespace) -> int:
     batch = importing.read(options.files)
     if batch.refused and not options.keep_going:
         raise InputError(batch.refused[0])
-    for each in batch.found:
+    found = importing.relative_to(batch.found, options.white, options.white_factor)
+    for each in found:
         for sentence in each.sentences:
             tell(f"warning: {each.path}: {sentence}")
     folder = options.folder or preferences.user_folder()
-    added = importing.add(batch.found, options.collection, folder) if batch.found else []
+    added = importing.add(found, options.collection, folder) if found else []
     for each_added in added:
         for sample_id in each_added.ids:
             out(sample_id)

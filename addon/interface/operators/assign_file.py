@@ -13,9 +13,8 @@ from ....core.errors import InputError, RoughSpectraError
 from ...material.properties import KIND_ITEMS
 from . import common
 
-AS_FILE = "FILE"
 _KIND_ITEMS = (
-    (AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
+    (common.AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
     *KIND_ITEMS,
 )
 _items: list[tuple[str, str, str]] = []
@@ -27,7 +26,7 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     return _items
 
 
-class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy.types.Operator):
     """Make the material read like a sample of a measurement file, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_file"
@@ -40,7 +39,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
     )
     sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
     kind: EnumProperty(
-        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=common.AS_FILE
     )
 
     @classmethod
@@ -54,17 +53,22 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    def draw(self, _context: Any) -> None:
+        """Draw the options beside the files."""
+        common.draw_in_browser(self, ("sample", "kind", "sigma", "shader", "scope"))
+
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none; ask which sample if there are several."""
-        from ...samples import readers
+        from ...samples import readers, stated_white
 
         try:
             samples = readers.read(bpy.path.abspath(self.filepath))
             if len(samples) > 1 and not self.sample and not bpy.app.background:
                 return self._ask(samples)
             sample = choose(samples, self.sample, self.filepath)
-            if self.kind != AS_FILE:
+            if self.kind != common.AS_FILE:
                 sample = sample.taken_as(self.kind)
+            sample = stated_white.given(sample, *common.stated_white(self))
             request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
@@ -82,13 +86,18 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             filepath=self.filepath,
             kind=self.kind,
             sigma=self.sigma,
+            white=self.white,
+            plaque=self.plaque,
+            white_factor=self.white_factor,
             shader=self.shader,
             scope=self.scope,
         )
         return {"CANCELLED"}
 
 
-class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_file_sample(
+    common.WhiteOptions, common.AssignOptions, bpy.types.Operator
+):
     """Choose one of a measurement file's samples for the material"""
 
     bl_idname = "rough_spectra.assign_file_sample"
@@ -99,7 +108,7 @@ class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operato
     filepath: StringProperty(name="File", description="Spectra that an instrument wrote")
     sample: EnumProperty(name="Sample", description="Sample of the file", items=sample_items)
     kind: EnumProperty(
-        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=AS_FILE
+        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=common.AS_FILE
     )
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
@@ -116,6 +125,9 @@ class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operato
                     sample=self.sample,
                     kind=self.kind,
                     sigma=self.sigma,
+                    white=self.white,
+                    plaque=self.plaque,
+                    white_factor=self.white_factor,
                     shader=self.shader,
                     scope=self.scope,
                 )

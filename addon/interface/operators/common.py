@@ -14,9 +14,16 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
-from ....core import limits
+from ....core import limits, white_scale
 from ....core.errors import InputError, MaterialError, RoughSpectraError
-from ...material.properties import SHADER_ITEMS, SIGMA
+from ...material.properties import (
+    PLAQUE,
+    SHADER_ITEMS,
+    SIGMA,
+    WHITE,
+    WHITE_FACTOR,
+    WHITE_ITEMS,
+)
 
 if TYPE_CHECKING:
     from ...matching.solution import Solution
@@ -41,6 +48,55 @@ class AssignOptions:
     sigma: FloatProperty(**SIGMA)
     shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
     scope: EnumProperty(name="For", description="Materials that get it", items=SCOPE_ITEMS)
+
+
+AS_FILE = "FILE"
+"""What a menu has for what the file says."""
+
+
+class WhiteOptions:
+    """Properties of every operator that reads measurement files: what their values are relative to.
+
+    Called as a material's own, so that they are drawn alike.
+    """
+
+    white: EnumProperty(
+        **WHITE,
+        items=((AS_FILE, "As in the File", "Perfect diffuser if it says nothing", 9), *WHITE_ITEMS),
+        default=AS_FILE,
+    )
+    plaque: EnumProperty(**PLAQUE)
+    white_factor: FloatProperty(**WHITE_FACTOR)
+
+
+def stated_white(operator: Any) -> tuple[str | None, Any]:
+    """Give white and factor of an operator's `WhiteOptions`, for `samples.stated_white`."""
+    if operator.white == AS_FILE:
+        return None, None
+    factors = {white_scale.STATED: round(operator.white_factor, 6), white_scale.UNKNOWN: None}
+    if operator.white == white_scale.PERFECT:
+        return operator.white, None
+    return operator.white, factors.get(operator.plaque, operator.plaque)
+
+
+def draw_white(layout: Any, owner: Any) -> None:
+    """Ask which white values are relative to; `owner` has the properties of `WhiteOptions`."""
+    layout.prop(owner, "white")
+    if owner.white in ("", AS_FILE, white_scale.PERFECT):
+        return
+    layout.prop(owner, "plaque")
+    if owner.plaque == white_scale.STATED:
+        layout.prop(owner, "white_factor")
+
+
+def draw_in_browser(operator: Any, names: Sequence[str]) -> None:
+    """Draw options beside the files: those of these names, and the white."""
+    layout = operator.layout
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    for name in names:
+        layout.prop(operator, name)
+    draw_white(layout, operator)
 
 
 def active_object(context: Any) -> Any | None:
@@ -259,7 +315,11 @@ def has_materials(operator: Any) -> bool:
 
 def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> None:
     """Report every warning of the solutions, and which materials got the sample."""
+    from ...samples import stated_white
+
     report_warnings(operator, assigned)
+    if remark := stated_white.remark(sample):
+        operator.report({"INFO"}, remark)
     names = ", ".join(material.name for material, _ in assigned[:3])
     sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
     operator.report({"INFO"}, sentence)

@@ -29,7 +29,7 @@ MATERIALS_ITEMS = (
 )
 
 
-class ImportOptions(common.AssignOptions):
+class ImportOptions(common.WhiteOptions, common.AssignOptions):
     """What to do with the samples of measurement files."""
 
     add_to_library: BoolProperty(
@@ -64,6 +64,8 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
     said = ""
     assigned: list[tuple[Any, Solution]] = []
     try:
+        white = common.stated_white(operator)
+        active, *chosen = importing.relative_to((active, *chosen), *white)
         if operator.add_to_library:
             added = importing.add(chosen, operator.collection, preferences.user_folder())
             said = importing.summary(added)

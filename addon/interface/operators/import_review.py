@@ -137,6 +137,7 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         layout.separator(type="LINE")
         layout.use_property_split = True
         layout.use_property_decorate = False
+        common.draw_white(layout, self)
         layout.prop(self, "add_to_library")
         column = layout.column()
         column.enabled = self.add_to_library
@@ -182,8 +183,9 @@ def _fill(items: Any, found: tuple[Found, ...]) -> None:
             item.swatch = color
         if each.warnings:
             item.warnings = "\n".join(each.warnings)
-        if each.sample.notes:
-            item.notes = "\n".join(each.sample.notes)
+        notes = [note for note in each.sentences if note not in each.warnings]
+        if notes:
+            item.notes = "\n".join(notes)
 
 
 def _about(each: Found) -> str:

@@ -93,6 +93,11 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             )
         return carry_out(self, context, batch.found, batch.found[0])
 
+    def draw(self, _context: Any) -> None:
+        """Draw the options beside the files."""
+        names = ("add_to_library", "collection", "materials", "sigma", "shader", "scope")
+        common.draw_in_browser(self, (*names, "keep_going"))
+
     def _paths(self) -> list[Path]:
         folder = bpy.path.abspath(self.directory)
         named = [Path(folder, file.name) for file in self.files if file.name]
@@ -109,6 +114,9 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             collection=self.collection,
             materials=self.materials,
             sigma=self.sigma,
+            white=self.white,
+            plaque=self.plaque,
+            white_factor=self.white_factor,
             shader=self.shader,
             scope=self.scope,
         )

@@ -8,7 +8,7 @@ from typing import Any
 
 from bpy.app.translations import pgettext_iface as iface_
 
-from ....core import limits
+from ....core import limits, white_scale
 from ...material import derivation, settled
 from ..operators import common
 from . import redraw, sentences, text
@@ -46,8 +46,9 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
     column = layout.column()
     column.enabled = material.is_editable
     column.prop(group, "kind")
-    if inputs.kind == "reading":
+    if inputs.kind == "reading" or inputs.white[0] != white_scale.PERFECT:
         column.prop(group, "instrument")
+    common.draw_white(column, group)
     column.prop(group, "sigma", slider=True)
     _draw_sigma_range(column, settled.derived(shown.facts))
     if shown.facts.analyzed:

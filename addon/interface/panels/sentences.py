@@ -12,11 +12,12 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
-from ....core import limits, roughness
+from ....core import limits, roughness, white_scale
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
 from ...material.snapshot import Snapshot
+from ...samples import stated_white
 from .text import Format, Sentence
 
 Numbers = tuple[float, float, float]
@@ -150,11 +151,16 @@ def scene(found: Snapshot, name: str, how: Style) -> tuple[Sentence, ...]:
 
 @memoized(maxsize=_KEPT)
 def source(
-    cited: str, details: str, sigma: tuple[float, str], how: Style
+    cited: str,
+    details: str,
+    sigma: tuple[float, str],
+    white: tuple[str, float | None, str, str],
+    how: Style,
 ) -> tuple[tuple[Sentence, ...], ...]:
     """Say where a spectrum and its σ come from; what the file says of itself stands together.
 
-    `sigma` is σ in degrees and its source.
+    `sigma` is σ in degrees and its source; `white` what `core.white_scale.factor` takes: white,
+    stated factor, plaque, and instrument.
     """
     about, notes = _details(details)
     write, (degrees, stated) = how.format.sentence, sigma
@@ -165,7 +171,7 @@ def source(
     return (
         (write(cited or iface_("The source is not known"), "FILE"),),
         tuple(write(f"{iface_(label)}: {value}") for label, value in about),
-        (*told, *(write(text, "INFO") for text in notes)),
+        (write(_white(*white)), *told, *(write(text, "INFO") for text in notes)),
     )
 
 
@@ -177,6 +183,16 @@ def _slopes(degrees: float) -> str:
     rdq, sdq = roughness.rdq_from_sigma(sigma), roughness.sdq_from_sigma(sigma)
     text = iface_("σ {degrees}° is an Rdq of {rdq} and an Sdq of {sdq}")
     return text.format(degrees=f"{degrees:.4g}", rdq=f"{rdq:.3f}", sdq=f"{sdq:.3f}")
+
+
+def _white(name: str, stated: float | None, plaque: str, instrument: str) -> str:
+    """Say what values are relative to, and what makes them relative to the perfect diffuser."""
+    words = f"{iface_('Relative to')}: {stated_white.told(name, stated, plaque)}"
+    if name == white_scale.PERFECT or white_scale.fault(name, instrument, stated, plaque):
+        return words
+    factor = white_scale.factor(name, instrument, stated, plaque)
+    text = iface_("times {factor} it is relative to the perfect diffuser")
+    return f"{words}; {text.format(factor=f'{factor:.5g}')}"
 
 
 def _capital(reason: str) -> str:

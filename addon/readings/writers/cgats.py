@@ -92,6 +92,8 @@ def _table(
         f'MEASUREMENT_SOURCE\t"{source}"',
         'KEYWORD\t"MEASUREMENT_GEOMETRY"',
         f'MEASUREMENT_GEOMETRY\t"{INSTRUMENT}"',
+        'KEYWORD\t"ROUGH_SPECTRA_WHITE"',
+        'ROUGH_SPECTRA_WHITE\t"perfect diffuser"',
         f'KEYWORD\t"{CELLS}"',
         f'{CELLS}\t"{ESCAPED}"',
         f"NUMBER_OF_FIELDS\t{len(names)}",

@@ -41,9 +41,12 @@ def predicted(readings: Readings) -> bytes:
     bands = sorted({nm for _, part in rows for nm in part.wavelengths})
     lights = {_viewing(part) for _, part in rows}
     comments = _comments("predicted by the core from the stored spectrum", lights)
+    if scaled := sorted({_white(part) for _, part in rows if part.white != _PERFECT}):
+        comments.append(f"stored spectra relative to another white: {'; '.join(scaled)}")
     comments.append("albedo min, albedo max: what the sample's reading leaves open at any sigma")
     header = ["material", "surface", "sample", "sigma_deg", "model", "illuminant", "observer"]
-    header += ["X", "Y", "Z", "L*", "a*", "b*", *(f"{nanometers(nm)} nm" for nm in bands)]
+    header += ["stored_white", "X", "Y", "Z", "L*", "a*", "b*"]
+    header += [f"{nanometers(nm)} nm" for nm in bands]
     header += [f"albedo {end} {nanometers(nm)} nm" for nm in bands for end in ("min", "max")]
     lines = []
     for entry, part in rows:
@@ -60,6 +63,7 @@ def predicted(readings: Readings) -> bytes:
                 part.model,
                 part.illuminant,
                 str(part.observer),
+                part.white if part.white == _PERFECT else _white(part),
                 *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
                 *(f"{at[nm]:.6f}" if nm in at else "" for nm in bands),
                 *(
@@ -103,6 +107,14 @@ def nanometers(wavelength: float) -> str:
     return repr(float(wavelength)).removesuffix(".0")
 
 
+_PERFECT = "perfect diffuser"
+
+
+def _white(part: Predicted) -> str:
+    """Say what a stored spectrum is relative to, and what made it relative to the diffuser."""
+    return f"{part.white}, times {part.white_factor:g}"
+
+
 def _viewing(part: Predicted | CyclesReading) -> str:
     observer = part.observer if isinstance(part, Predicted) else 2
     return f"{part.illuminant}/{observer}°"
@@ -113,6 +125,7 @@ def _comments(quantity: str, lights: set[str]) -> list[str]:
         f"creator: Rough Spectra {version()}",
         f"quantity: {quantity}",
         "kind: reading",
+        "white: perfect diffuser",
         "units: fraction (reflectance factor, 1 = perfect white diffuser); XYZ with Y = 100",
         "wavelength_unit: nm",
         f"illuminant/observer: {', '.join(sorted(lights)) or 'none'}",

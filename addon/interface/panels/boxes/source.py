@@ -28,10 +28,12 @@ def draw(layout: Any, context: Any) -> None:
 
     material: Any = common.active_material(context)
     group, here = material.rough_spectra, redraw.current(context)
+    white = snapshot.white(group)
     cited, about, notes = sentences.source(
         group.source,
         group.details,
         (snapshot.sigma_degrees(group), group.sigma_source),
+        (*white, group.instrument),
         here.style,
     )
     text.draw(layout, cited)

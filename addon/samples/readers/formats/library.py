@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from .....core import white_scale
 from .....core.errors import InputError
 from .....core.instruments import REGISTRY
 from ...sample import KINDS, KINDS_NAMED, Sample, check_spectrum
@@ -155,6 +156,12 @@ def _sample(
         given["sigma_source"] = sigma.source(given.get("sigma_source", ""))
     if given.get("instrument", "45a:0") not in REGISTRY:
         raise document.error(place, f"'instrument' must be one of {', '.join(REGISTRY)}")
+    white, factor = given.get("white", white_scale.PERFECT), given.get("white_factor")
+    fault = white_scale.fault(
+        white, given.get("instrument", "45a:0"), factor, given.get("plaque", "")
+    )
+    if fault:
+        raise document.error(place, fault)
     numbers = {key: fields.get(key) for key in ("wavelengths", "values")}
     for key, found in numbers.items():
         if not isinstance(found, list) or not set(map(type, found)) <= {int, float}:

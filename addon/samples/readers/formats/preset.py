@@ -8,6 +8,7 @@ import json
 from typing import Any
 
 from ...sample import Sample, check_spectrum
+from ...stated_white import fields as white_fields
 from ..parts.document import Document
 from ..parts.preset_fields import FORMAT, faults, stated_sigma
 
@@ -73,6 +74,7 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         source=fields["source"],
         license=fields["license"],
         **optional,
+        **white_fields(fields.get("white"), fields.get("white_factor"))[0],
     )
 
 

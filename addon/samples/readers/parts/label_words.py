@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ....support.shown_text import ESCAPED
 from ...sample import Kind
+from ...stated_white import fields as white_fields
 from .document import Document, quote
 from .tables import lines
 
@@ -65,7 +66,7 @@ class Comments:
     kind: Kind = "reading"
     scale: float | None = None
     wavelength_unit: str = ""
-    texts: dict[str, str] = field(default_factory=dict)
+    texts: dict[str, Any] = field(default_factory=dict)
     escaped: bool = False
 
 
@@ -149,6 +150,8 @@ def comments(document: Document) -> Comments:
     if "#" not in document.text:
         return found
     stated = False
+    white: dict[str, str] = {}
+    white_line = 0
     for number, line in enumerate(lines(document), start=1):
         text = line.strip()
         if not text.startswith("#"):
@@ -166,6 +169,8 @@ def comments(document: Document) -> Comments:
             found.kind = _one_of(document, number, key, value, _KINDS)
         elif key == "cells":
             found.escaped = value.startswith(ESCAPED)
+        elif key in ("white", "white_factor"):
+            white[key], white_line = value, number
         elif key in ("instrument", "source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value
@@ -173,6 +178,10 @@ def comments(document: Document) -> Comments:
             found.scale = 100.0
         elif _OPTICAL.search(text):
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
+    said, fault = white_fields(white.get("white"), white.get("white_factor"))
+    if fault:
+        raise document.error(f"line {white_line}", fault)
+    found.texts.update(said)
     return found
 
 

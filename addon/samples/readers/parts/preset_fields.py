@@ -14,15 +14,19 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from .....core import white_scale
 from .....core.instruments import REGISTRY
 from .....core.limits import LARGEST_SIGMA_DEGREES, MATCHED_SIGMA_DEGREES, sigma_fault
 from ...sample import KINDS, KINDS_NAMED
 from ...stated_sigma import FIELDS, StatedSigma
+from ...stated_white import PLAQUES
+from ...stated_white import fields as white_fields
 from .document import quote
 
 FORMAT = "rough-spectra-preset"
 SCHEMA = 1
 
+_WHITE = ("white", "white_factor")
 _ID = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*/[a-z0-9]+(-[a-z0-9]+)*")
 
 
@@ -60,11 +64,23 @@ def faults(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
         name, fault = stated_sigma(fields).fault()
         if fault:
             yield name, fault
+    if all(RULES[name].fault(fields[name]) == "" for name in _WHITE if name in fields):
+        white, fault = white_fields(*map(fields.get, _WHITE))
+        instrument: Any = fields.get("instrument")
+        if not fault and RULES["instrument"].fault(instrument) == "":
+            fault = white_scale.fault(
+                white.get("white", white_scale.PERFECT),
+                instrument,
+                white.get("white_factor"),
+                white.get("plaque", ""),
+            )
+        if fault:
+            yield "white_factor" if "white_factor" in fields else "white", fault
 
 
 def beyond(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Give a σ that no material has. A file may keep it: another one can be chosen."""
-    sigma = fields.get(FIELDS.degrees)
+    sigma: Any = fields.get(FIELDS.degrees)
     if is_number(sigma) and MATCHED_SIGMA_DEGREES < sigma <= LARGEST_SIGMA_DEGREES:
         yield FIELDS.degrees, sigma_fault(sigma).rstrip(".")
 
@@ -168,6 +184,11 @@ RULES: dict[str, Rule] = {
     "aperture": _text(),
     "specular": _choice(("SCI", "SCE")),
     "device": _text(),
+    "white": _choice(tuple(white_scale.REGISTRY)),
+    "white_factor": _rule(
+        lambda value: is_number(value) or (isinstance(value, str) and value in PLAQUES),
+        f"must be a number near 1, or {' or '.join(map(repr, PLAQUES))}",
+    ),
     "condition": _choice(("M0", "M1", "M2", "M3")),
     "illuminant": _text(),
     "observer": _choice((2, 10)),
