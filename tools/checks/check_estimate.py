@@ -81,14 +81,14 @@ class Row:
 
 
 def patches(count: int) -> list[Array]:
-    """Spectra of the ColorChecker's patches, every 10 nm."""
+    """Give spectra of the ColorChecker's patches, every 10 nm."""
     paths = sorted((ROOT / "presets" / "colorchecker").glob("*.json"))
     texts = [path.read_text(encoding="utf-8") for path in paths[:count]]
     return [np.array(json.loads(text)["values"])[_BANDS] for text in texts]
 
 
 def cases(albedos: list[Array], sigma: float, model: str) -> Iterator[tuple[str, list[Reading]]]:
-    """Readings without noise, by their kind."""
+    """Give readings without noise, by their kind."""
     for albedo in albedos:
         yield "smooth and rough", _pair(albedo, sigma, model, "")
     for albedo in albedos[::_EVERY]:
@@ -114,7 +114,7 @@ def _pair(albedo: Array, sigma: float, model: str, material: str) -> list[Readin
 def draw(
     readings: list[Reading], noise: tuple[float, float], count: int, random: np.random.Generator
 ) -> tuple[list[Reading], Array]:
-    """Readings that state their noise, and draws of them: (draws, readings, bands)."""
+    """Give readings that state their noise, and draws of them: (draws, readings, bands)."""
     values = np.array([of.values for of in readings])
     deviation = estimate.repeatability(values, *noise)
     stated = [
@@ -160,8 +160,8 @@ def table(found: list[Row], count: int, model: str) -> str:
         "<!-- Made by tools/checks/check_estimate.py -->",
         f"Model {model}, {count:,} draws of each case, {_bands()} bands.",
         "",
-        "| readings of so many materials or sets | noise | σ | interval holds the truth | σ within, 95 % of draws: median patch, "
-        "worst | width of the interval |",
+        "| readings of so many materials or sets | noise | σ | interval holds the truth "
+        "| σ within, 95 % of draws: median material, worst | width of the interval |",
         "|---|---|---|---|---|---|",
     ]
     lines += [
