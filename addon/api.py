@@ -20,7 +20,7 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from math import radians
+from math import degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +52,7 @@ from .readings.document import Reading, Readings
 from .samples import library, readers
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
+from .samples.stated_sigma import Names, StatedSigma
 
 __all__ = [
     "CancelledError",
@@ -87,6 +88,9 @@ __all__ = [
 ]
 
 
+_SIGMA = Names("sigma")
+
+
 def read(
     path: str | os.PathLike[str], region: tuple[int, int, int, int] | None = None
 ) -> list[Sample]:
@@ -103,7 +107,7 @@ def read(
     Returns
     -------
     At least one sample. A `Sample` has, among others, `name`; `wavelengths` in nanometers and
-    `values` as fractions, both of shape (bands,); and `kind`, "reading" or "albedo".
+    `values` as fractions, both of shape (bands,); and `kind`, "reading", "albedo" or "emissivity".
 
     Raises
     ------
@@ -220,6 +224,8 @@ def request(
     illuminant: str = "D65",
     observer: int = 2,
     tolerance: float = TOLERANCE,
+    rdq: float | None = None,
+    sdq: float | None = None,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -228,12 +234,12 @@ def request(
     sample
         What `read` or `find` gave, or a `Sample` of your own.
     sigma
-        Roughness σ, **radians**, 0 to π/2. None takes what the sample says, or else 0.
+        Roughness σ, **radians**, 0 to π/3. None takes what the sample says, or else 0.
     kind
         "reading" for the reflectance factor that an instrument printed of the rough surface,
         "albedo" for the reflectance of one facet. None takes what the sample says.
     model
-        "auto" for the cheapest that is good enough, or one of `core.models.NAMES`.
+        "auto", which is `core.models.TARGET`, or one of `core.models.NAMES`.
     illuminant
         Light under which the color is right: "D65", "A", "D50", "D55", "D75", "E", "F2", "F7",
         "F11" or "LED-B3".
@@ -241,27 +247,39 @@ def request(
         Of reports, 2 or 10 (degrees).
     tolerance
         Largest ΔE00 from the reference that "auto" accepts for a simpler model, 0.05 to 20.
+    rdq, sdq
+        Instead of σ, the rms slope of a profile or of an area as a profilometer prints it, rise
+        over run: σ = atan(Rdq) = atan(Sdq/√2). It is kept with the material as the source of σ.
 
     Raises
     ------
     DomainError
-        A setting is none of these.
+        A setting is none of these; or σ, Rdq and Sdq contradict each other.
     InputError
         The kind is neither.
 
     Examples
     --------
+    >>> request(find("brick"), rdq=0.35).sample.sigma_source
+    'Rdq 0.35 (19.3°)'
     >>> wanted = request(find("green"), sigma=radians(20), illuminant="D50")
     >>> wanted.model, wanted.illuminant, round(wanted.sigma, 3)
     ('auto', 'D50', 0.349)
     >>> request(find("green"), sigma=20)
     Traceback (most recent call last):
-    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/2, as math.radians(30) is.
+    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/3, as math.radians(30) is.
     """
+    if rdq is not None or sdq is not None:
+        stated = StatedSigma(None if sigma is None else degrees(sigma), rdq, sdq)
+        _, fault = stated.fault(_SIGMA)
+        if fault:
+            raise DomainError(f"Sample {sample.name!r}: {fault}.")
+        source = stated.source("")
+        sample = replace(sample, sigma_degrees=stated.settled, sigma_source=source)
     if sigma is None:
         sigma = radians(sample.sigma_degrees or 0.0)
     if kind is not None:
-        sample = replace(sample, kind=kind)
+        sample = sample.taken_as(kind)
     return Request(
         sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
     )

@@ -21,19 +21,22 @@ from ...core.errors import InputError, MaterialError
 from .. import api
 from ..material import preferences, selection
 from ..samples import library, readers
-from ..samples.sample import KINDS, Kind, Sample
+from ..samples.sample import COLORED, Kind, Sample
+from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
 
-_FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
+_SIGMA = Names("sigma_deg")
+_OPTIONS = Names("--sigma", "--rdq", "--sdq")
+_FIELDS = ("material", "sample", "file", *_SIGMA, "kind")
 
 
 @dataclass(frozen=True)
 class Row:
-    """One assignment as asked for; `sigma_degrees` is None where nothing says it."""
+    """One assignment as asked for, and the file and row that say so, if any do."""
 
     material: str
     sample: Sample
-    sigma_degrees: float | None
+    where: str = ""
 
 
 def rows(options: argparse.Namespace) -> list[Row]:
@@ -54,7 +57,7 @@ def rows(options: argparse.Namespace) -> list[Row]:
         if not options.material:
             msg = f"Name the materials that get {sample.name!r}, with --material NAME."
             raise InputError(msg)
-        return [Row(name, sample, sample.sigma_degrees) for name in options.material]
+        return [Row(name, sample) for name in options.material]
     return _by_name(options)
 
 
@@ -68,7 +71,7 @@ def _by_name(options: argparse.Namespace) -> list[Row]:
         raise InputError(msg)
     known = {material.name for material in bpy.data.materials}
     wanted = set(options.material or (names if options.create else known))
-    chosen = [Row(s.name, s, s.sigma_degrees) for s in samples if s.name in wanted]
+    chosen = [Row(s.name, s) for s in samples if s.name in wanted]
     if not chosen:
         msg = f"No material is named like a sample ({shown}); rename, or use --mapping."
         raise InputError(msg)
@@ -83,10 +86,12 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.
     InputError, MaterialError
         If σ is out of range or a material is missing; none was made then.
     """
-    requests = []
-    for row in chosen:
-        degrees = row.sigma_degrees if options.sigma is None else options.sigma
-        requests.append(_request(row, 0.0 if degrees is None else degrees, options))
+    sigma = StatedSigma(options.sigma, options.rdq, options.sdq)
+    name, fault = sigma.fault(_OPTIONS)
+    if fault:
+        msg = f"The option {name}: {fault}."
+        raise InputError(msg)
+    requests = [_request(row, sigma, options) for row in chosen]
     known = selection.every()
     missing = [row.material for row in chosen if row.material not in known]
     if missing and not options.create:
@@ -247,28 +252,49 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
     sample = samples.find(where, cells["sample"], cells["file"])
-    if cells["kind"] and cells["kind"] not in KINDS:
+    if cells["kind"] and cells["kind"] not in COLORED:
         msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
         raise InputError(msg)
     if cells["kind"]:
-        sample = replace(sample, kind=cast(Kind, cells["kind"]))
-    sigma = sample.sigma_degrees
-    if cells["sigma_deg"]:
-        try:
-            sigma = float(cells["sigma_deg"])
-        except ValueError as error:
-            msg = f"{where}: sigma_deg is {cells['sigma_deg']!r}; give degrees as a number."
-            raise InputError(msg) from error
-    return Row(cells["material"], sample, sigma)
+        sample = sample.taken_as(cast(Kind, cells["kind"]))
+    sigma = StatedSigma(*(_number(where, name, cells[name]) for name in _SIGMA))
+    _, fault = sigma.fault(_SIGMA)
+    if fault:
+        raise InputError(f"{where}: {fault}.")
+    sample = _with_sigma(sample, sigma, f"Stated in {path.name}, {place}.")
+    return Row(cells["material"], sample, where)
 
 
-def _request(row: Row, degrees: float, options: argparse.Namespace) -> api.Request:
-    if fault := limits.sigma_fault(degrees):
-        msg = f"Material {row.material!r}: {fault}"
-        raise InputError(msg)
+def _number(where: str, name: str, cell: str) -> float | None:
+    if not cell:
+        return None
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        what = "degrees as a number" if name == _SIGMA.degrees else "a slope as a number"
+        raise InputError(f"{where}: {name} is {cell!r}; give {what}.")
+    return number
+
+
+def _with_sigma(sample: Sample, sigma: StatedSigma, about: str) -> Sample:
+    """Give a sample with the σ that was stated for it, and where that comes from."""
+    degrees = sigma.settled
+    if degrees is None or (degrees == sample.sigma_degrees and not sigma.slope):
+        return sample
+    return replace(sample, sigma_degrees=degrees, sigma_source=sigma.source(about))
+
+
+def _request(row: Row, sigma: StatedSigma, options: argparse.Namespace) -> api.Request:
+    where, degrees = row.where or f"Material {row.material!r}", row.sample.sigma_degrees
+    if sigma.settled is not None:  # the option counts, whatever the row says
+        where, degrees = f"Material {row.material!r}", sigma.settled
+    if fault := limits.sigma_fault(degrees or 0.0):
+        raise InputError(f"{where}: {fault}")
     return api.request(
-        row.sample,
-        math.radians(degrees),
+        _with_sigma(row.sample, sigma, "Stated as an option."),
+        math.radians(degrees or 0.0),
         kind=options.kind,
         model=options.model,
         illuminant=options.illuminant,

@@ -39,7 +39,7 @@ KIND_ITEMS = (
 )
 INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGISTRY.values())
 MODEL_ITEMS = (
-    ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
+    ("auto", "Auto", "Random rough surfaces, all bounces: the closest to real ones", 3),
     *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
 )
 SHADER_ITEMS = (
@@ -81,12 +81,13 @@ OBSERVER_ITEMS = (
 
 SIGMA = {
     "name": "σ",
-    "description": "Roughness: standard deviation of the slope angle of the surface's facets",
+    "description": "Roughness: the angle whose tangent is the rms slope of a profile across the "
+    "surface, a profilometer's Rdq. Sdq, of an area, is √2 larger",
     "subtype": "ANGLE",
     "precision": 1,
     "step": 100,
     "min": 0.0,
-    "max": limits.LARGEST_SIGMA,
+    "max": limits.MATCHED_SIGMA,
 }
 """The slider of σ, wherever it stands."""
 

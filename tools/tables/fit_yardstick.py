@@ -91,7 +91,7 @@ def fit() -> tuple[Array, Array]:
 
 def log_ratio(geometry: Array, sigma: Array, albedo: Array) -> Array:
     """Logarithm of r / ρ by the solver: shape (geometries, σ, ρ)."""
-    weights = slope_law.weights(sigma, surface.STANDARD.slopes)
+    weights = slope_law.weights(sigma, surface.STANDARD.slopes, slope_law.OREN_NAYAR)
     parts = np.array_split(geometry, (len(geometry) + 1) // 2)
     bounces = sigma_tables.SERIES_BOUNCES
     rows = np.concatenate(

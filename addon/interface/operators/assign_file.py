@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -65,7 +64,7 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
                 return self._ask(samples)
             sample = choose(samples, self.sample, self.filepath)
             if self.kind != AS_FILE:
-                sample = replace(sample, kind=self.kind)
+                sample = sample.taken_as(self.kind)
             request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
