@@ -20,18 +20,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import models
-from ..errors import DomainError
 from ..numerics.arrays import Array
-from . import likelihood
+from . import likelihood, models_of_sigma
+from .models_of_sigma import SPREAD
 from .readings import Measured, Reading, prepare
 from .search import QUANTILE, Found, search
 
-MODEL = "closure"
+MODEL = models.TARGET
 """Model that σ is estimated in unless another is named, and that decides whether σ can be told: it
 has to keep the energy of white facets, or it would see roughness in white."""
-
-SPREAD = tuple(name for name in models.NAMES if name not in ("lambert", "first-order"))
-"""Models whose σ is given beside it: all that know light between facets."""
 
 CONFIDENCE = 0.95
 """Share of cases in which the interval holds σ."""
@@ -149,10 +146,7 @@ def sigma(
     """
     measured = prepare(readings)
     for name in (model, *others):
-        models.find(name)
-        if name == "lambert":
-            msg = "The model 'lambert' does not know roughness; choose another one."
-            raise DomainError(msg)
+        models_of_sigma.check(name)
     found = _best(measured, model)
     by_model = {name: found if name == model else _best(measured, name) for name in others}
     fitted = likelihood.fit(

@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import ladder, reading
 from ..numerics.arrays import Array
+from . import models_of_sigma
 from .readings import Directions, Measured
 
 STEPS = 3
@@ -72,7 +72,9 @@ def predict(measured: Measured, model: str, albedo: Array, sigma: Array) -> Arra
         for row in rows:
             instrument = measured.instruments[row] if measured.rough[row] else None
             if instrument not in known:
-                known[instrument] = _read(rho, sigma, model, measured.instruments[row])
+                known[instrument] = models_of_sigma.predict(
+                    rho, sigma, model, measured.instruments[row]
+                )
             out[..., row, :] = known[instrument]
     return out
 
@@ -212,16 +214,10 @@ def _guess(measured: Measured, model: str, values: Array, sigma: Array) -> Array
     alone = np.array(np.broadcast_to(values, (*lead, *values.shape[-2:])))
     for row, instrument in enumerate(measured.instruments):
         if measured.rough[row] and isinstance(instrument, str):
-            found = reading.to_albedo(values[..., row, :], sigma, model, instrument)
+            found = models_of_sigma.invert(values[..., row, :], sigma, model, instrument)
             alone[..., row, :] = np.where(np.isnan(found), values[..., row, :], found)
     total = _by_material(measured, np.broadcast_to(measured.weights, alone.shape))
     return _by_material(measured, measured.weights * alone) * _inverse(total)
-
-
-def _read(rho: Array, sigma: Array, model: str, instrument: str | Directions) -> Array:
-    if isinstance(instrument, str):
-        return reading.from_albedo(rho, sigma, model, instrument)
-    return ladder.reflectance(model, rho, *instrument, sigma)
 
 
 def _by_material(measured: Measured, terms: Array) -> Array:

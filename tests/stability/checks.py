@@ -448,7 +448,7 @@ def check_cycles_grazing(reflectance):
 GRAYS = np.linspace(0.2, 0.6, 16)
 
 
-def pair(albedo, sigma, seed=None, model="closure"):
+def pair(albedo, sigma, seed=None, model=estimate.MODEL):
     """Give a smooth and a rough reading, with noise of 0.1 % where seeded."""
     values = np.array([albedo, reading.from_albedo(albedo, sigma, model)])
     if seed is not None:

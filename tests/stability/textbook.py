@@ -258,6 +258,6 @@ def estimate_of_all_bands(readings):
     """A sum of squares over bands, in which NaN is NaN."""
     smooth, rough = (np.asarray(of.values) for of in readings)
     sigmas = np.linspace(0, 1, 201)
-    left = [np.sum((rough - reading.from_albedo(smooth, s, "closure")) ** 2) for s in sigmas]
+    left = [np.sum((rough - reading.from_albedo(smooth, s, estimate.MODEL)) ** 2) for s in sigmas]
     found = estimate.sigma(readings, others=())
     return replace(found, sigma=sigmas[int(np.argmin(left))])
