@@ -9,7 +9,16 @@ search         the best σ, and the interval that noise leaves open
 estimation     both with what the models leave open, or why σ can't be told
 """
 
-from .estimation import CONFIDENCE, LARGEST, MODEL, MODEL_ERROR, Estimate, of_draws, sigma
+from .estimation import (
+    CONFIDENCE,
+    LARGEST,
+    MODEL,
+    MODEL_ERROR,
+    TOO_OPEN,
+    Estimate,
+    of_draws,
+    sigma,
+)
 from .models_of_sigma import SPREAD
 from .readings import ABSOLUTE, RELATIVE, Reading, repeatability
 
@@ -21,6 +30,7 @@ __all__ = [
     "MODEL_ERROR",
     "RELATIVE",
     "SPREAD",
+    "TOO_OPEN",
     "Estimate",
     "Reading",
     "of_draws",

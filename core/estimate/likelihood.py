@@ -159,29 +159,31 @@ def unexplained(measured: Measured, fitted: Fitted, change: Array) -> Array:
     return np.asarray(change - fitted.slope * _by_reading(measured, share))
 
 
-def allowing(measured: Measured, fitted: Fitted, error: float) -> Array:
+def allowing(measured: Measured, fitted: Fitted, errors: Array) -> Array:
     """Give χ² where the model itself may miss: shape (...).
 
     Parameters
     ----------
-    error
-        Standard deviation of what a model misses of a rough surface, as a share of the reading:
-        one number at each instrument for dark facets, another for bright ones, and in between
-        what lies between the two.
+    errors
+        Standard deviation of what a model misses of each rough reading, as a share of it, shape
+        (readings,): it misses one number at each instrument for dark facets, another for bright
+        ones, and in between what lies between the two.
 
     Examples
     --------
     >>> from .readings import Reading, prepare
     >>> pair = prepare([Reading([0.5], rough=False), Reading([0.495])])
     >>> found = fit(pair, "two-bounce", pair.values, np.array(0.0))
-    >>> float(found.chi_square.round(0)), float(allowing(pair, found, 0.01).round(1))
+    >>> float(found.chi_square.round(0)), float(allowing(pair, found, np.full(2, 0.01)).round(1))
     (49.0, 1.9)
     """
-    used = dict.fromkeys(
-        instrument
-        for instrument, rough in zip(measured.instruments, measured.rough, strict=True)
+    used = {
+        instrument: error
+        for instrument, rough, error in zip(
+            measured.instruments, measured.rough, errors, strict=True
+        )
         if rough
-    )
+    }
     count = 2 * len(used)
     shift = np.zeros((*fitted.predicted.shape[:-2], count, *fitted.predicted.shape[-2:]))
     bright = np.clip(_by_reading(measured, fitted.albedo), 0, 1) * fitted.predicted
@@ -190,12 +192,13 @@ def allowing(measured: Measured, fitted: Fitted, error: float) -> Array:
             if measured.rough[row] and own == instrument:
                 shift[..., 2 * number, row, :] = bright[..., row, :]
                 shift[..., 2 * number + 1, row, :] = (fitted.predicted - bright)[..., row, :]
-    expanded = Fitted(*(np.expand_dims(part, -3) for part in fitted[:3]), fitted.chi_square)
+    albedo, predicted, slope = (np.expand_dims(part, -3) for part in fitted[:3])
+    expanded = Fitted(albedo, predicted, slope, fitted.chi_square)
     free = unexplained(measured, expanded, shift)
     rest = measured.values - fitted.predicted
     along = np.einsum("...krb,rb,...rb->...k", free, measured.weights, rest)
     inner = np.einsum("...krb,rb,...lrb->...kl", free, measured.weights, free)
-    inner = inner + np.eye(count) / error**2
+    inner = inner + np.diag(np.repeat(list(used.values()), 2) ** -2.0)
     taken = np.linalg.solve(inner, along[..., np.newaxis])[..., 0]
     return np.asarray(fitted.chi_square - np.sum(along * taken, axis=-1))
 
