@@ -34,6 +34,14 @@ _ROUGHNESS_STEP = 1e-6
 """Difference of σ² for dR/dσ², and its share of σ² besides 1e-4."""
 
 
+BRIGHTEST = 0.96
+"""Albedo to which models are held against traced surfaces. Beyond, all depends on how many bounces
+white facets let live, and on the white that the reading is relative to."""
+
+_BEYOND = 5.0
+"""How much more a model may miss beyond it."""
+
+
 class Fitted(NamedTuple):
     """Readings explained by a roughness; leading axes are those of σ.
 
@@ -186,11 +194,13 @@ def allowing(measured: Measured, fitted: Fitted, errors: Array) -> Array:
     }
     count = 2 * len(used)
     shift = np.zeros((*fitted.predicted.shape[:-2], count, *fitted.predicted.shape[-2:]))
-    bright = np.clip(_by_reading(measured, fitted.albedo), 0, 1) * fitted.predicted
+    albedos = np.clip(_by_reading(measured, fitted.albedo), 0, 1)
+    bright = albedos * fitted.predicted
     for number, instrument in enumerate(used):
         for row, own in enumerate(measured.instruments):
             if measured.rough[row] and own == instrument:
-                shift[..., 2 * number, row, :] = bright[..., row, :]
+                more = np.where(albedos[..., row, :] > BRIGHTEST, _BEYOND, 1)
+                shift[..., 2 * number, row, :] = more * bright[..., row, :]
                 shift[..., 2 * number + 1, row, :] = (fitted.predicted - bright)[..., row, :]
     albedo, predicted, slope = (np.expand_dims(part, -3) for part in fitted[:3])
     expanded = Fitted(albedo, predicted, slope, fitted.chi_square)
