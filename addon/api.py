@@ -220,7 +220,7 @@ def estimate(
     >>> _ = Path("card.csv").write_text("nm,Card,Sanded\n" + rows)
     >>> card, sanded = read("card.csv")
     >>> found = estimate([(card, sanded)])
-    >>> found.is_told, radians(20) < found.sigma < radians(35)
+    >>> found.is_told, radians(25) < found.sigma < radians(45)
     (True, True)
     >>> estimate([(None, sanded)]).reason.partition(":")[0]
     "σ can't be told from one reading"

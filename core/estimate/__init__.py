@@ -3,12 +3,23 @@
 """The roughness σ from readings: what they say of it, and what they leave open.
 
 readings       what was read, with what repeatability, and which bands can be used
+models_of_sigma  the models and slope laws that σ can be asked in
 likelihood     how well a σ explains the readings, with the albedo that suits it best
 search         the best σ, and the interval that noise leaves open
 estimation     both with what the models leave open, or why σ can't be told
 """
 
-from .estimation import CONFIDENCE, LARGEST, MODEL, MODEL_ERROR, SPREAD, Estimate, of_draws, sigma
+from .estimation import (
+    CONFIDENCE,
+    LARGEST,
+    MODEL,
+    MODEL_ERROR,
+    TOO_OPEN,
+    Estimate,
+    of_draws,
+    sigma,
+)
+from .models_of_sigma import SPREAD
 from .readings import ABSOLUTE, RELATIVE, Reading, repeatability
 
 __all__ = [
@@ -19,6 +30,7 @@ __all__ = [
     "MODEL_ERROR",
     "RELATIVE",
     "SPREAD",
+    "TOO_OPEN",
     "Estimate",
     "Reading",
     "of_draws",

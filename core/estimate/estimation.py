@@ -19,31 +19,31 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import models
-from ..errors import DomainError
+from .. import instruments, models
 from ..numerics.arrays import Array
-from . import likelihood
-from .readings import Measured, Reading, prepare
+from . import likelihood, models_of_sigma
+from .models_of_sigma import SPREAD
+from .readings import Directions, Measured, Reading, prepare
 from .search import QUANTILE, Found, search
 
-MODEL = "closure"
+MODEL = models.TARGET
 """Model that σ is estimated in unless another is named, and that decides whether σ can be told: it
 has to keep the energy of white facets, or it would see roughness in white."""
-
-SPREAD = tuple(name for name in models.NAMES if name not in ("lambert", "first-order"))
-"""Models whose σ is given beside it: all that know light between facets."""
 
 CONFIDENCE = 0.95
 """Share of cases in which the interval holds σ."""
 
 MODEL_ERROR = 0.003
 """What the best models miss of a traced random surface at 45°/0°, as a share of the reading. It is
-taken for every instrument, once for dark facets and once for bright ones."""
+taken once for dark facets and once for bright ones."""
+
+OBLIQUE_ERROR = 0.005
+"""The same at every other instrument, in the median over directions."""
 
 LARGEST = np.radians(60.0)
 """Largest σ that is thought of: beyond it no model is held against a surface."""
 
-TOO_OPEN = np.radians(20.0)
+TOO_OPEN = np.radians(25.0)
 """An interval as wide as this says no more than the eye does."""
 
 _NODES = np.radians(np.arange(0.0, 61.0, 2.0))
@@ -149,10 +149,7 @@ def sigma(
     """
     measured = prepare(readings)
     for name in (model, *others):
-        models.find(name)
-        if name == "lambert":
-            msg = "The model 'lambert' does not know roughness; choose another one."
-            raise DomainError(msg)
+        models_of_sigma.check(name)
     found = _best(measured, model)
     by_model = {name: found if name == model else _best(measured, name) for name in others}
     fitted = likelihood.fit(
@@ -236,7 +233,7 @@ def _left_open(measured: Measured, model: str, albedo: Array, best: Array) -> tu
     predicted = likelihood.predict(measured, model, albedo, np.asarray(best))
     expected = replace(measured, values=predicted)
     fitted = likelihood.fit(expected, model, predicted, _FINE)
-    likely = likelihood.allowing(expected, fitted, MODEL_ERROR) <= QUANTILE**2
+    likely = likelihood.allowing(expected, fitted, _errors(measured)) <= QUANTILE**2
     return float(_FINE[likely].min(initial=LARGEST)), float(_FINE[likely].max(initial=0))
 
 
@@ -275,9 +272,10 @@ def _why_not(
         )
     if open_range[1] - open_range[0] >= TOO_OPEN:
         low, high = np.degrees(open_range)
+        error = float(_errors(measured)[measured.rough].max())
         return (
             f"σ can't be told: {_cause(measured, found)}; anything from {low:.0f}° to {high:.0f}° "
-            f"explains them, if the model misses them by {100 * MODEL_ERROR:g} %."
+            f"explains them, if the model misses them by {100 * error:g} %."
         )
     miss = _miss(measured, fitted)
     if miss > _TOO_FAR * MODEL_ERROR:
@@ -288,10 +286,31 @@ def _why_not(
     return ""
 
 
+def _errors(measured: Measured) -> Array:
+    """Give what the models may miss of each reading."""
+    return np.array(
+        [
+            MODEL_ERROR if _tilts(instrument) == [0.0, 45.0] else OBLIQUE_ERROR
+            for instrument in measured.instruments
+        ]
+    )
+
+
+def _tilts(instrument: str | Directions) -> list[float]:
+    """Give the angles of light and view from the normal, degrees, the smaller first."""
+    if isinstance(instrument, str):
+        of = instruments.find(instrument)
+        # The half-angle tells a ring at 45° from the hemisphere, whose middle is there too.
+        wide = max(of.light.half_angle, of.view.half_angle) > instruments.APERTURE
+        return [] if wide else sorted((of.light.tilt, of.view.tilt))
+    return sorted(round(float(np.degrees(angle)), 3) for angle in instrument[:2])
+
+
 def _is_brighter(measured: Measured, fitted: likelihood.Fitted) -> bool:
     """Whether readings are beyond a smooth surface by more than noise and a model's error."""
     free, bound = (
-        likelihood.allowing(measured, fitted, error) for error in (_ANY_ERROR, MODEL_ERROR)
+        likelihood.allowing(measured, fitted, errors)
+        for errors in (np.full(len(measured.values), _ANY_ERROR), _errors(measured))
     )
     return bool(bound - free > _TOO_BRIGHT**2)
 

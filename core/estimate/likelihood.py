@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import ladder, reading
 from ..numerics.arrays import Array
+from . import models_of_sigma
 from .readings import Directions, Measured
 
 STEPS = 3
@@ -32,6 +32,14 @@ _ALBEDO_STEP = 1e-5
 
 _ROUGHNESS_STEP = 1e-6
 """Difference of σ² for dR/dσ², and its share of σ² besides 1e-4."""
+
+
+BRIGHTEST = 0.96
+"""Albedo to which models are held against traced surfaces. Beyond, all depends on how many bounces
+white facets let live, and on the white that the reading is relative to."""
+
+_BEYOND = 5.0
+"""How much more a model may miss beyond it."""
 
 
 class Fitted(NamedTuple):
@@ -72,7 +80,9 @@ def predict(measured: Measured, model: str, albedo: Array, sigma: Array) -> Arra
         for row in rows:
             instrument = measured.instruments[row] if measured.rough[row] else None
             if instrument not in known:
-                known[instrument] = _read(rho, sigma, model, measured.instruments[row])
+                known[instrument] = models_of_sigma.predict(
+                    rho, sigma, model, measured.instruments[row]
+                )
             out[..., row, :] = known[instrument]
     return out
 
@@ -157,43 +167,48 @@ def unexplained(measured: Measured, fitted: Fitted, change: Array) -> Array:
     return np.asarray(change - fitted.slope * _by_reading(measured, share))
 
 
-def allowing(measured: Measured, fitted: Fitted, error: float) -> Array:
+def allowing(measured: Measured, fitted: Fitted, errors: Array) -> Array:
     """Give χ² where the model itself may miss: shape (...).
 
     Parameters
     ----------
-    error
-        Standard deviation of what a model misses of a rough surface, as a share of the reading:
-        one number at each instrument for dark facets, another for bright ones, and in between
-        what lies between the two.
+    errors
+        Standard deviation of what a model misses of each rough reading, as a share of it, shape
+        (readings,): it misses one number at each instrument for dark facets, another for bright
+        ones, and in between what lies between the two.
 
     Examples
     --------
     >>> from .readings import Reading, prepare
     >>> pair = prepare([Reading([0.5], rough=False), Reading([0.495])])
     >>> found = fit(pair, "two-bounce", pair.values, np.array(0.0))
-    >>> float(found.chi_square.round(0)), float(allowing(pair, found, 0.01).round(1))
+    >>> float(found.chi_square.round(0)), float(allowing(pair, found, np.full(2, 0.01)).round(1))
     (49.0, 1.9)
     """
-    used = dict.fromkeys(
-        instrument
-        for instrument, rough in zip(measured.instruments, measured.rough, strict=True)
+    used = {
+        instrument: error
+        for instrument, rough, error in zip(
+            measured.instruments, measured.rough, errors, strict=True
+        )
         if rough
-    )
+    }
     count = 2 * len(used)
     shift = np.zeros((*fitted.predicted.shape[:-2], count, *fitted.predicted.shape[-2:]))
-    bright = np.clip(_by_reading(measured, fitted.albedo), 0, 1) * fitted.predicted
+    albedos = np.clip(_by_reading(measured, fitted.albedo), 0, 1)
+    bright = albedos * fitted.predicted
     for number, instrument in enumerate(used):
         for row, own in enumerate(measured.instruments):
             if measured.rough[row] and own == instrument:
-                shift[..., 2 * number, row, :] = bright[..., row, :]
+                more = np.where(albedos[..., row, :] > BRIGHTEST, _BEYOND, 1)
+                shift[..., 2 * number, row, :] = more * bright[..., row, :]
                 shift[..., 2 * number + 1, row, :] = (fitted.predicted - bright)[..., row, :]
-    expanded = Fitted(*(np.expand_dims(part, -3) for part in fitted[:3]), fitted.chi_square)
+    albedo, predicted, slope = (np.expand_dims(part, -3) for part in fitted[:3])
+    expanded = Fitted(albedo, predicted, slope, fitted.chi_square)
     free = unexplained(measured, expanded, shift)
     rest = measured.values - fitted.predicted
     along = np.einsum("...krb,rb,...rb->...k", free, measured.weights, rest)
     inner = np.einsum("...krb,rb,...lrb->...kl", free, measured.weights, free)
-    inner = inner + np.eye(count) / error**2
+    inner = inner + np.diag(np.repeat(list(used.values()), 2) ** -2.0)
     taken = np.linalg.solve(inner, along[..., np.newaxis])[..., 0]
     return np.asarray(fitted.chi_square - np.sum(along * taken, axis=-1))
 
@@ -212,16 +227,10 @@ def _guess(measured: Measured, model: str, values: Array, sigma: Array) -> Array
     alone = np.array(np.broadcast_to(values, (*lead, *values.shape[-2:])))
     for row, instrument in enumerate(measured.instruments):
         if measured.rough[row] and isinstance(instrument, str):
-            found = reading.to_albedo(values[..., row, :], sigma, model, instrument)
+            found = models_of_sigma.invert(values[..., row, :], sigma, model, instrument)
             alone[..., row, :] = np.where(np.isnan(found), values[..., row, :], found)
     total = _by_material(measured, np.broadcast_to(measured.weights, alone.shape))
     return _by_material(measured, measured.weights * alone) * _inverse(total)
-
-
-def _read(rho: Array, sigma: Array, model: str, instrument: str | Directions) -> Array:
-    if isinstance(instrument, str):
-        return reading.from_albedo(rho, sigma, model, instrument)
-    return ladder.reflectance(model, rho, *instrument, sigma)
 
 
 def _by_material(measured: Measured, terms: Array) -> Array:

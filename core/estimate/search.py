@@ -143,8 +143,8 @@ def _ends(
             if lowest
             else np.maximum(open_nodes.max(axis=1), square)
         )
-        side = "left" if lowest else "right"
-        place = np.searchsorted(squares, inner, side) - (1 if lowest else 0)
+        before, after = squares.searchsorted(inner) - 1, squares.searchsorted(inner, side="right")
+        place = before if lowest else after
         at_limit = (place < 0) | (place >= squares.size)
         outer = np.where(at_limit, inner, squares[np.clip(place, 0, squares.size - 1)])
         ends.append(_crossing(measured, model, values, best, inner, outer))
@@ -168,7 +168,8 @@ def _crossing(
         there = likelihood.fit(
             measured, model, values, np.sqrt(square), best[1].albedo, likelihood.FEW_STEPS
         )
-        return np.sqrt(np.maximum(there.chi_square - best[1].chi_square, 0)) - QUANTILE
+        rise = np.maximum(there.chi_square - best[1].chi_square, 0)
+        return np.asarray(np.sqrt(rise) - QUANTILE)
 
     at_inner, at_outer = above(inner), above(outer)
     settled = (at_outer <= 0) | (inner == outer)

@@ -66,7 +66,7 @@ def test_a_pair_by_names(main, measured, tmp_path):
     first, last = result.err.splitlines()
     assert first.startswith("rough: σ 2")
     assert "by noise (95 %)" in first
-    assert "over the models two-bounce, closure, reference" in first
+    assert f"over the models {', '.join(estimate.SPREAD)}" in first
     assert last == f"wrote {target}"
     smooth, rough = rows_of(target)
     assert (smooth["smooth"], rough["smooth"]) == ("yes", "no")

@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import cycles, oren_nayar, reading
+from core import cycles, estimate, oren_nayar, reading
 from core.errors import DomainError
 from tests.stability import exact
 
@@ -469,3 +469,62 @@ def check_long_waves(radiance):
     # The next terms of the expansion, 1 - x/2 + x²/12; the constant in x has ten digits.
     expected *= 1 - x / 2 + x * x / 12
     np.testing.assert_allclose(silent(lambda: radiance(nm, kelvin)), expected, rtol=1e-11)
+
+
+GRAYS = np.linspace(0.2, 0.6, 16)
+
+
+def pair(albedo, sigma, seed=None, model=estimate.MODEL):
+    """Give a smooth and a rough reading, with noise of 0.1 % where seeded."""
+    values = np.array([albedo, reading.from_albedo(albedo, sigma, model)])
+    if seed is not None:
+        random = np.random.default_rng(seed).standard_normal(values.shape)
+        values = values + estimate.repeatability(values) * random
+    smooth, rough = values
+    return [estimate.Reading(smooth, rough=False), estimate.Reading(rough)]
+
+
+def check_nearly_smooth(estimate_of):
+    """Near σ = 0 the interval stays above 0, is finite, and holds the truth as often as it says."""
+    for degrees in (0.0, 1.0, 2.0):
+        sigma, held = math.radians(degrees), 0
+        for seed in range(40):
+            low, high = estimate_of(pair(GRAYS, sigma, seed)).interval
+            assert 0 <= low <= high < math.radians(6)
+            held += low <= sigma <= high
+        assert held >= 35, held  # 38 or more are expected; 34 happen once in 700
+
+
+def check_not_told(estimate_of, albedo):
+    """Readings of white and the like give no σ, whatever the draw of noise."""
+    for degrees in (0, 15, 30, 45):
+        for seed in range(5):
+            found = estimate_of(pair(albedo, math.radians(degrees), seed))
+            assert not found.is_told
+            assert math.isnan(found.sigma)
+
+
+def check_one_reading(estimate_of):
+    """A reading alone is explained by every σ: none is an answer."""
+    found = estimate_of(pair(GRAYS, 0.5)[1:])
+    assert not found.is_told
+    assert math.isnan(found.sigma)
+    assert np.ptp(found.interval) > math.radians(50)
+
+
+def check_brighter_than_smooth(estimate_of):
+    """A rough reading a little too bright for any σ leaves what the model may miss, not nothing."""
+    smooth, _ = pair(GRAYS, 0.0)
+    found = estimate_of([smooth, estimate.Reading(1.004 * np.asarray(smooth.values))])
+    assert found.interval[0] == 0
+    assert found.interval[1] > math.radians(3)
+
+
+def check_missing_band(estimate_of):
+    """A band that is no number takes nothing from the others."""
+    smooth, rough = (np.array(of.values) for of in pair(GRAYS, 0.5))
+    rough[3], smooth[7] = np.nan, np.inf
+    found = silent(
+        lambda: estimate_of([estimate.Reading(smooth, rough=False), estimate.Reading(rough)])
+    )
+    assert abs(found.sigma - 0.5) < 1e-4

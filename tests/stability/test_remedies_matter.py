@@ -112,6 +112,22 @@ WITHOUT_REMEDY = {
     ],
     "test_band_of_a_cold_body": [lambda: checks.check_cold_band(textbook.band_emissivity)],
     "test_black_body_at_long_waves": [lambda: checks.check_long_waves(textbook.planck)],
+    "test_interval_of_a_nearly_smooth_surface": [
+        lambda: checks.check_nearly_smooth(textbook.estimate_by_parabola),
+    ],
+    "test_sigma_of_white_and_of_black_is_not_told": [
+        lambda: checks.check_not_told(textbook.estimate_told_by_noise, np.ones(16)),
+        lambda: checks.check_not_told(textbook.estimate_without_doubt, np.zeros(16)),
+    ],
+    "test_one_reading_has_no_sigma": [
+        lambda: checks.check_one_reading(textbook.estimate_without_doubt),
+    ],
+    "test_a_rough_reading_brighter_than_the_smooth_one": [
+        lambda: checks.check_brighter_than_smooth(textbook.estimate_without_doubt),
+    ],
+    "test_a_missing_band_takes_no_sigma_away": [
+        lambda: checks.check_missing_band(textbook.estimate_of_all_bands),
+    ],
 }
 
 CASES = [

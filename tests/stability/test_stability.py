@@ -14,6 +14,7 @@ from rough_spectra.addon.samples.sample import Sample
 from core import (
     cycles,
     emissivity,
+    estimate,
     models,
     oren_nayar,
     reading,
@@ -211,3 +212,28 @@ def test_band_of_a_cold_body():
 
 def test_black_body_at_long_waves():
     checks.check_long_waves(emissivity.radiance)
+
+
+def estimated(readings):
+    return estimate.sigma(readings, others=())
+
+
+def test_interval_of_a_nearly_smooth_surface():
+    checks.check_nearly_smooth(estimated)
+
+
+@pytest.mark.parametrize("albedo", [np.ones(16), np.zeros(16)])
+def test_sigma_of_white_and_of_black_is_not_told(albedo):
+    checks.check_not_told(estimated, albedo)
+
+
+def test_one_reading_has_no_sigma():
+    checks.check_one_reading(estimated)
+
+
+def test_a_rough_reading_brighter_than_the_smooth_one():
+    checks.check_brighter_than_smooth(estimated)
+
+
+def test_a_missing_band_takes_no_sigma_away():
+    checks.check_missing_band(estimated)

@@ -6,9 +6,11 @@ tools/manual/stability_figures.py draws them; test_remedies_matter.py holds them
 as the core. Each takes what the core's function takes.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from core import oren_nayar, reading, vcavity
+from core import estimate, oren_nayar, reading, vcavity
 from core.cycles import matching
 from core.errors import DomainError
 from core.vcavity import slope_law
@@ -246,3 +248,39 @@ def band_emissivity(emissivity, wavelengths, kelvin, band):
     nm = np.linspace(*band, 201)
     light = planck(nm, kelvin)
     return np.sum(light * np.interp(nm, wavelengths, emissivity)) / np.sum(light)
+
+
+def _searched(readings, interval=None):
+    """Give the least χ² over σ and the interval around it, and never a doubt."""
+    draws = np.array([[of.values for of in readings]])
+    best, ends = estimate.of_draws(readings, draws)
+    found = estimate.sigma(readings, others=())
+    return replace(found, sigma=best[0], interval=interval or tuple(ends[0]), is_told=True)
+
+
+def estimate_by_parabola(readings):
+    """σ ± 1.96 standard errors, as a least-squares routine prints it."""
+    found = _searched(readings)
+    half = 1.96 * found.standard_error
+    return replace(found, interval=(found.sigma - half, found.sigma + half))
+
+
+def estimate_without_doubt(readings):
+    """The σ of the least χ², whatever the readings are."""
+    return _searched(readings)
+
+
+def estimate_told_by_noise(readings):
+    """σ told wherever the noise alone makes its standard error small."""
+    found = _searched(readings)
+    is_told = found.standard_error < np.radians(5)
+    return replace(found, is_told=is_told, sigma=found.sigma if is_told else np.nan)
+
+
+def estimate_of_all_bands(readings):
+    """A sum of squares over bands, in which NaN is NaN."""
+    smooth, rough = (np.asarray(of.values) for of in readings)
+    sigmas = np.linspace(0, 1, 201)
+    left = [np.sum((rough - reading.from_albedo(smooth, s, estimate.MODEL)) ** 2) for s in sigmas]
+    found = estimate.sigma(readings, others=())
+    return replace(found, sigma=sigmas[int(np.argmin(left))])
