@@ -71,7 +71,9 @@ def build(job: dict[str, Any], surface: Any) -> tuple[Any, Any]:
         material.use_nodes = True
     nodes = material.node_tree.nodes
     nodes.clear()
-    diffuse, output = (nodes.new(f"Shader{kind}") for kind in ("NodeBsdfDiffuse", "NodeOutputMaterial"))
+    diffuse, output = (
+        nodes.new(f"Shader{kind}") for kind in ("NodeBsdfDiffuse", "NodeOutputMaterial")
+    )
     diffuse.inputs["Roughness"].default_value = 0.0
     material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
     mesh.materials.append(material)
