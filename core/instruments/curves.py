@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import closure, oren_nayar
+from ..closure import table as tables
 from ..numerics.arrays import Array, precision, slope_deviation
 from ..numerics.memoized import memoized
 from ..vcavity import bounce_series, sigma_tables, slope_law
@@ -105,6 +106,35 @@ def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, 
     # 1 - a/2 + a/2 is 1 to the last bit only where a is 0.
     walk = np.where(shrink == 0, 0, walk)
     return 1 - (1 - first) * shrink - walk / 2, walk, ratio * shrink
+
+
+def of_table(
+    table: tables.Table, sigma: npt.ArrayLike, instrument: str
+) -> tuple[Array, Array, Array]:
+    """Coefficients b, a and g, float64, of a tabulated surface: the mean over its directions.
+
+    What is averaged at each σ of the table are the values of r/ρ that b, a and g are led through.
+    Arrays of the shape of `sigma`.
+
+    Examples
+    --------
+    >>> from core.surface import TABLE
+    >>> single, walk, ratio = of_table(TABLE, 0.0, "45as110")
+    >>> float(single + walk / 2), float(ratio)
+    (1.0, 0.0)
+    """
+    found = tables.sigma_weights(table, sigma) @ _mean_anchors(table, instrument)
+    return tables.through(found, table.meeting)
+
+
+@memoized(maxsize=None)
+def _mean_anchors(table: tables.Table, instrument: str) -> Array:
+    """Anchors of an instrument at a table's σ: shape (σ, 3)."""
+    of = quadrature.of(instrument)
+    nodes = tables.at_nodes(table, of.theta_i, of.theta_r, of.delta_phi)
+    if len(nodes) > 1:
+        nodes = np.log(of.weights @ np.exp(nodes))
+    return np.asarray(nodes.reshape(len(table.sigma), tables.ANCHORS))
 
 
 @memoized(maxsize=None)
