@@ -189,7 +189,7 @@ def request(
         "reading" for the reflectance factor that an instrument printed of the rough surface,
         "albedo" for the reflectance of one facet. None takes what the sample says.
     model
-        "auto" for the cheapest that is good enough, or one of `core.models.NAMES`.
+        "auto", which is `core.models.TARGET`, or one of `core.models.NAMES`.
     illuminant
         Light under which the color is right: "D65", "A", "D50", "D55", "D75", "E", "F2", "F7",
         "F11" or "LED-B3".

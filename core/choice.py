@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cheapest that is good enough, with the reason in words.
 
-Takes color differences that are known already, ΔE00: `core.ladder.choose_model` predicts those of
-the models, `addon.matching.solve` those of Blender's materials.
+Takes color differences that are known already, ΔE00: `addon.matching.solve` predicts those of
+Blender's materials.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ class Choice:
     Attributes
     ----------
     model
-        One of `core.models.NAMES`, or of `SHADERS`.
+        One of `SHADERS`.
     error
-        Its predicted largest color difference from the reference.
+        Its predicted largest color difference from the target.
     errors
         The same for each that was looked at, cheapest first. Infinite where nothing is known.
     reason
@@ -88,61 +88,9 @@ def choose_shader(
     return Choice(model, errors[model], errors, reason)
 
 
-def cheapest(errors: Mapping[str, float], tolerance: float, directions: int, lights: int) -> Choice:
-    """Choose the first rung whose error is within the tolerance.
-
-    Parameters
-    ----------
-    errors
-        Predicted error of each rung, cheapest first; that of the last, the reference, is 0.
-    tolerance
-        Largest ΔE00 allowed.
-    directions, lights
-        How many the errors are the largest of.
-
-    Examples
-    --------
-    >>> errors = {"lambert": 4.0, "closure": 0.3, "reference": 0.0}
-    >>> choice = cheapest(errors, 1.0, directions=12, lights=1)
-    >>> choice.model
-    'closure'
-    >>> choice.reason.partition("; ")[2]
-    'the simpler lambert is 4.00 off.'
-    """
-    rungs = list(errors)
-    model = next((rung for rung in rungs[:-1] if errors[rung] <= tolerance), rungs[-1])
-    below = rungs[rungs.index(model) - 1] if model != rungs[0] else None
-    where = f"over {_plural(directions, 'direction')} and {_plural(lights, 'light')}"
-    limit = f"the {tolerance:g} allowed"
-    if model == rungs[-1]:
-        best = errors[rungs[-2]]
-        reason = (
-            f"{model}: the simpler {below} is up to ΔE00 {_number(best, tolerance)} off {where}, "
-            f"more than {limit}."
-            if np.isfinite(best)
-            else f"{model}: how far the simpler {below} is off is not known {where}; some "
-            "directions lie beyond what is tabulated."
-        )
-    elif not any(errors.values()):
-        reason = f"{model}: exact, because the surface is level (σ = 0)."
-    else:
-        reason = (
-            f"{model}: at most ΔE00 {_number(errors[model], tolerance)} from the reference "
-            f"{where}, within {limit}"
-        )
-        if below is not None:
-            reason += f"; the simpler {below} is {_number(errors[below], tolerance)} off"
-        reason += "."
-    return Choice(model, errors[model], errors, reason)
-
-
 def _number(error: float, tolerance: float) -> str:
     """Two digits, and four where two would print the error as the tolerance it isn't."""
     if not np.isfinite(error):
         return "an unknown amount"
     short = f"{error:.2f}"
     return f"{error:.4f}" if short == f"{tolerance:.2f}" else short
-
-
-def _plural(count: int, what: str) -> str:
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"

@@ -11,7 +11,6 @@ from ...core.color import color_difference
 from ...core.cycles import instrument_lobe
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
-from ...core.vcavity import tabulated
 from ..colorimetry.rgb_space import WorkingSpace
 from . import scene_match, solve
 from .scene_view import SceneView
@@ -84,10 +83,5 @@ def under_main_light(
 
 def in_directions(request: Request, rho: Array, angles: tuple[Array, Array, Array]) -> Array:
     """Reflectance factor in all directions, (angles, bands)."""
-    physical = np.minimum(rho, 1)
-    if request.model == "reference":
-        # The solver takes milliseconds a direction; its table is within a thousandth.
-        [found] = tabulated.reflectance(physical[np.newaxis], *angles, np.array([request.sigma]))
-    else:
-        found = ladder.reflectance(request.model, physical, *angles, request.sigma)
+    found = ladder.reflectance(request.model, np.minimum(rho, 1), *angles, request.sigma)
     return np.asarray(found * np.maximum(rho, 1))

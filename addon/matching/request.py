@@ -18,7 +18,7 @@ VIRTUAL = "45a:0"
 """Instrument that materials are matched and measured with, whichever gave the reading."""
 
 AUTO = "auto"
-"""Model of a request that leaves the choice to `solve.choose`."""
+"""Model of a request that asks for none: `core.models.TARGET`."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Request:
     sigma
         Roughness σ, radians.
     model
-        One of `core.models.NAMES`, or `AUTO` for the cheapest that is good enough.
+        One of `core.models.NAMES`, or `AUTO`.
     illuminant
         The light under which the color is right.
     observer
@@ -44,7 +44,7 @@ class Request:
         Whether the scene is rendered by an engine that ignores roughness. Only a scene has an
         engine: without one, a material is always made for Cycles.
     tolerance
-        Largest ΔE00 that "auto" accepts for the sake of a simpler model.
+        Largest ΔE00 that "auto" accepts for the sake of a shader without roughness.
 
     Raises
     ------

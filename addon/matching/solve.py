@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from ...core import cycles, ladder, reading
 from ...core.choice import choose_shader
 from ...core.color import color_difference
 from ...core.cycles import matching
+from ...core.models import TARGET
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
@@ -31,17 +31,13 @@ from .request import (
 from .scene_view import SceneView
 from .solution import Solution
 
-if TYPE_CHECKING:
-    from ...core.ladder import Choice
-
 __all__ = [
     "ASKED_FOR",
     "AUTO",
-    "CHOICE_GEOMETRIES",
+    "BY_DEFAULT",
     "MATCH_GEOMETRIES",
     "VIRTUAL",
     "Request",
-    "choose",
     "differences",
     "remarks",
     "settle",
@@ -54,12 +50,12 @@ MATCH_GEOMETRIES = 32
 ColorChecker comes out within 0.03."""
 
 ASKED_FOR = "asked for"
-"""Reason of a model that was not left to choose; its material is then matched, however smooth."""
+"""Reason of a model that was named; its material is then matched, however smooth."""
+
+BY_DEFAULT = f"{TARGET}: random rough geometry, all bounces"
+"""Reason of a model that was not."""
 
 _ROUGH = "rough: matched to the model asked for"
-
-CHOICE_GEOMETRIES = 12
-"""Directions the model is chosen over, beside the instrument's."""
 
 _CHUNK = 64
 """Materials whose spectra in all directions are held at once: about 2 MB."""
@@ -74,44 +70,14 @@ def target_reading(request: Request) -> Array:
     return np.asarray(surface_spectra.readings_and_albedos([settled])[0][0])
 
 
-def choose(requests: Sequence[Request]) -> list[Choice]:
-    """Choose the cheapest model that is good enough, for every request.
-
-    Good enough is a predicted ΔE00 within the request's tolerance of the V-cavity reference, under
-    its illuminant, at the instrument and in directions all over the hemisphere; with a
-    scene, under its lights and in its directions.
-
-    Raises
-    ------
-    DomainError
-        If a spectrum does not cover the visible range, or σ or illuminant is unknown.
-    """
-    found: list[Choice | None] = [None] * len(requests)
-    for members in surface_spectra.alike(requests):
-        first = requests[members[0]]
-        with surface_spectra.naming(first.sample):
-            lights = [tristimulus.weights(first.sample.wavelengths, first.illuminant)]
-        geometries = _everywhere(CHOICE_GEOMETRIES)
-        if first.scene is not None:
-            geometries = _with_instrument(first.scene.angles)
-            lights = [light.weights(first.sample.wavelengths) for light in first.scene.lights]
-        sigma = np.array([requests[i].sigma for i in members])
-        tolerance = np.array([requests[i].tolerance for i in members])
-        # The closure's albedo stands for the true one: it is what the other models approximate.
-        rho = surface_spectra.albedos([requests[i] for i in members], "closure")
-        choices = ladder.choose_model(np.minimum(rho, 1), sigma, geometries, lights, tolerance)
-        for i, choice in zip(members, choices, strict=True):
-            found[i] = choice
-    return [choice for choice in found if choice is not None]
-
-
 def settle(requests: Sequence[Request]) -> list[tuple[Request, str]]:
-    """Replace "auto" by the model chosen, and say why; other models stay as asked for."""
-    open_ones = [i for i, request in enumerate(requests) if request.model == AUTO]
-    settled = [(request, ASKED_FOR) for request in requests]
-    for i, choice in zip(open_ones, choose([requests[i] for i in open_ones]), strict=True):
-        settled[i] = (replace(requests[i], model=choice.model), choice.reason)
-    return settled
+    """Replace "auto" by the model it means, and say why; other models stay as asked for."""
+    return [
+        (replace(request, model=TARGET), BY_DEFAULT)
+        if request.model == AUTO
+        else (request, ASKED_FOR)
+        for request in requests
+    ]
 
 
 def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from ...core import instruments, limits, reading
+from ...core import instruments, models, reading
 from ...core.errors import DomainError
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
@@ -75,24 +75,7 @@ def _as_printed(request: Request) -> bool:
 
 
 def albedos(requests: list[Request], model: str) -> Array:
-    """Albedos (materials, bands) by a model, of requests with the same bands and instrument.
-
-    Those of a single request are read-only.
-    """
-    if len(requests) == 1:
-        return _albedo_of_one(requests[0].sample, requests[0].sigma, model)
-    return _albedos_of_all(requests, model)
-
-
-@memoized(maxsize=16)
-def _albedo_of_one(sample: Sample, sigma: float, model: str) -> Array:
-    """Compute it once: choosing a model takes it by one, and matching by the one chosen."""
-    found = _albedos_of_all([Request(sample, sigma, model)], model)
-    found.setflags(write=False)
-    return found
-
-
-def _albedos_of_all(requests: list[Request], model: str) -> Array:
+    """Albedos (materials, bands) by a model, of requests with the same bands and instrument."""
     instrument = instruments.find(requests[0].sample.instrument).name
     values = np.stack([request.sample.reflectance for request in requests])
     is_albedo = np.array([request.sample.kind == "albedo" for request in requests])
@@ -141,5 +124,5 @@ def naming(sample: Sample) -> Iterator[None]:
 
 @memoized(maxsize=64)
 def _white(model: str, instrument: str) -> tuple[Array, Array]:
-    degrees = np.linspace(0, limits.LARGEST_SIGMA_DEGREES, 361)
+    degrees = np.linspace(0, models.find(model).largest_sigma, 361)
     return degrees, reading.white_reading(np.radians(degrees), model, instrument)

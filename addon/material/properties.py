@@ -39,7 +39,7 @@ KIND_ITEMS = (
 )
 INSTRUMENT_ITEMS = tuple((i.name, i.menu, i.description, i.number) for i in REGISTRY.values())
 MODEL_ITEMS = (
-    ("auto", "Auto", "The cheapest model within the tolerance of the V-cavity reference", 3),
+    ("auto", "Auto", "Random rough surfaces, all bounces: the closest to real ones", 3),
     *((m.name, m.title, m.description, m.number) for m in models.REGISTRY.values()),
 )
 SHADER_ITEMS = (

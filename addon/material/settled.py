@@ -3,21 +3,17 @@
 """Which model and which target hold for a material now, and how far what it shows is from that.
 
 The one answer for panel, pictures, bake, check, measurement and scene: the target is that of the
-spectrum and of the settings as they are, whatever the shader node was derived from. What the stamp
-says of it is taken where it was derived from these very settings; else a model that is left to
-choose is chosen anew. `derived` and `numbers` only look that up, for a panel that draws; the others
-compute. Where a surface shows what nobody predicts, such as gloss, there is no number: `obstacle`
-says so.
+spectrum and of the settings as they are, whatever the shader node was derived from. `derived` and
+`numbers` only look up what the stamp says of them, for a panel that draws; the others compute.
+Where a surface shows what nobody predicts, such as gloss, there is no number: `obstacle` says so.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...core.errors import MaterialError
-from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..matching import shaders
 from . import derivation, snapshot, state
@@ -119,15 +115,13 @@ def numbers(found: Snapshot, flat: bool) -> Differences | None:
     return last.delta_e_instrument, last.delta_e_mean, last.delta_e_95
 
 
-def of(material: Any, known: Snapshot | None = None) -> Settled:
+def of(material: Any) -> Settled:
     """Settle what a material stores.
 
     Parameters
     ----------
     material
         A `bpy.types.Material`.
-    known
-        Its facts, for who has just read them.
 
     Raises
     ------
@@ -136,12 +130,11 @@ def of(material: Any, known: Snapshot | None = None) -> Settled:
     DomainError
         If its spectrum or a setting cannot be used.
     """
+    from ..matching import solve
     from . import storage
 
-    request, last = storage.load(material), derived(known or snapshot.of(material))
-    if last is None:
-        return _choose(request)
-    return Settled(replace(request, model=last.model), last.model_reason)
+    [found] = solve.settle([storage.load(material)])
+    return Settled(*found)
 
 
 def shader(material: Any, known: Snapshot | None = None) -> tuple[Array, float]:
@@ -178,7 +171,7 @@ def differences(
     flat
         Whether an engine shows it that ignores roughness.
     known
-        As in `of`.
+        Its facts, for who has just read them.
 
     Raises
     ------
@@ -189,7 +182,7 @@ def differences(
     told = numbers(found, flat)
     if told is not None:
         return told
-    return predicted(of(material, found).request, shader(material, found), space, flat)
+    return predicted(of(material).request, shader(material, found), space, flat)
 
 
 def predicted(
@@ -205,12 +198,3 @@ def predicted(
     [read], [albedo] = surface_spectra.readings_and_albedos([request])
     what = color, 0.0 if flat else roughness
     return assess.differences(request, (read, albedo), what, space)
-
-
-@memoized(maxsize=64)
-def _choose(request: Request) -> Settled:
-    """Choose the model; once, while a color is edited by hand and its pictures follow."""
-    from ..matching import solve
-
-    [found] = solve.settle([request])
-    return Settled(*found)

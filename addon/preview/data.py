@@ -43,7 +43,7 @@ def collect(
         If the spectrum does not cover the visible range.
     """
     shader = settled.shader(material, known)
-    return _shown(settled.of(material, known).request, shader, space, flat)
+    return _shown(settled.of(material).request, shader, space, flat)
 
 
 def of_derived(done: Derived, solved: Solved) -> tuple[Data, Differences]:

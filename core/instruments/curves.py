@@ -8,7 +8,7 @@ curves over σ, found once and cached:
 - Published model. F1 is C1(σ) plus a geometric factor times σ²/(σ² + 0.09), and F2 is a geometric
   factor times 0.17 σ²/(σ² + 0.13). The two factors are averaged; over σ nothing is interpolated.
 - Reference. The mean series of the V-cavity, from a table of `core.vcavity.sigma_tables`, within
-  `INTERPOLATION_ERROR` of the solver.
+  `INTERPOLATION_ERROR` of the solver, for either slope law.
 - Closure. The form of `core.closure`, r = ρ (b + a / (1 + √(1 - gρ))), led through three facts of
   that series: its slope at ρ = 0, its value for white facets, and its value at one albedo between
   them. That determines b, a and g in closed form.
@@ -19,13 +19,16 @@ Where light and view are 45° apart and one of them is the normal, all of this i
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from .. import closure, oren_nayar
+from ..closure import table as tables
 from ..numerics.arrays import Array, precision, slope_deviation
 from ..numerics.memoized import memoized
-from ..vcavity import bounce_series, sigma_tables
+from ..vcavity import bounce_series, sigma_tables, slope_law
 from . import quadrature
 
 CLOSURE_ERROR = 0.02
@@ -105,22 +108,56 @@ def _closure_coefficients(sigma: Array, instrument: str) -> tuple[Array, Array, 
     return 1 - (1 - first) * shrink - walk / 2, walk, ratio * shrink
 
 
+def of_table(
+    table: tables.Table, sigma: npt.ArrayLike, instrument: str
+) -> tuple[Array, Array, Array]:
+    """Coefficients b, a and g, float64, of a tabulated surface: the mean over its directions.
+
+    What is averaged at each σ of the table are the values of r/ρ that b, a and g are led through.
+    Arrays of the shape of `sigma`.
+
+    Examples
+    --------
+    >>> from core.surface import TABLE
+    >>> single, walk, ratio = of_table(TABLE, 0.0, "45as110")
+    >>> float(single + walk / 2), float(ratio)
+    (1.0, 0.0)
+    """
+    found = tables.sigma_weights(table, sigma) @ _mean_anchors(table, instrument)
+    return tables.through(found, table.meeting)
+
+
 @memoized(maxsize=None)
-def series(instrument: str) -> sigma_tables.SigmaTable:
+def _mean_anchors(table: tables.Table, instrument: str) -> Array:
+    """Anchors of an instrument at a table's σ: shape (σ, 3)."""
+    of = quadrature.of(instrument)
+    nodes = tables.at_nodes(table, of.theta_i, of.theta_r, of.delta_phi)
+    if len(nodes) > 1:
+        nodes = np.log(of.weights @ np.exp(nodes))
+    return np.asarray(nodes.reshape(len(table.sigma), tables.ANCHORS))
+
+
+@memoized(maxsize=None)
+def series(instrument: str, slopes: str = slope_law.DEFAULT) -> sigma_tables.SigmaTable:
     """Table of the V-cavity's series; made on first use, which takes up to two seconds.
+
+    Raises
+    ------
+    DomainError
+        If there is no instrument of this name, or no slope law of the name `slopes`.
 
     Examples
     --------
     >>> rows = series("45a:0").rows(np.radians([0.0, 30.0]))
     >>> np.round(rows[:, 0], 4).tolist()
-    [1.0, 0.7765]
+    [1.0, 0.8101]
     """
     if _is_ring(instrument):
-        return sigma_tables.ring()
+        return sigma_tables.ring(slopes)
     of = quadrature.of(instrument)
     # Swapping light and view changes nothing; one order makes that exact.
     upper, lower = np.maximum(of.theta_i, of.theta_r), np.minimum(of.theta_i, of.theta_r)
-    return sigma_tables.build(upper, lower, of.delta_phi, of.weights)
+    return sigma_tables.build(upper, lower, of.delta_phi, of.weights, slopes=slopes)
 
 
 def _is_ring(instrument: str) -> bool:
@@ -148,13 +185,14 @@ def _closure_table(instrument: str) -> tuple[sigma_tables.SigmaTable, float]:
 
     All three are linear in the series, so that the table of the one gives that of the other.
     """
-    whole = series(instrument)
+    # The constants of `core.closure`, to which this adds instruments, are fitted to this law.
+    whole = series(instrument, slope_law.OREN_NAYAR)
     sigma = np.radians(np.arange(1.0, 51.0))
     albedo = np.concatenate((np.linspace(0.05, 0.9, 18), 1 - np.geomspace(0.07, 0.005, 6)))
     expected = bounce_series.evaluate(whole.rows(sigma), albedo) / albedo
     worst, tables = [], []
     for meeting in _MEETING:
-        tables.append(sigma_tables.SigmaTable(whole.coefficients @ _functionals(meeting)))
+        tables.append(replace(whole, coefficients=whole.coefficients @ _functionals(meeting)))
         first, between, later = (
             column[:, np.newaxis] for column in np.moveaxis(tables[-1].rows(sigma), -1, 0)
         )

@@ -26,7 +26,7 @@ from .geometries import Beam, Instrument, find
 
 QUADRATURE_ERROR = 2e-5
 """Largest relative change of a reading when the node counts are doubled: published model and
-V-cavity, every σ and ρ."""
+V-cavity, every σ and ρ; of Gaussian slopes σ to 60°, and 2e-4 to 80°."""
 
 _RING_NODES = 2
 _CONE_NODES = 2

@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The models of a rough surface, cheapest first: one line each, and one file each.
+"""The models of a rough surface: one line each, and one file each.
 
 lambert       r = ρ
 first-order   r = F1 ρ                             light that leaves after one bounce
 two-bounce    r = F1 ρ + F2 ρ²                     the published model: `core.oren_nayar`
 closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: `core.closure`
-reference     r = Σ a_k ρ^k                        what the others approximate: `core.vcavity`
+reference     r = Σ a_k ρ^k                        the V-cavity itself: `core.vcavity`
+surface       r = ρ (b + a / (1 + √(1 - g ρ)))     random surfaces, traced: `core.surface`
 
-A model is added by its line here, before the reference, and its file: core/models/<name>.py with
-the three functions of `Formulas`. Everything that lists models follows: `core.reading`, the choice
-in `core.ladder`, the menu of the panel, and the options of the command line.
+A model is added by its line here, before the last, which is what materials are matched to, and its
+file: core/models/<name>.py with the three functions of `Formulas`. Everything that lists models
+follows: `core.reading`, `core.ladder`, the menu of the panel, and the options of the command line.
 
 Blender reads this at its start: nothing here may import numpy.
 """
@@ -33,11 +34,7 @@ if TYPE_CHECKING:
 
 
 class Formulas(Protocol):
-    """What the file of a model holds.
-
-    It may hold `colors` too, see `core.models.surface_colors`, where colors in many directions are
-    had for less than the reflectance of every band.
-    """
+    """What the file of a model holds."""
 
     def reflectance(
         self,
@@ -67,14 +64,17 @@ class Model:
     title, description
         What the panel calls it, and its tooltip, which Blender ends with a period.
     number
-        What a .blend stores for it: never changed, and never given to another. 3 is taken by the
-        choice of a model.
+        What a .blend stores for it: never changed, and never given to another. 3 is taken by
+        "auto".
+    largest_sigma
+        Where it ends, degrees.
     """
 
     name: str
     title: str
     description: str
     number: int
+    largest_sigma: float = 90.0
 
     @cached_property
     def formulas(self) -> Formulas:
@@ -91,12 +91,19 @@ _MODELS = (
     Model(
         "reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5
     ),
+    Model(
+        "surface", "Surface", "Random rough surfaces, all bounces, traced and tabulated", 6, 65.0
+    ),
 )
 
 REGISTRY: Mapping[str, Model] = MappingProxyType({model.name: model for model in _MODELS})
-"""Every model by its name, cheapest first; the last is the reference."""
+"""Every model by its name."""
 
 NAMES = tuple(REGISTRY)
+
+TARGET = NAMES[-1]
+"""The model that materials are matched to unless another is asked for. Choosing a cheaper one where
+it would do saves nothing: this one is a table, and the choice costs more than its evaluation."""
 
 
 def find(name: str) -> Model:

@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from .. import oren_nayar
 from ..numerics.arrays import Array, spectrum
-from .surface_colors import Surface
 from .two_bounce import over_coefficients
 
 
@@ -53,20 +52,6 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
     [0.2, 0.6]
     """
     return over_coefficients(_inverse, spectrum(reading, "the reading"), sigma, instrument)
-
-
-def colors(surface: Surface) -> Array:
-    """Give XYZ of F1 ρ: see `core.models.surface_colors`.
-
-    Examples
-    --------
-    >>> light, view, azimuth = np.array([[0.8], [0.0], [0.0]])
-    >>> white, sigma = np.ones((1, 1)), np.full((1, 1), 0.5)
-    >>> surface = Surface(white, light, view, azimuth, sigma, np.ones((1, 3)))
-    >>> np.round(colors(surface), 4).tolist()
-    [[[0.7845, 0.7845, 0.7845]]]
-    """
-    return surface.single
 
 
 def _forward(out: Array, rho: Array, f1: Array, _f2: Array) -> None:

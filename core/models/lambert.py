@@ -14,7 +14,6 @@ from ..numerics.arrays import (
     slope_deviation,
     spectrum,
 )
-from .surface_colors import Surface
 
 
 def reflectance(
@@ -67,20 +66,6 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
     found = _read(spectrum(reading, "the reading"), sigma)
     found[np.isinf(found)] = np.nan
     return found
-
-
-def colors(surface: Surface) -> Array:
-    """Give XYZ of ρ: see `core.models.surface_colors`.
-
-    Examples
-    --------
-    >>> light, view, azimuth = np.array([[0.8], [0.0], [0.0]])
-    >>> white, sigma = np.ones((1, 1)), np.full((1, 1), 0.5)
-    >>> surface = Surface(white, light, view, azimuth, sigma, np.ones((1, 3)))
-    >>> np.round(colors(surface), 4).tolist()
-    [[[1.0, 1.0, 1.0]]]
-    """
-    return surface.flat
 
 
 def _read(values: Array, sigma: npt.ArrayLike) -> Array:

@@ -13,9 +13,8 @@ from ..instruments import curves
 from ..numerics.arrays import Array, spectrum
 from ..numerics.blocks import apply_in_blocks
 from ..oren_nayar import reflectance
-from .surface_colors import Surface
 
-__all__ = ["colors", "from_albedo", "over_coefficients", "reflectance", "to_albedo"]
+__all__ = ["from_albedo", "over_coefficients", "reflectance", "to_albedo"]
 
 
 def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> Array:
@@ -38,20 +37,6 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
     [0.2, 0.6]
     """
     return over_coefficients(_inverse, spectrum(reading, "the reading"), sigma, instrument)
-
-
-def colors(surface: Surface) -> Array:
-    """Give XYZ of F1 ρ + F2 ρ²: see `core.models.surface_colors`.
-
-    Examples
-    --------
-    >>> light, view, azimuth = np.array([[0.8], [0.0], [0.0]])
-    >>> white, sigma = np.ones((1, 1)), np.full((1, 1), 0.5)
-    >>> surface = Surface(white, light, view, azimuth, sigma, np.ones((1, 3)))
-    >>> np.round(colors(surface), 4).tolist()
-    [[[0.8963, 0.8963, 0.8963]]]
-    """
-    return np.asarray(surface.single + surface.published[1] * surface.squared)
 
 
 def over_coefficients(

@@ -8,7 +8,6 @@ surface         grooves of all slopes and azimuths
 slope_law       how slopes are distributed
 bounce_series   evaluate and invert Σ a_k ρ^k
 sigma_tables    the series of one instrument over σ
-tabulated       the reference as a table: a thousandth off, a thousand times faster
 """
 
 from .solver import (

@@ -1,22 +1,37 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slope distribution, and one set of slopes that serves every roughness.
+"""The slope distributions, and one set of slopes that serves every roughness and either law.
 
-σ is defined by the share of *macroscopic* area (area seen from above) that grooves of slope θ
-cover: exp(-θ²/2σ²) sin θ on [0, π/2), normalized. Other readings of "Gaussian slopes" are in use,
-and they matter: they move the first bounce at σ = 30°, 45°/0° from 0.78 to 0.87 or 0.90.
+A law says which share of *macroscopic* area (area seen from above) grooves of slope θ cover,
+0 ≤ θ < π/2, normalized:
 
-What a groove reflects does not depend on σ. It is computed at Gauss nodes of fixed panels, and σ
-enters through weights alone: the integral of each node's Lagrange polynomial times the
-distribution. So any σ, however small, costs one row of weights.
+gaussian        tan θ sec²θ exp(-tan²θ / 2m²), m = tan σ: the slopes of a Gaussian random surface. m
+                is their root mean square along a profile, a profilometer's Rdq; that of the
+                gradient, Sdq, is √2 m. As σ → π/2 every groove becomes a slot.
+oren-nayar      exp(-θ²/2σ²) sin θ: what the published formula was fitted to. σ is a parameter: at
+                σ = 30° the slope angle has the mean 35.5°, the root mean square 39.8° and the
+                standard deviation 18.0°.
+
+What a groove reflects does not depend on σ or the law. It is computed at Gauss nodes of fixed
+panels, and σ enters through weights alone: the integral of each node's Lagrange polynomial times
+the distribution. So any σ, however small, costs one row of weights.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
 import numpy as np
 
+from ..errors import DomainError
 from ..numerics.arrays import Array
 from ..numerics.memoized import memoized
+
+GAUSSIAN, OREN_NAYAR = "gaussian", "oren-nayar"
+
+DEFAULT = GAUSSIAN
+"""The law unless one is named: it agrees with random surfaces, see docs/physics.md."""
 
 PANEL_EDGES = np.radians([0, 3, 7, 14, 22, 30, 38, 45, 52, 60, 68, 76, 83, 87.5, 90])
 """Slopes between which a groove's answer is taken as one polynomial. 45° is among them because
@@ -24,14 +39,34 @@ that is where shadows begin for light at 45°; the last panels are short because
 bounces grows without bound toward 90°."""
 
 _REACH = 9.0
-"""The distribution is cut at 9σ, beyond which it holds 3e-18 of the area."""
+"""The distribution is cut at 9σ (at tan θ = 9m), beyond which it holds 3e-18 of the area."""
+
+_LEAST = 1e-6
+"""tan θ / m below which Gaussian slopes hold but 5e-13 of the area: its logarithm needs a limit."""
 
 _WEIGHT_NODES = 24
-"""Gauss nodes a panel for the weights; 24 integrate the distribution over 9σ to 1e-10."""
-
+"""Gauss nodes a panel for the weights; 24 integrate the distribution over 9σ to 1e-10. Gaussian
+slopes at σ > 89.5°, which spread over decades of the last panel, get 1e-6."""
 
 _BLOCK = 256
 """Roughnesses at a time: 4 MB an array."""
+
+
+def check(slopes: str) -> None:
+    """Check that there is a slope law of this name.
+
+    Raises
+    ------
+    DomainError
+        If there is none; the message lists the names.
+
+    Examples
+    --------
+    >>> check("gaussian")
+    """
+    if slopes not in LAWS:
+        msg = f"Slope law {slopes!r} is not known; choose one of: {', '.join(LAWS)}."
+        raise DomainError(msg)
 
 
 def nodes(per_panel: int) -> Array:
@@ -50,10 +85,15 @@ def nodes(per_panel: int) -> Array:
     return np.concatenate(([0], (low + (points + 1) / 2 * (high - low)).ravel()))
 
 
-def weights(sigma: Array, per_panel: int) -> Array:
+def weights(sigma: Array, per_panel: int, slopes: str = DEFAULT) -> Array:
     """Share of each slope of `nodes` at roughness σ (radians, shape (n,)): shape (n, slopes).
 
     The weights of one σ add up to 1. At σ = 0 they are those of a level surface.
+
+    Raises
+    ------
+    DomainError
+        If there is no law of the name `slopes`.
 
     Examples
     --------
@@ -61,25 +101,61 @@ def weights(sigma: Array, per_panel: int) -> Array:
     >>> np.round(shares.sum(axis=1), 12).tolist(), float(shares[0, 0])
     ([1.0, 1.0], 1.0)
     """
+    check(slopes)
     if sigma.size > _BLOCK:
         blocks = np.split(sigma, range(_BLOCK, sigma.size, _BLOCK))
-        return np.concatenate([weights(block, per_panel) for block in blocks])
+        return np.concatenate([weights(block, per_panel, slopes) for block in blocks])
+    slope, share = LAWS[slopes](sigma)
     level, inner = _panels(per_panel)
-    quadrature, quadrature_weights = _gauss(_WEIGHT_NODES)
-    spread = np.maximum(sigma, np.finfo(np.float64).tiny)[:, np.newaxis, np.newaxis]
-    # Axes: σ, panel, node of the quadrature.
-    low, high = PANEL_EDGES[:-1, np.newaxis], PANEL_EDGES[1:, np.newaxis]
-    top = np.clip(_REACH * spread, low, high)
-    slope = low + (quadrature + 1) / 2 * (top - low)
-    # Every length is in units of σ: products of small σ underflow below 1e-154.
-    with np.errstate(over="ignore"):
-        share = np.exp(-0.5 * (slope / spread) ** 2)
-    share *= np.sin(slope) / spread * ((top - low) / spread) * quadrature_weights
+    # Steeper ones are taken for the steepest solved: beyond it a polynomial knows nothing.
+    slope = np.minimum(slope, inner[-1, -1]) if slopes == GAUSSIAN else slope
     of_level, of_inner = _gaps(per_panel)
     first = np.einsum("nq,nqs->ns", share[:, 0], _lagrange(slope[:, 0], level, of_level))
     others = np.einsum("npq,npqs->nps", share[:, 1:], _lagrange(slope[:, 1:], inner, of_inner))
     out = np.concatenate((first, others.reshape(sigma.size, inner.size)), axis=1)
     return np.asarray(out / np.sum(out, axis=1, keepdims=True))
+
+
+def _gaussian(sigma: Array) -> tuple[Array, Array]:
+    """Slopes and their shares of area, each of shape (n, panels, nodes of the quadrature).
+
+    With u = tan θ / m the density is u exp(-u²/2), whatever σ. The first panel's nodes are spread
+    over u and those of the others over its logarithm s, of which θ = atan(m exp s) is smooth.
+    """
+    points, points_weights = _gauss(_WEIGHT_NODES)
+    # float32's π/2 lies above π/2 and has a negative tangent.
+    spread = np.tan(np.clip(sigma, np.finfo(np.float64).tiny, np.pi / 2))[:, np.newaxis]
+    with np.errstate(over="ignore"):
+        edges = np.minimum(np.tan(PANEL_EDGES[:-1]) / spread, _REACH)
+    edges = np.concatenate((edges, np.full_like(spread, _REACH)), axis=1)
+    low, high = edges[:, :-1, np.newaxis], edges[:, 1:, np.newaxis]
+    steep = np.log(np.maximum(low[:, 1:], _LEAST))
+    width = np.concatenate((high[:, :1], np.log(np.maximum(high[:, 1:], _LEAST)) - steep), axis=1)
+    place = (points + 1) / 2 * width
+    u = np.concatenate((place[:, :1], np.exp(steep + place[:, 1:])), axis=1)
+    share = u * np.exp(-0.5 * u * u) * width * points_weights
+    share[:, 1:] *= u[:, 1:]
+    return np.arctan(spread[..., np.newaxis] * u), share
+
+
+def _oren_nayar(sigma: Array) -> tuple[Array, Array]:
+    """As `_gaussian`, but the nodes are spread over θ."""
+    points, points_weights = _gauss(_WEIGHT_NODES)
+    spread = np.maximum(sigma, np.finfo(np.float64).tiny)[:, np.newaxis, np.newaxis]
+    low, high = PANEL_EDGES[:-1, np.newaxis], PANEL_EDGES[1:, np.newaxis]
+    top = np.clip(_REACH * spread, low, high)
+    slope = low + (points + 1) / 2 * (top - low)
+    # Every length is in units of σ: products of small σ underflow below 1e-154.
+    with np.errstate(over="ignore"):
+        share = np.exp(-0.5 * (slope / spread) ** 2)
+    share *= np.sin(slope) / spread * ((top - low) / spread) * points_weights
+    return slope, share
+
+
+LAWS: Mapping[str, Callable[[Array], tuple[Array, Array]]] = MappingProxyType(
+    {GAUSSIAN: _gaussian, OREN_NAYAR: _oren_nayar}
+)
+"""The slope laws by name."""
 
 
 @memoized(maxsize=8)

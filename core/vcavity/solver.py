@@ -3,20 +3,25 @@
 """The reference: a surface of V-grooves with masking, shadowing and all bounces.
 
 Lambertian facets form infinitely long symmetric V-grooves with level rims. Their azimuth is
-uniform; a slope θ covers the share exp(-θ²/2σ²) sin θ of the macroscopic area, 0 ≤ θ < π/2,
-normalized. Light paths do not depend on the albedo, so r(ρ) = Σ a_k ρ^k, and one computation of
-the a_k serves every wavelength.
+uniform; which share of the macroscopic area a slope θ covers, 0 ≤ θ < π/2, is a choice:
+
+gaussian        tan θ sec²θ exp(-tan²θ / 2m²), m = tan σ: slopes of a Gaussian random surface, σ the
+                angle of a profilometer's Rdq. Readings of such surfaces agree with it: the default.
+oren-nayar      exp(-θ²/2σ²) sin θ: what the published formula was fitted to.
+
+Light paths do not depend on the albedo, so r(ρ) = Σ a_k ρ^k, and one computation of the a_k serves
+every wavelength.
 
 How it is computed, from the inside out:
 
 - `core.vcavity.groove`: one groove under one light and view. Shadow edges are exact; a_1 and a_2
   are closed forms, later bounces use constant radiosity on panels with exact exchange.
 - `core.vcavity.surface`: Gauss rules over the groove's azimuth between its kinks.
-- `core.vcavity.slope_law`: Gauss nodes over the slope; σ enters through weights alone.
+- `core.vcavity.slope_law`: Gauss nodes over the slope; σ and law enter through weights alone.
 - `core.vcavity.bounce_series`: the tail of the series, summed and not cut off.
 
 How the error of r falls, measured as the worst of eleven geometries up to 85°, σ from 5° to 90° and
-ρ from 0.1 to 1, against two to four times the nodes of every kind:
+ρ from 0.1 to 1, law "oren-nayar", against two to four times the nodes of every kind:
 
 =============  ======================================================================
 panels a wall  3e-3 at 16, 1.4e-3 at 32, 7e-4 at 64, 4e-4 at 128. Only white facets in
@@ -30,6 +35,10 @@ slope nodes    6e-4 at 3 a panel, 1.8e-4 at 4, 6e-5 at 6: two geometries near gr
 At 45°/0° the default nodes are within 1e-4. Light that is lost on the way cannot be told from
 these numbers, but white facets can: integrated over the view hemisphere they return 1 within
 2e-4 at θi ≤ 60°, σ ≤ 50°.
+
+Gaussian slopes grow without bound as σ → π/2, where all grooves are slots, black along the normal.
+To σ = 80° the error is as above, 9e-4 at worst; at 85° 2e-3, at 88° 5e-3. Beyond, slopes above
+89.9° are taken for that: at 90° r is off by up to 0.005, and by 0.02 where facets are white.
 """
 
 from __future__ import annotations
@@ -71,8 +80,9 @@ __all__ = [
 ]
 
 ERROR_BOUND = 1e-3
-"""Relative error of r with the default nodes, polar angles up to 85°, every σ and ρ; half of it
-for σ ≤ 50°. Beyond 85° it was seen to stay, but is not promised."""
+"""Relative error of r with the default nodes, polar angles up to 85°, every ρ and every σ, with
+Gaussian slopes up to 80°; half of it for σ ≤ 50°. Beyond a polar angle of 85° it was seen to stay,
+but is not promised."""
 
 BOUNCES = 16
 """Bounces that `bounce_coefficients` returns unless told otherwise."""
@@ -93,6 +103,7 @@ def bounce_coefficients(
     *,
     bounces: int = BOUNCES,
     resolution: Resolution = STANDARD,
+    slopes: str = slope_law.DEFAULT,
 ) -> Array:
     """Weights a_1 … a_K of ρ … ρ^K in the reflectance factor of the V-cavity surface.
 
@@ -103,12 +114,14 @@ def bounce_coefficients(
     delta_phi
         Azimuth between light and view, radians.
     sigma
-        Width of the slope distribution (see the module), radians in [0, π/2].
+        Roughness (see the module), radians in [0, π/2].
         All four broadcast against each other.
     bounces
         K, at least 2. The sum to K is not the reflectance: use `reflectance` for that.
     resolution
         Node counts.
+    slopes
+        The slope law: "gaussian" or "oren-nayar".
 
     Returns
     -------
@@ -118,12 +131,13 @@ def bounce_coefficients(
     Raises
     ------
     DomainError
-        If an angle lies outside its range or K is below 2. NaN passes and stays where it was.
+        If an angle lies outside its range, K is below 2 or there is no such law. NaN passes and
+        stays where it was.
 
     Examples
     --------
     >>> np.round(bounce_coefficients(np.pi / 4, 0.0, 0.0, 0.5, bounces=3), 3).tolist()
-    [0.791, 0.127, 0.04]
+    [0.823, 0.13, 0.035]
     >>> bounce_coefficients(np.pi / 4, 0.0, 0.0, 0.0, bounces=3).tolist()
     [1.0, 0.0, 0.0]
     """
@@ -131,7 +145,15 @@ def bounce_coefficients(
         msg = f"bounces is {bounces}; the first two bounces come together, so ask for 2 or more."
         raise DomainError(msg)
     dtype = precision(theta_i, theta_r, delta_phi, sigma)
-    rows = series(theta_i, theta_r, delta_phi, sigma, bounces=bounces, resolution=resolution)
+    rows = series(
+        theta_i,
+        theta_r,
+        delta_phi,
+        sigma,
+        bounces=bounces,
+        resolution=resolution,
+        slopes=slopes,
+    )
     return rows[..., :bounces].astype(dtype, copy=False)
 
 
@@ -143,6 +165,7 @@ def reflectance(
     sigma: npt.ArrayLike,
     *,
     resolution: Resolution = STANDARD,
+    slopes: str = slope_law.DEFAULT,
 ) -> Array:
     """Reflectance factor r(λ) of the V-cavity surface, all bounces summed.
 
@@ -152,8 +175,8 @@ def reflectance(
         ρ(λ), shape (..., bands). Outside 0..1 see `core.vcavity.bounce_series`.
     theta_i, theta_r, delta_phi, sigma
         As in `bounce_coefficients`; they broadcast against the leading axes of `albedo`.
-    resolution
-        Node counts.
+    resolution, slopes
+        As in `bounce_coefficients`.
 
     Returns
     -------
@@ -162,15 +185,15 @@ def reflectance(
     Raises
     ------
     DomainError
-        If an angle lies outside its range or `albedo` has no band axis.
+        If an angle lies outside its range, `albedo` has no band axis or there is no such law.
 
     Examples
     --------
     >>> np.round(reflectance([0.2, 0.6], np.pi / 4, 0.0, 0.0, 0.5), 3).tolist()
-    [0.164, 0.533]
+    [0.17, 0.55]
     """
     rho = spectrum(albedo, "the albedo")
-    rows = series(theta_i, theta_r, delta_phi, sigma, resolution=resolution)
+    rows = series(theta_i, theta_r, delta_phi, sigma, resolution=resolution, slopes=slopes)
     return bounce_series.evaluate(rows, rho)
 
 
@@ -182,6 +205,7 @@ def series(
     *,
     bounces: int = SERIES_BOUNCES,
     resolution: Resolution = STANDARD,
+    slopes: str = slope_law.DEFAULT,
 ) -> Array:
     """Rows of `core.vcavity.bounce_series`: a_1 … a_K and the tail, float64.
 
@@ -208,7 +232,7 @@ def series(
     known = np.isfinite(geometry).all(axis=-1) & np.isfinite(spread)
     geometries, which = np.unique(geometry[known], axis=0, return_inverse=True)
     sigmas, roughness = np.unique(spread[known], return_inverse=True)
-    weights = slope_law.weights(sigmas, resolution.slopes)
+    weights = slope_law.weights(sigmas, resolution.slopes, slopes)
 
     width = bounces + bounce_series.TAIL_RATIOS.size
     responses = _responses(geometries, bounces, resolution)

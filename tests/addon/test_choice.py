@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The model and the material are chosen by themselves, and say so where the user looks."""
+"""The target and the shader are settled by themselves, and say so where the user looks."""
 
 import math
 from dataclasses import replace
@@ -13,7 +13,7 @@ from rough_spectra.addon.instrument import bake
 from rough_spectra.addon.matching import solve
 from rough_spectra.addon.material import derivation, derive
 from rough_spectra.addon.samples import presets
-from rough_spectra.core import ladder, limits
+from rough_spectra.core import ladder, limits, models
 
 
 def assigned(degrees, model=solve.AUTO):
@@ -23,13 +23,13 @@ def assigned(degrees, model=solve.AUTO):
     return material, solution
 
 
-@pytest.mark.parametrize(("degrees", "model"), [(1, "lambert"), (45, "closure")])
-def test_smooth_needs_no_model_and_rough_needs_all_bounces(degrees, model):
+@pytest.mark.parametrize("degrees", [1, 45])
+def test_the_target_is_always_the_same_model(degrees):
     material, solution = assigned(degrees)
-    assert solution.model == model
+    assert solution.model == models.TARGET == "surface"
     found = derivation.get_stamp(material)
-    assert (found.model, found.model_reason) == (model, solution.model_reason)
-    assert found.model_reason.startswith(f"{model}: ")
+    assert (found.model, found.model_reason) == ("surface", solve.BY_DEFAULT)
+    assert found.model_reason.startswith("surface: ")
     assert material.rough_spectra.model == solve.AUTO
 
 
@@ -54,17 +54,18 @@ def test_bake_predicts_with_the_model_that_was_assigned():
     material, solution = assigned(45)
     (prepared,) = bake.prepare([("", material)])
     (entry,) = bake.compare([prepared], None).entries
-    assert entry.predicted.model == "closure"
+    assert entry.predicted.model == "surface"
     assert entry.predicted.model_reason == solution.model_reason
     assert entry.shader_reason == solution.shader_reason
     at_45_0 = (math.pi / 4, 0.0, 0.0, math.radians(45))
-    wanted = ladder.reflectance("reference", presets.load("19").values, *at_45_0)
-    # 1 %: how far the closure is from the reference.
-    np.testing.assert_allclose(entry.predicted.values, wanted, rtol=0.01)
+    wanted = ladder.reflectance("surface", presets.load("19").values, *at_45_0)
+    np.testing.assert_allclose(entry.predicted.values, wanted, rtol=1e-5)  # σ is stored in float32
 
 
 @pytest.mark.parametrize("kind", ["reading", "albedo"])
-@pytest.mark.parametrize("model", ["lambert", "first-order", "closure", "reference", "auto"])
+@pytest.mark.parametrize(
+    "model", ["lambert", "first-order", "closure", "reference", "surface", "auto"]
+)
 def test_a_material_solved_alone_is_the_one_solved_among_others(model, kind):
     """Alone, its spectra are kept from one step of a slider to the next; that changes nothing."""
     requests = [

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The choice of a model in CIEDE2000, on scenes that tools/checks/check_ladder.py draws.
+"""The models in CIEDE2000, on scenes that tools/checks/check_ladder.py draws.
 
 The tool takes 1,000 of another seed; docs/ladder.md states what it finds.
 """
@@ -10,28 +10,16 @@ import pytest
 
 from tools.checks import check_ladder
 
-SCENES = 60
-
 
 @pytest.fixture(scope="module")
-def verdicts(extension):
-    scenes = check_ladder.random_scenes(SCENES, seed=4)
-    choices = check_ladder.choose(scenes)
-    return [check_ladder.judge(*pair) for pair in zip(scenes, choices, strict=True)]
+def errors(extension):
+    return check_ladder.errors(check_ladder.random_scenes(60, seed=4))
 
 
-def test_no_tolerance_is_exceeded(verdicts):
-    # The requirement is 1.1; the bounds of the table leave nothing above 1.
-    assert max(verdict.excess for verdict in verdicts) <= 1
-
-
-def test_no_dearer_rung_than_needed(verdicts):
-    right = [verdict.choice.model == verdict.cheapest for verdict in verdicts]
-    assert np.mean(right) >= 0.95
-    assert len({verdict.cheapest for verdict in verdicts}) >= 4
-
-
-def test_no_error_is_promised_smaller_than_it_is(verdicts):
-    for verdict in verdicts:
-        for rung, error in verdict.true_errors.items():
-            assert verdict.choice.errors[rung] >= error - 1e-6
+def test_every_model_errs_as_the_manual_says(errors):
+    median = {model: float(np.median(found)) for model, found in errors.items()}
+    assert median["surface"] == 0
+    # V-grooves are nearer than no roughness at all, and none of them is near.
+    assert 3 < median["lambert"] < 9
+    for model in ("two-bounce", "closure", "reference"):
+        assert 0.3 < median[model] < 0.6 * median["lambert"]

@@ -228,22 +228,13 @@ def test_a_linked_material_too(assigned, tmp_path):
     [material] = wanted.materials
     assert state.state(material).kind == "linked"
     taken, apart = of_bake(material)
-    assert (taken, of_panel(material)) == ("closure", pytest.approx(apart, abs=_ROUNDING))
-    assert apart > 4
+    assert (taken, of_panel(material)) == ("surface", pytest.approx(apart, abs=_ROUNDING))
+    assert apart > 3
 
 
 def test_without_a_spectrum_there_is_no_target(make_material):
     [item] = bake.prepare([("", make_material())])
     assert item.request is None
-
-
-def test_the_model_is_chosen_once_while_a_color_is_edited(assigned, monkeypatch):
-    material = assigned("auto")
-    set_by_hand("sigma")(material)
-    settled.of(material)
-    monkeypatch.setattr(solve, "settle", None)
-    edit(material)
-    assert settled.of(material).request.model == "closure"
 
 
 def test_what_was_derived_is_said_only_of_what_is_shown(assigned):

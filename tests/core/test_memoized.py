@@ -5,10 +5,9 @@
 import numpy as np
 import pytest
 
-from core import closure, cycles, oren_nayar
+from core import closure, cycles, oren_nayar, surface
 from core.errors import DomainError
 from core.numerics import direction_grid, memoized
-from core.vcavity import tabulated
 
 FEW = memoized.FEW
 
@@ -78,11 +77,10 @@ def test_bytes_in_the_other_order_are_other_numbers(sums):
     [
         lambda angles: closure.factors(*angles, 0.6),
         lambda angles: oren_nayar.factors(*angles, 0.6),
-        lambda angles: [tabulated.bound(*angles, 0.6)],
-        lambda angles: tabulated.reflectance(np.full((1, 3), 0.4), *angles, 0.6),
+        lambda angles: surface.factors(*angles, 0.6),
         lambda angles: [cycles.reflectance(np.full((angles[0].size, 3), 0.4), 0.6, *angles)],
     ],
-    ids=["closure", "published", "bound", "yardstick", "cycles"],
+    ids=["closure", "published", "surface", "cycles"],
 )
 def test_few_directions_give_what_they_give_among_many(of):
     many = direction_grid.hemisphere(FEW + 50)
@@ -100,10 +98,10 @@ def test_few_directions_give_what_they_give_among_many(of):
     [
         closure.factors,
         oren_nayar.factors,
-        tabulated.bound,
+        surface.factors,
         lambda *angles: cycles.reflectance(np.full((1, 3), 0.4), angles[-1], *angles[:-1]),
     ],
-    ids=["closure", "published", "bound", "cycles"],
+    ids=["closure", "published", "surface", "cycles"],
 )
 def test_what_is_wrong_is_said_every_time(of):
     """An infinite azimuth is no number, and needs no warning beside it, the first time or later."""

@@ -11,6 +11,7 @@ import math
 import warnings
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -252,6 +253,23 @@ def check_white(reading_of, sigmas):
         white = silent(lambda sigma=sigma: reading_of(np.ones(1), sigma))[0]
         assert np.isfinite(white)
         assert abs(white - 1) <= 0.01, f"{white} at σ = {np.degrees(sigma):.3g}°"
+
+
+def check_shallow(slopes_of):
+    """As σ → 0 the mean of Gaussian slopes is √(π/2) σ, however small σ is."""
+    for sigma in (0.01, 1e-5, 1e-10, 1e-150, 1e-300):
+        slope, share = silent(lambda sigma=sigma: slopes_of(sigma))
+        assert share.sum() == pytest.approx(1)
+        assert share @ slope / sigma == pytest.approx(np.sqrt(np.pi / 2), rel=1e-3)
+
+
+def check_slots(slopes_of):
+    """As σ → π/2 Gaussian slopes are steep, and no share of any exceeds the whole."""
+    for sigma in (np.radians(89.99), np.pi / 2, np.float32(np.pi / 2)):
+        slope, share = silent(lambda sigma=sigma: slopes_of(sigma))
+        assert share.sum() == pytest.approx(1)
+        assert np.degrees(share @ slope) == pytest.approx(89.95, abs=0.05)
+        assert np.abs(share).max() < 1.01
 
 
 def check_white_limit(reading_of):

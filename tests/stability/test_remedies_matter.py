@@ -67,6 +67,13 @@ WITHOUT_REMEDY = {
         lambda: checks.check_white(reading.from_albedo, np.radians([60.0])),
         lambda: checks.check_white(first_order_white, np.radians([60.0])),
     ],
+    "test_gaussian_slopes_as_roughness_vanishes": [
+        lambda: checks.check_shallow(textbook.gaussian_slopes),
+    ],
+    "test_gaussian_slopes_become_slots": [
+        lambda: checks.check_slots(textbook.drawn_slopes),
+        lambda: checks.check_slots(textbook.extrapolated_slopes),
+    ],
     "test_degrees_are_refused": [lambda: checks.check_unit(textbook.coefficients_of_anything)],
     "test_readings_above_white_are_kept": [
         lambda: checks.check_infeasible(textbook.clipped_root),
@@ -145,5 +152,5 @@ def test_the_page_shows_every_figure_and_no_other():
 def test_reference_series_cut_at_16_bounces_is_what_the_core_returns_by_that_name():
     """The cut form of the figure is the core's own coefficients, so only the cut differs."""
     assert textbook.cut_series(np.full(1, 0.1), 0.5) == pytest.approx(
-        vcavity.reading_from_albedo(np.full(1, 0.1), 0.5), rel=1e-6
+        vcavity.reading_from_albedo(np.full(1, 0.1), 0.5, slopes="oren-nayar"), rel=1e-6
     )

@@ -18,6 +18,7 @@ from core import (
 )
 from core.cycles import matching
 from core.numerics import wavelength_grid
+from core.vcavity import slope_law
 from tests.stability import checks
 
 REC709_FROM_XYZ = np.linalg.inv(
@@ -32,6 +33,16 @@ def cycles_lobe(albedo, theta_i, theta_r, delta_phi, sigma):
 
 def closure(albedo, sigma):
     return reading.from_albedo(albedo, sigma, "closure")
+
+
+def published_slopes(albedo, sigma):
+    """Give the reference's reading with the slopes of the published formula."""
+    return vcavity.reading_from_albedo(albedo, sigma, slopes="oren-nayar")
+
+
+def gaussian_slopes(sigma):
+    """Give slopes that the reference solves, and their shares of area."""
+    return slope_law.nodes(6), slope_law.weights(np.array([sigma], float), 6)[0]
 
 
 def geometric_series(albedo, sigma):
@@ -111,7 +122,7 @@ def test_white_furnace_of_reference_and_cycles(reflectance):
 
 
 def test_no_bounce_is_cut_off_at_white():
-    checks.check_white(vcavity.reading_from_albedo, np.radians([20.0, 50.0, 90.0]))
+    checks.check_white(published_slopes, np.radians([20.0, 50.0, 90.0]))
 
 
 @pytest.mark.parametrize("reading_of", [closure, geometric_series])
@@ -119,9 +130,17 @@ def test_closure_at_white_as_roughness_vanishes(reading_of):
     checks.check_white_limit(reading_of)
 
 
-@pytest.mark.parametrize("reading_of", [closure, vcavity.reading_from_albedo])
+@pytest.mark.parametrize("reading_of", [closure, published_slopes])
 def test_white_beyond_50_degrees(reading_of):
     checks.check_white(reading_of, np.radians([50.0, 60.0, 75.0, 90.0]))
+
+
+def test_gaussian_slopes_as_roughness_vanishes():
+    checks.check_shallow(gaussian_slopes)
+
+
+def test_gaussian_slopes_become_slots():
+    checks.check_slots(gaussian_slopes)
 
 
 def test_degrees_are_refused():

@@ -11,6 +11,7 @@ import numpy as np
 from core import oren_nayar, reading, vcavity
 from core.cycles import matching
 from core.errors import DomainError
+from core.vcavity import slope_law
 
 
 def root(values, sigma):
@@ -63,8 +64,37 @@ def closure(albedo, sigma):
 def cut_series(albedo, sigma, bounces=16):
     """Sum the reference's bounces up to the 16th and drop the others."""
     rho = np.asarray(albedo)
-    rows = vcavity.bounce_coefficients(np.pi / 4, 0.0, 0.0, sigma, bounces=bounces)
+    angles = np.pi / 4, 0.0, 0.0, sigma
+    rows = vcavity.bounce_coefficients(*angles, bounces=bounces, slopes="oren-nayar")
     return np.sum(rows * rho[..., np.newaxis] ** np.arange(1, bounces + 1), axis=-1)
+
+
+def gaussian_slopes(sigma):
+    """Give slopes and their shares of area from the density as it is written, by one fixed rule."""
+    points, weights = np.polynomial.legendre.leggauss(200)
+    slope = (points + 1) * np.pi / 4
+    m = np.tan(sigma)
+    share = (
+        weights * np.tan(slope) / np.cos(slope) ** 2 * np.exp(-(np.tan(slope) ** 2) / (2 * m**2))
+    )
+    return slope, share / np.sum(share)
+
+
+def drawn_slopes(sigma):
+    """Give them by the inverse of their running sum."""
+    steps = (np.arange(1000) + 0.5) / 1000
+    return np.arctan(np.tan(sigma) * np.sqrt(-2 * np.log1p(-steps))), np.full(1000, 1 / 1000)
+
+
+def extrapolated_slopes(sigma):
+    """Give them with what polynomials say of slopes beyond the last one solved."""
+    nodes = slope_law.nodes(6)[-6:]
+    slope, _ = drawn_slopes(min(float(sigma), np.pi / 2))
+    each = [
+        np.prod([(slope - other) / (node - other) for other in nodes if other != node], axis=0)
+        for node in nodes
+    ]
+    return nodes, np.mean(each, axis=1)
 
 
 def _assemble(alpha, beta, cos_phi, backward, sigma):

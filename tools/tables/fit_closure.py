@@ -32,6 +32,8 @@ from core.vcavity import (
     surface,
 )
 
+SLOPES = slope_law.OREN_NAYAR
+
 ROUGHNESS_SCALE = 0.2
 """c of t = σ²/(σ² + c): of 0.1 to 0.6 the one with the smallest error at 45a:0."""
 
@@ -80,7 +82,7 @@ def main() -> int:
 def fit_ring() -> tuple[Array, Array, Array]:
     """Polynomials in t of r(1), a and the logarithm of g / ((1 - g) t)."""
     t = RING_SIGMAS**2 / (RING_SIGMAS**2 + ROUGHNESS_SCALE)
-    readings = bounce_series.evaluate(sigma_tables.ring().rows(RING_SIGMAS), RING_ALBEDOS)
+    readings = bounce_series.evaluate(sigma_tables.ring(SLOPES).rows(RING_SIGMAS), RING_ALBEDOS)
     powers = t[:, np.newaxis] ** np.arange(1, WHITE_DEGREE + 1)
     white = np.concatenate(([1.0], np.linalg.lstsq(powers, readings[:, -1] - 1, rcond=None)[0]))
     white_values = np.polynomial.polynomial.polyval(t, white)
@@ -157,7 +159,7 @@ def solve_grid() -> tuple[Array, Array]:
             for azimuth in (AZIMUTHS if view > 0 else AZIMUTHS[:1])
         ]
     )
-    weights = slope_law.weights(SIGMAS, surface.STANDARD.slopes)
+    weights = slope_law.weights(SIGMAS, surface.STANDARD.slopes, SLOPES)
     rows = [
         weights @ surface.response(part[:, 0], part[:, 1], part[:, 2], sigma_tables.SERIES_BOUNCES)
         for part in np.array_split(geometry, geometry.shape[0] // 2)
@@ -249,7 +251,7 @@ the logarithm of r'(0) over t, of what white facets add over t, and of the odds 
 def report() -> None:
     """Print the worst errors of what core/closure/fitted.py holds."""
     sigma = np.radians(np.concatenate((np.arange(0.5, 50.1, 0.5), np.arange(51.0, 91))))
-    readings = evaluate_rows(sigma_tables.ring().rows(sigma), RING_ALBEDOS)
+    readings = evaluate_rows(sigma_tables.ring(SLOPES).rows(sigma), RING_ALBEDOS)
     fitted = form(*closure.coefficients(sigma), RING_ALBEDOS)
     error = np.abs(fitted / readings - 1)
     inner = sigma < np.radians(50.1)

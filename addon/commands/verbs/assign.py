@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--model",
         choices=("auto", *NAMES),
         default="auto",
-        help="how light between facets is counted; auto takes the cheapest that is good enough",
+        help="how light between facets is counted; auto is the surface model",
     )
     parser.add_argument(
         "--shader",
