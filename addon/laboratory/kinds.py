@@ -55,6 +55,11 @@ class RoughSample:
         """Angle of Rdq, radians: of the facets themselves, averaged over azimuth."""
         return float(np.arctan(self.mesh.rdq))
 
+    @property
+    def law(self) -> str | None:
+        """Slope law of grooves; None of all else."""
+        return _LAWS.get(self.kind)
+
 
 class Kind(NamedTuple):
     """What a kind is called, and what its length and slope are."""
@@ -180,10 +185,11 @@ def _meshed(field: HeightField) -> Mesh:
     return heights.mesh_of_field(field)
 
 
+_LAWS = {"grooves": "gaussian", "grooves-oren-nayar": "oren-nayar"}
+
 _MAKERS = {
     "gaussian": _gaussian,
     "multiscale": _multiscale,
-    "grooves": _grooves("gaussian"),
-    "grooves-oren-nayar": _grooves("oren-nayar"),
     "grains": _grains,
+    **{kind: _grooves(law) for kind, law in _LAWS.items()},
 }

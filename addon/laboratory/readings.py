@@ -9,9 +9,8 @@ import io
 from dataclasses import replace
 from math import degrees, radians
 
-from ...core import reading
+from ...core import models, reading, vcavity
 from ...core.errors import DomainError
-from ...core.limits import LARGEST_SIGMA
 from ...core.numerics.arrays import Array
 from ..matching import surface_spectra
 from ..matching.request import Request
@@ -20,7 +19,7 @@ from ..support.version import version
 from .experiment import Measured
 from .kinds import KINDS, RoughSample
 
-MODEL = "closure"
+MODEL = models.TARGET
 """What the table's prediction is made by, and what finds the facets' albedo behind a reading."""
 
 HEADER = ("albedo", "reflectance", "noise", "spread", "noise_of_a_spot", "predicted")
@@ -54,10 +53,20 @@ def facets(sample: Sample) -> Sample:
     return replace(sample, kind="albedo", values=albedo, lab=None, xyz=None)
 
 
-def predict(rough: RoughSample, measured: Measured) -> Array:
-    """Predict what was measured, from the σ of the facets."""
-    sigma = min(rough.sigma if rough.asked is None else rough.asked, LARGEST_SIGMA)
-    return reading.from_albedo(measured.albedos, sigma, MODEL, "45a:0")
+def predict(rough: RoughSample, measured: Measured) -> tuple[Array, str]:
+    """Predict what was measured, from σ: grooves by the solver, all else by `MODEL`.
+
+    Returns
+    -------
+    Reflectance factors, shape (n,), and what they were predicted by.
+    """
+    if rough.law is not None and rough.asked is not None:
+        found = vcavity.reading_from_albedo(measured.albedos, rough.asked, slopes=rough.law)
+        return found, f"the solver of V-grooves, slope law {rough.law}"
+    steepest = models.find(MODEL).largest_sigma
+    sigma = min(rough.sigma, radians(steepest))
+    by = f"the model {MODEL}" + (f" at {steepest:g} degrees" if sigma < rough.sigma else "")
+    return reading.from_albedo(measured.albedos, sigma, MODEL, "45a:0"), by
 
 
 def to_csv(rough: RoughSample, measured: Measured, wavelengths: Array | None = None) -> bytes:
@@ -72,6 +81,7 @@ def to_csv(rough: RoughSample, measured: Measured, wavelengths: Array | None = N
     """
     mesh, kind = rough.mesh, KINDS[rough.kind]
     asked = "as it came" if rough.asked is None else f"{degrees(rough.asked):g} degrees"
+    predicted, by = predict(rough, measured)
     comments = (
         f"creator: Rough Spectra {version()}",
         f"sample: {kind.title}, seed {rough.seed}, {kind.length} {rough.length:g}",
@@ -81,7 +91,7 @@ def to_csv(rough: RoughSample, measured: Measured, wavelengths: Array | None = N
         f"spot: {measured.spot:g} of a period of {mesh.period[0]:g} x {mesh.period[1]:g}",
         "units: fraction (reflectance factor, 1 = perfect white diffuser)",
         "noise: standard error; spread: standard deviation over places of the spot, without noise",
-        f"predicted: by the model {MODEL}",
+        f"predicted: by {by}",
     )
     text = io.StringIO()
     text.writelines(f"# {line}\n" for line in comments)
@@ -93,7 +103,7 @@ def to_csv(rough: RoughSample, measured: Measured, wavelengths: Array | None = N
         measured.noise,
         measured.spread,
         measured.spot_noise,
-        predict(rough, measured),
+        predicted,
     )
     for number, row in enumerate(zip(*columns, strict=True)):
         cells = [f"{value:.6f}" for value in row]

@@ -15,6 +15,7 @@ from rough_spectra.addon.laboratory.experiment import spot_readings
 from rough_spectra.addon.samples import presets
 from rough_spectra.core import heights, vcavity
 from rough_spectra.core.errors import DomainError, InputError
+from rough_spectra.core.vcavity import slope_law
 
 SPREAD_OF_NOISE = 5
 """Standard errors that a quick render may be off by. Few seeds tell them roughly."""
@@ -46,12 +47,15 @@ def test_a_gaussian_surface_reads_as_one_traced_elsewhere():
     assert found.noise.max() < 1e-3
 
 
-def test_grooves_read_as_the_solver_says():
+@pytest.mark.parametrize("law", slope_law.LAWS)
+def test_grooves_read_as_the_solver_says(law):
     """No random number in common, nor a line: an integral equation against rendered facets."""
-    rough = kinds.make("grooves-oren-nayar", radians(30), cells=128)
+    kind = {"gaussian": "grooves", "oren-nayar": "grooves-oren-nayar"}[law]
+    rough = kinds.make(kind, radians(30), cells=128)
+    assert rough.law == law
     albedos = np.array([0.2, 0.6, 0.95])
     found = experiment.measure(rough.mesh, albedos, seeds=4, samples=96)
-    expected = vcavity.reading_from_albedo(albedos, radians(30))
+    expected = vcavity.reading_from_albedo(albedos, radians(30), slopes=law)
     assert found.noise.max() < 2e-3
     bound = 1e-3 * expected + SPREAD_OF_NOISE * found.noise
     assert (np.abs(found.reflectance - expected) < bound).all()
