@@ -11,7 +11,7 @@ import pytest
 
 from tests.integration.support import ROOT, SECONDS, contents, rgb_material, spectrum_csv
 
-VERBS = ("analyze", "assign", "bake", "check", "import", "merge", "search")
+VERBS = ("analyze", "assign", "bake", "check", "import", "lab", "merge", "search")
 
 
 def stored(name):

@@ -16,6 +16,7 @@ import argparse
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from math import radians
 from pathlib import Path
 
@@ -51,10 +52,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     faults: list[str] = []
     lines = []
-    for line in (
-        *grooves(options.rays, options.seeds, faults),
-        *gaussian(options.rays // 4, faults),
-        *level(faults),
+    for line in chain(
+        grooves(options.rays, options.seeds, faults),
+        gaussian(options.rays // 4, faults),
+        level(faults),
     ):
         print(line, flush=True)
         lines.append(line)
