@@ -81,7 +81,10 @@ def test_a_map_of_heights_is_measured(main, tmp_path):
         (("--albedo", "0.5"), "A sample of the kind 'gaussian' needs a roughness; give σ."),
         (("--albedo", "1.5", "--sigma", "30"), "An albedo is 1.5; give 0 to 1."),
         (("--albedo", "0.5", "--sigma", "95"), "σ is 95°; give 0 to below 90 degrees"),
-        (("--albedo", "0.5", "--rdq", "-1"), "Rdq is -1; give 0 or more."),
+        (
+            ("--albedo", "0.5", "--rdq", "-1"),
+            "Rdq is an rms slope, rise over run: it has to be 0 or larger",
+        ),
         (("--albedo", "0.5", "--sigma", "30", "--spot", "99"), "The spot is 99 wide"),
         (("--sample", "no such thing", "--sigma", "30"), "no such thing"),
         (("--albedo", "0.5", "--map", "none.xyz"), "none.xyz cannot be read"),

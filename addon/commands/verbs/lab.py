@@ -117,16 +117,14 @@ def _sigma(options: argparse.Namespace) -> float | None:
     """σ in radians, however it was given."""
     import math
 
-    from ....core.errors import DomainError
+    from ....core import roughness
 
     if options.sigma is not None:
         return math.radians(options.sigma)
-    for name, factor in (("rdq", 1.0), ("sdq", math.sqrt(2))):
-        given = getattr(options, name)
-        if given is not None:
-            if not (math.isfinite(given) and given >= 0):
-                raise DomainError(f"{name.capitalize()} is {given:g}; give 0 or more.")
-            return math.atan(given / factor)
+    if options.rdq is not None:
+        return float(roughness.sigma_from_rdq(options.rdq))
+    if options.sdq is not None:
+        return float(roughness.sigma_from_sdq(options.sdq))
     return None
 
 
