@@ -157,8 +157,8 @@ class Experiment(Job):
         # (groups, seeds, rows, columns, 3) to (albedos, seeds, rows, columns)
         each = np.moveaxis(pictures, -1, 1).reshape(-1, *pictures.shape[1:-1])[:count]
         found = [_judged(of_one, self._mesh.period, self._spot) for of_one in each]
-        columns = np.array(found)[self._level_of.ravel()].T
-        return Measured(self._albedos, *columns, self._spot)
+        reading, noise, spread, spot_noise = np.array(found)[self._level_of.ravel()].T
+        return Measured(self._albedos, reading, noise, spread, spot_noise, self._spot)
 
 
 def measure(

@@ -131,7 +131,7 @@ def _text(path: Path, text: str) -> tuple[Array, tuple[float, float] | None]:
     if lines and re.match(r"[ab][A-Z]+-\d", lines[0]):
         return _sdf(path, lines)
     header: dict[str, float] = {}
-    rows = []
+    rows: list[list[float]] = []
     width = None
     for number, line in enumerate(lines, 1):
         words = re.split(r"[\s;]+|,\s*", line.strip(";, \t"))
