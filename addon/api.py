@@ -664,7 +664,8 @@ def measure_rough(
         Diameter of what the instrument sees, in the unit of the sample's length. None takes half of
         what the surface repeats after.
     seeds, samples
-        Renders with random numbers of their own, two or more, and rays a pixel in each.
+        Renders with random numbers of their own, two or more, and rays a pixel in each; a picture
+        that is finer for the sake of a small spot shares as many.
     progress
         Called with renders done and renders in all.
 

@@ -39,6 +39,9 @@ that see alike, as they do of even grooves, would repeat one error, and the nois
 PIXELS = 64
 """Width of the picture; more where the spot would be less than `SPOT_PIXELS` wide."""
 
+FEWEST_SAMPLES = 16
+"""Rays a pixel that a finer picture keeps; otherwise it shares those of one `PIXELS` wide."""
+
 SPOT_PIXELS = 8
 LARGEST_PICTURE = 1024
 
@@ -95,7 +98,8 @@ class Experiment(Job):
     geometry
         Lights and view.
     seeds, samples
-        Renders with random numbers of their own, two or more, and rays a pixel in each.
+        Renders with random numbers of their own, two or more, and rays a pixel in each; a picture
+        that is finer for the sake of a small spot shares as many, see `FEWEST_SAMPLES`.
 
     Raises
     ------
@@ -129,6 +133,9 @@ class Experiment(Job):
         self._levels, self._level_of = np.unique(self._albedos, return_inverse=True)
         groups = _groups(self._levels)
 
+        pixels = _pixels(mesh, self._spot)
+        shared = max(FEWEST_SAMPLES, round(samples * (PIXELS / pixels) ** 2))
+
         def prepare(folder: Path) -> dict[str, Any]:
             np.savez(folder / "mesh.npz", vertices=mesh.vertices, faces=mesh.faces)
             return {
@@ -137,8 +144,8 @@ class Experiment(Job):
                 "albedos": groups.tolist(),
                 "lights": geometry.lights,
                 "view": geometry.view,
-                "pixels": _pixels(mesh, self._spot),
-                "samples": samples,
+                "pixels": pixels,
+                "samples": min(samples, shared),
                 "seeds": seeds,
             }
 

@@ -20,7 +20,7 @@ CELLS = 512
 """Of a grid of heights, a side, unless told otherwise."""
 
 COARSEST, FINEST = 32, 2048
-"""Cells a side that can be asked for; the finest have eight million facets, and need 4 GB."""
+"""Cells a side that can be asked for; the finest have eight million facets, and need 3 GB."""
 
 STRIPS_A_CELL = 2
 """Strips of grooves for each cell of a side: 1024 usually, which hold the slope law to 1e-4."""

@@ -109,6 +109,21 @@ def test_a_small_spot_sees_more_spread():
     assert small.reflectance == pytest.approx(large.reflectance, abs=6 * large.noise[0])
 
 
+def test_a_small_spot_costs_no_more_rays(monkeypatch, tmp_path):
+    """Its picture is four times as fine a side, and would be 16 times as slow."""
+    asked = []
+    monkeypatch.setattr(
+        experiment.Job, "__init__", lambda _self, _worker, prepare: asked.append(prepare)
+    )
+    rough = kinds.make("gaussian", radians(30), cells=64)
+    for spot in (8.0, 8.0 / 32):
+        experiment.Experiment(rough.mesh, [0.5], spot, samples=256)
+    jobs = [prepare(tmp_path) for prepare in asked]
+    large, small = (job["pixels"] ** 2 * job["samples"] for job in jobs)
+    assert small <= large
+    assert jobs[1]["pixels"] == 4 * jobs[0]["pixels"]
+
+
 def test_albedos_come_back_in_their_order():
     level = kinds.make("gaussian", 0.0, cells=32)
     albedos = [0.9, 0.1, 0.5, 0.1, 0.7]

@@ -125,7 +125,7 @@ def of_every_kind(rays: int) -> Iterator[str]:
         if kind == "map":
             continue
         rough = kinds.make(kind, radians(30))
-        spot = 8 * rough.length
+        spot = min(rough.mesh.period) / 8
         found = experiment.measure(rough.mesh, albedos, spot, samples=rays)
         cells = " | ".join(
             f"{a:.4f} ± {b:.4f}" for a, b in zip(found.reflectance, found.noise, strict=True)

@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--rays",
         type=int,
         default=experiment.SAMPLES,
-        help=f"a pixel and render; {experiment.SAMPLES}",
+        help=f"a pixel and render, shared by finer pixels for a small spot; {experiment.SAMPLES}",
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="table, CSV")
 
