@@ -41,6 +41,9 @@ from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
+from .laboratory import experiment, kinds
+from .laboratory.experiment import Measured
+from .laboratory.kinds import RoughSample
 from .matching import compare as matching_compare
 from .matching import emission, roughness
 from .matching.assess import Differences
@@ -73,10 +76,12 @@ __all__ = [
     "InBand",
     "InputError",
     "MaterialError",
+    "Measured",
     "OutputError",
     "Reading",
     "Readings",
     "Request",
+    "RoughSample",
     "RoughSpectraError",
     "Sample",
     "Settled",
@@ -91,12 +96,14 @@ __all__ = [
     "find",
     "keep",
     "materials",
+    "measure_rough",
     "paused",
     "presets",
     "read",
     "read_filter",
     "renew",
     "request",
+    "rough_sample",
     "settle",
     "state",
     "write",
@@ -766,6 +773,118 @@ def write(
         msg = f"The format {unknown[0]!r} is not known; choose of {', '.join(writers.FORMATS)}."
         raise DomainError(msg)
     return writers.write(readings, Path(base), chosen)
+
+
+def rough_sample(
+    kind: str,
+    sigma: float | None = None,
+    length: float | None = None,
+    *,
+    seed: int = 0,
+    cells: int = kinds.CELLS,
+    path: str | os.PathLike[str] | None = None,
+) -> RoughSample:
+    """Make a rough surface of facets, to be measured by `measure_rough`.
+
+    Parameters
+    ----------
+    kind
+        "gaussian" or "multiscale" (random heights), "grooves" or "grooves-oren-nayar" (V-grooves of
+        either slope law), "grains" (packed spheres), or "map" (heights from a file).
+    sigma
+        Roughness σ, **radians**: the tangent is Rdq of the facets, or the width of the grooves'
+        slope law. None leaves grains spheres, and a map as it was measured.
+    length
+        Correlation length, mean width of a groove, diameter of a grain, or length between two
+        heights of a map that does not say it, in any unit; 1 if not given.
+    seed
+        Another surface of the same kind for each number.
+    cells
+        Of the mesh, a side; a map has its own.
+    path
+        Of a map: a 16-bit or float image, or a text of points x y z, of a matrix, or SDF.
+
+    Returns
+    -------
+    Its `mesh` has `vertices`, `faces`, `period`, `rdq` and `sdq`; its `sigma` is the angle of Rdq.
+
+    Raises
+    ------
+    DomainError
+        The numbers make no such surface.
+    InputError
+        The file cannot be used, or has holes.
+
+    Examples
+    --------
+    >>> sample = rough_sample("gaussian", radians(30), cells=64)
+    >>> len(sample.mesh.faces), round(sample.mesh.rdq, 4), round(sample.mesh.sdq, 4)
+    (8192, 0.5774, 0.8165)
+    """
+    where = None if path is None else Path(path)
+    return kinds.make(kind, sigma, length, seed=seed, cells=cells, path=where)
+
+
+def measure_rough(
+    sample: RoughSample,
+    albedos: Iterable[float],
+    spot: float | None = None,
+    *,
+    seeds: int = experiment.SEEDS,
+    samples: int = experiment.SAMPLES,
+    progress: Callable[[int, int], None] | None = None,
+) -> Measured:
+    """Measure a rough surface in Cycles at 45°/0°, with all bounces between its facets.
+
+    Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
+
+    Parameters
+    ----------
+    sample
+        What `rough_sample` gave.
+    albedos
+        Of its Lambertian facets, 0 to 1; three are rendered at once.
+    spot
+        Diameter of what the instrument sees, in the unit of the sample's length. None takes half of
+        what the surface repeats after.
+    seeds, samples
+        Renders with random numbers of their own, two or more, and rays a pixel in each; a picture
+        that is finer for the sake of a small spot shares as many.
+    progress
+        Called with renders done and renders in all.
+
+    Returns
+    -------
+    Arrays, one number an albedo: `reflectance`, the mean over all places of the spot, and `noise`,
+    its standard error; `spread`, the standard deviation over places, free of noise; `spot_noise`,
+    the standard error of a reading at one place.
+
+    Raises
+    ------
+    DomainError
+        A number is out of its range.
+    OutputError
+        The second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+
+    Examples
+    --------
+    >>> sample = rough_sample("gaussian", radians(30), cells=64)
+    >>> found = measure_rough(sample, [0.2, 0.8], seeds=2, samples=16)
+    >>> [round(value, 2) for value in found.reflectance.tolist()]
+    [0.17, 0.77]
+    >>> bool((found.noise < 0.002).all()), bool((found.spread < 0.02).all())
+    (True, True)
+    """
+    return experiment.measure(
+        sample.mesh,
+        list(albedos),
+        spot,
+        seeds=seeds,
+        samples=samples,
+        progress=progress,
+    )
 
 
 def _checked(material: Any) -> Any:

@@ -11,12 +11,11 @@ mesh        facets of any of these
 
 from .field import HeightField
 from .grains import grains
-from .grooves import LAWS, Grooves, grooves
+from .grooves import Grooves, grooves
 from .mesh import Mesh, mesh_of_field, mesh_of_grooves
 from .spectral import gaussian, multiscale
 
 __all__ = [
-    "LAWS",
     "Grooves",
     "HeightField",
     "Mesh",

@@ -15,11 +15,8 @@ import numpy as np
 
 from ..errors import DomainError
 from ..numerics.arrays import Array
+from ..vcavity import slope_law
 from .field import check_slope
-
-LAWS = ("gaussian", "oren-nayar")
-"""Slope laws over macroscopic area: tan θ sec²θ exp(-tan²θ / 2 tan²σ), the slopes of a Gaussian
-random surface with Rdq = tan σ; and exp(-θ²/2σ²) sin θ, what Oren and Nayar fitted to."""
 
 _DEEPEST = 2.0
 """Depth of a groove in widths of a strip; a steeper strip is divided among narrower grooves."""
@@ -66,7 +63,12 @@ class Grooves:
 
 
 def grooves(
-    sigma: float, law: str = "gaussian", *, period: float = 1.0, strips: int = 1024, seed: int = 0
+    sigma: float,
+    law: str = slope_law.DEFAULT,
+    *,
+    period: float = 1.0,
+    strips: int = 1024,
+    seed: int = 0,
 ) -> Grooves:
     """Make grooves of a slope law.
 
@@ -75,7 +77,7 @@ def grooves(
     sigma
         Width of the law, radians, 0 to below π/2.
     law
-        One of `LAWS`.
+        One of `core.vcavity.slope_law.LAWS`.
     period
         Width of all of them, in any unit of length.
     strips
@@ -97,8 +99,7 @@ def grooves(
     1.0
     """
     check_slope(sigma)
-    if law not in LAWS:
-        raise DomainError(f"Slope law {law!r} is not known; choose one of: {', '.join(LAWS)}.")
+    slope_law.check(law)
     if strips < 1 or not (np.isfinite(period) and period > 0):
         raise DomainError(f"{strips} strips over {period:g} are no surface; give more than 0.")
     share = (np.arange(strips) + 0.5) / strips

@@ -62,7 +62,7 @@ def multiscale(
     correlation_length: float = 1.0,
     *,
     hurst: float = 0.8,
-    finest: float = 8.0,
+    finest: float | None = None,
     cells: int = 512,
     correlation_cells: float | None = None,
     seed: int = 0,
@@ -79,7 +79,8 @@ def multiscale(
     hurst
         H, 0 to 1: the smaller, the more of the slope is in the fine scales.
     finest
-        Wavelength in cells at which the filter has fallen to 1/e.
+        Wavelength in cells at which the filter has fallen to 1/e: 8 if not given, or half of the
+        correlation length where that is less.
 
     Raises
     ------
@@ -94,6 +95,7 @@ def multiscale(
     """
     correlation_cells = cells / 8 if correlation_cells is None else correlation_cells
     check_grid(cells, correlation_cells)
+    finest = min(8.0, correlation_cells / 2) if finest is None else finest
     if not 0 < hurst <= 1:
         raise DomainError(f"The Hurst exponent is {hurst:g}; give more than 0, up to 1.")
     if not 2 <= finest <= correlation_cells:

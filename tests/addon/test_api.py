@@ -23,6 +23,7 @@ SIGNATURES = {
     "find": "(name)",
     "keep": "(material)",
     "materials": "()",
+    "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
     "paused": "()",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
@@ -30,6 +31,7 @@ SIGNATURES = {
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None)",
+    "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
     "state": "(material)",
     "write_emissivity": "(found, base)",
@@ -58,6 +60,8 @@ FIELDS = {
     "Readings": "working_space blender entries shard shards whole version",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
     "warnings fault",
+    "RoughSample": "kind mesh length asked seed",
+    "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""
 

@@ -21,6 +21,7 @@ ROWS = (
     ("addon/blender",),
     ("addon/material",),
     ("addon/scene", "addon/instrument", "addon/preview"),
+    ("addon/laboratory",),
     ("addon/assets", "addon/api.py"),
     ("addon/commands",),
     ("addon/interface",),

@@ -7,6 +7,7 @@ import pytest
 
 from core import heights
 from core.errors import DomainError
+from core.vcavity import slope_law
 
 SIGMAS = (5, 15, 30, 45, 60)
 
@@ -60,7 +61,7 @@ def test_a_multiscale_surface_has_no_one_scale():
     assert coarse_share(many, 16) < 0.75
 
 
-@pytest.mark.parametrize("law", heights.LAWS)
+@pytest.mark.parametrize("law", slope_law.LAWS)
 @pytest.mark.parametrize("degrees", SIGMAS)
 def test_grooves_follow_their_law(law, degrees):
     """Against the mean of tan θ's bounded companions by a quadrature of the law itself."""

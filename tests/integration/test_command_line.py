@@ -20,6 +20,7 @@ VERBS = (
     "emissivity",
     "estimate",
     "import",
+    "lab",
     "merge",
     "search",
 )
