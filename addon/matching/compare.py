@@ -16,7 +16,7 @@ import numpy as np
 from ...core import interreflection
 from ...core.color import chromaticity, color_difference
 from ...core.errors import DomainError
-from ...core.limits import USUAL_MODEL
+from ...core.models import TARGET
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
 from . import solve, surface_spectra
@@ -91,7 +91,7 @@ def compare(first: Request, second: Request) -> Comparison:
     ----------
     first, second
         With the same model, illuminant and observer; the wavelengths may differ. "auto" stands for
-        `core.limits.USUAL_MODEL`: where one is rougher, the bounces must be the same.
+        `core.models.TARGET`: where one is rougher, the bounces must be the same.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def compare(first: Request, second: Request) -> Comparison:
 
 def _settled(request: Request) -> Request:
     """Leave the scene out, which has lights of its own, and no model to choose."""
-    model = USUAL_MODEL if request.model == AUTO else request.model
+    model = TARGET if request.model == AUTO else request.model
     return replace(request, model=model, scene=None, flat=False)
 
 

@@ -31,8 +31,7 @@ _HEADER = ("between", "delta_e_00", "delta_L*", "delta_a*", "delta_b*", "delta_a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `compare`."""
-    from ....core.limits import USUAL_MODEL
-    from ....core.models import NAMES
+    from ....core.models import NAMES, TARGET
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 
     for which in ("first", "second"):
@@ -55,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="what the first and the second spectrum are",
     )
     parser.add_argument(
-        "--model", choices=NAMES, default=USUAL_MODEL, help="how light between facets is counted"
+        "--model", choices=NAMES, default=TARGET, help="how light between facets is counted"
     )
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
