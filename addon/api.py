@@ -17,10 +17,10 @@ The examples are run as tests, with the names of this module, `bpy`, `Path` and 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from math import radians
+from math import degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +34,11 @@ from ..core.errors import (
     OutputError,
     RoughSpectraError,
 )
+from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
+from .matching import roughness
 from .matching.assess import Differences
 from .matching.request import AUTO, Request
 from .matching.solution import Solution
@@ -50,11 +52,13 @@ from .readings.document import Reading, Readings
 from .samples import library, readers
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
+from .samples.stated_sigma import Names, StatedSigma
 
 __all__ = [
     "CancelledError",
     "Differences",
     "DomainError",
+    "Estimate",
     "InputError",
     "MaterialError",
     "OutputError",
@@ -69,6 +73,7 @@ __all__ = [
     "assign",
     "bake",
     "differences",
+    "estimate",
     "find",
     "keep",
     "materials",
@@ -81,6 +86,9 @@ __all__ = [
     "state",
     "write",
 ]
+
+
+_SIGMA = Names("sigma")
 
 
 def read(
@@ -99,7 +107,7 @@ def read(
     Returns
     -------
     At least one sample. A `Sample` has, among others, `name`; `wavelengths` in nanometers and
-    `values` as fractions, both of shape (bands,); and `kind`, "reading" or "albedo".
+    `values` as fractions, both of shape (bands,); and `kind`, "reading", "albedo" or "emissivity".
 
     Raises
     ------
@@ -160,6 +168,53 @@ def find(name: str) -> Sample:
     return library.load(name, preferences.user_folder())
 
 
+def estimate(
+    materials: Iterable[tuple[Sample | Sequence[Sample] | None, Sample | Sequence[Sample]]],
+    *,
+    model: str | None = None,
+    repeatability: float = RELATIVE,
+) -> Estimate:
+    r"""Estimate the roughness σ that rough surfaces share, from what was read of them.
+
+    Parameters
+    ----------
+    materials
+        Of each material what was read of a smooth surface (or its albedo, or None), and what was
+        read of the rough one. A list holds readings of several instruments or angles.
+    model
+        One of `core.models.NAMES` that knows roughness; None takes the usual one.
+    repeatability
+        Standard deviation of repeated readings, as a share of the reading.
+
+    Returns
+    -------
+    Its `is_told` says whether the readings tell σ, and `reason` why they don't, or what limits it.
+    `sigma` is in radians, NaN where it can't be told; `interval` is what noise leaves open, 95 %;
+    `by_model` is σ by each model, and `spread` its range; `albedo`, `residuals` and `notes`.
+
+    Raises
+    ------
+    DomainError
+        The samples cannot be used together, or the model does not know roughness.
+
+    Examples
+    --------
+    >>> columns = [(400, 0.61, 0.53), (500, 0.50, 0.42), (600, 0.32, 0.26), (700, 0.43, 0.35)]
+    >>> rows = "".join(f"{nm},{smooth},{rough}\n" for nm, smooth, rough in columns)
+    >>> _ = Path("card.csv").write_text("nm,Card,Sanded\n" + rows)
+    >>> card, sanded = read("card.csv")
+    >>> found = estimate([(card, sanded)])
+    >>> found.is_told, radians(20) < found.sigma < radians(35)
+    (True, True)
+    >>> estimate([(None, sanded)]).reason.partition(":")[0]
+    "σ can't be told from one reading"
+    """
+    given = [(smooth, rough) for smooth, rough in materials]
+    if model is None:
+        return roughness.of_samples(given, relative=repeatability)
+    return roughness.of_samples(given, model, repeatability)
+
+
 def request(
     sample: Sample,
     sigma: float | None = None,
@@ -169,6 +224,8 @@ def request(
     illuminant: str = "D65",
     observer: int = 2,
     tolerance: float = TOLERANCE,
+    rdq: float | None = None,
+    sdq: float | None = None,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -177,7 +234,7 @@ def request(
     sample
         What `read` or `find` gave, or a `Sample` of your own.
     sigma
-        Roughness σ, **radians**, 0 to π/2. None takes what the sample says, or else 0.
+        Roughness σ, **radians**, 0 to π/3. None takes what the sample says, or else 0.
     kind
         "reading" for the reflectance factor that an instrument printed of the rough surface,
         "albedo" for the reflectance of one facet. None takes what the sample says.
@@ -190,27 +247,39 @@ def request(
         Of reports, 2 or 10 (degrees).
     tolerance
         Largest ΔE00 from the reference that "auto" accepts for a simpler model, 0.05 to 20.
+    rdq, sdq
+        Instead of σ, the rms slope of a profile or of an area as a profilometer prints it, rise
+        over run: σ = atan(Rdq) = atan(Sdq/√2). It is kept with the material as the source of σ.
 
     Raises
     ------
     DomainError
-        A setting is none of these.
+        A setting is none of these; or σ, Rdq and Sdq contradict each other.
     InputError
         The kind is neither.
 
     Examples
     --------
+    >>> request(find("brick"), rdq=0.35).sample.sigma_source
+    'Rdq 0.35 (19.3°)'
     >>> wanted = request(find("green"), sigma=radians(20), illuminant="D50")
     >>> wanted.model, wanted.illuminant, round(wanted.sigma, 3)
     ('auto', 'D50', 0.349)
     >>> request(find("green"), sigma=20)
     Traceback (most recent call last):
-    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/2, as math.radians(30) is.
+    rough_spectra.core.errors.DomainError: σ is 20 radians; give 0 to π/3, as math.radians(30) is.
     """
+    if rdq is not None or sdq is not None:
+        stated = StatedSigma(None if sigma is None else degrees(sigma), rdq, sdq)
+        _, fault = stated.fault(_SIGMA)
+        if fault:
+            raise DomainError(f"Sample {sample.name!r}: {fault}.")
+        source = stated.source("")
+        sample = replace(sample, sigma_degrees=stated.settled, sigma_source=source)
     if sigma is None:
         sigma = radians(sample.sigma_degrees or 0.0)
     if kind is not None:
-        sample = replace(sample, kind=kind)
+        sample = sample.taken_as(kind)
     return Request(
         sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
     )

@@ -13,9 +13,11 @@ from ...core import limits
 from ...core.errors import InputError
 from ..samples import presets, readers
 from ..samples.sample import Sample
+from ..samples.stated_sigma import Names, StatedSigma
 from . import catalogs
 
 CHOSEN = "Chosen for the asset library, not measured."
+_NAMES = Names("σ", "Rdq", "Sdq")
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,7 @@ def of_file(path: Path) -> list[Chosen]:
 
 
 def assets(
-    chosen: Iterable[Chosen], sigma_degrees: Sequence[float], longest_name: int
+    chosen: Iterable[Chosen], sigmas: Sequence[float | StatedSigma], longest_name: int
 ) -> list[Asset]:
     """Cross samples with roughnesses.
 
@@ -125,8 +127,9 @@ def assets(
     ----------
     chosen
         The samples.
-    sigma_degrees
-        Every sample gets each of them; without any, each keeps its own.
+    sigmas
+        Degrees, or as a profilometer states them. Every sample gets each; without any, each keeps
+        its own.
     longest_name
         Bytes that the name of a material may have.
 
@@ -135,16 +138,20 @@ def assets(
     InputError
         Nothing was chosen, σ is out of range, or a sample without σ has to keep its own.
     """
-    for degrees in sigma_degrees:
-        if msg := limits.sigma_fault(degrees):
+    stated = {}
+    for given in sigmas:
+        sigma = given if isinstance(given, StatedSigma) else StatedSigma(float(given))
+        if msg := _fault(sigma):
             raise InputError(msg)
+        stated.setdefault(sigma.settled, sigma)
     made: list[Asset] = []
     taken: set[str] = set()
     for item in chosen:
-        for degrees in dict.fromkeys(sigma_degrees) or [_own_sigma(item.sample)]:
-            sample = item.sample
-            if degrees != sample.sigma_degrees:
-                sample = replace(sample, sigma_degrees=float(degrees), sigma_source=CHOSEN)
+        for sigma in stated.values() or [StatedSigma(_own_sigma(item.sample))]:
+            sample, degrees = item.sample, sigma.settled or 0.0
+            if degrees != sample.sigma_degrees or sigma.slope:
+                about = sigma.source("given for the asset library.") if sigma.slope else CHOSEN
+                sample = replace(sample, sigma_degrees=degrees, sigma_source=about)
             name = _name(sample.name, f" σ {degrees:g}°", taken, longest_name)
             taken.add(name)
             made.append(Asset(name, sample, radians(degrees), item.catalog))
@@ -158,7 +165,15 @@ def _own_sigma(sample: Sample) -> float:
     if sample.sigma_degrees is None:
         msg = f"{sample.source or 'Sample'}, {sample.name!r}: it has no σ of its own; say which."
         raise InputError(msg)
+    if fault := limits.sigma_fault(sample.sigma_degrees):
+        raise InputError(f"{sample.source or 'Sample'}, {sample.name!r}: {fault}")
     return sample.sigma_degrees
+
+
+def _fault(sigma: StatedSigma) -> str:
+    """Say what is wrong with a σ that is to be given; empty if nothing."""
+    _, fault = sigma.fault(_NAMES)
+    return f"{fault}." if fault else limits.sigma_fault(sigma.settled or 0.0)
 
 
 def _name(sample: str, ending: str, taken: set[str], longest: int) -> str:

@@ -9,6 +9,7 @@ import csv
 import json
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -20,19 +21,22 @@ from ...core.errors import InputError, MaterialError
 from .. import api
 from ..material import preferences, selection
 from ..samples import library, readers
-from ..samples.sample import KINDS, Kind, Sample
+from ..samples.sample import COLORED, Kind, Sample
+from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
 
-_FIELDS = ("material", "sample", "file", "sigma_deg", "kind")
+_SIGMA = Names("sigma_deg")
+_OPTIONS = Names("--sigma", "--rdq", "--sdq")
+_FIELDS = ("material", "sample", "file", *_SIGMA, "kind")
 
 
 @dataclass(frozen=True)
 class Row:
-    """One assignment as asked for; `sigma_degrees` is None where nothing says it."""
+    """One assignment as asked for, and the file and row that say so, if any do."""
 
     material: str
     sample: Sample
-    sigma_degrees: float | None
+    where: str = ""
 
 
 def rows(options: argparse.Namespace) -> list[Row]:
@@ -53,7 +57,7 @@ def rows(options: argparse.Namespace) -> list[Row]:
         if not options.material:
             msg = f"Name the materials that get {sample.name!r}, with --material NAME."
             raise InputError(msg)
-        return [Row(name, sample, sample.sigma_degrees) for name in options.material]
+        return [Row(name, sample) for name in options.material]
     return _by_name(options)
 
 
@@ -67,7 +71,7 @@ def _by_name(options: argparse.Namespace) -> list[Row]:
         raise InputError(msg)
     known = {material.name for material in bpy.data.materials}
     wanted = set(options.material or (names if options.create else known))
-    chosen = [Row(s.name, s, s.sigma_degrees) for s in samples if s.name in wanted]
+    chosen = [Row(s.name, s) for s in samples if s.name in wanted]
     if not chosen:
         msg = f"No material is named like a sample ({shown}); rename, or use --mapping."
         raise InputError(msg)
@@ -82,10 +86,12 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.
     InputError, MaterialError
         If σ is out of range or a material is missing; none was made then.
     """
-    requests = []
-    for row in chosen:
-        degrees = row.sigma_degrees if options.sigma is None else options.sigma
-        requests.append(_request(row, 0.0 if degrees is None else degrees, options))
+    sigma = StatedSigma(options.sigma, options.rdq, options.sdq)
+    name, fault = sigma.fault(_OPTIONS)
+    if fault:
+        msg = f"The option {name}: {fault}."
+        raise InputError(msg)
+    requests = [_request(row, sigma, options) for row in chosen]
     known = selection.every()
     missing = [row.material for row in chosen if row.material not in known]
     if missing and not options.create:
@@ -109,6 +115,31 @@ def read_mapping(path: Path) -> list[Row]:
     InputError
         Naming file, row and remedy.
     """
+    found = records(path, _FIELDS)
+    if not found:
+        msg = f"{path} has no rows; give one a material."
+        raise InputError(msg)
+    samples = Samples(path)
+    return [_row(path, place, record, samples) for place, record in found]
+
+
+def records(
+    path: Path, fields: Sequence[str], needed: Sequence[str] = ("material", "sample")
+) -> list[tuple[str, dict[str, Any]]]:
+    """Read the rows of a table, CSV or JSON, each with its place in the file.
+
+    Parameters
+    ----------
+    path
+        The table.
+    fields, needed
+        Columns that there may be, and that there must be.
+
+    Raises
+    ------
+    InputError
+        If it is no such table, or a column is missing.
+    """
     data = user_files.read(path)
     try:
         text = data.decode("utf-8-sig")
@@ -116,16 +147,29 @@ def read_mapping(path: Path) -> list[Row]:
         msg = f"{path} cannot be read ({error}); give a CSV or JSON file in UTF-8."
         raise InputError(msg) from error
     is_json = text.lstrip()[:1] in ("[", "{")
-    records = _json_records(path, text) if is_json else _csv_records(path, text)
-    if not records:
-        msg = f"{path} has no rows; give one a material."
+    if is_json:
+        return _json_records(path, text, fields)
+    return _csv_records(path, text, fields, needed)
+
+
+def check_columns(where: str, record: dict[str, Any], fields: Sequence[str]) -> dict[str, str]:
+    """Give the cells of a row as texts, empty where there is nothing.
+
+    Raises
+    ------
+    InputError
+        If the row has a column that is none of `fields`.
+    """
+    unknown = [key for key in record if key not in fields]
+    if unknown:
+        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(fields)}."
         raise InputError(msg)
-    samples = _Samples(path)
-    return [_row(path, place, record, samples) for place, record in records]
+    given = {key: record.get(key) for key in fields}
+    return {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
 
 
-class _Samples:
-    """The samples that a mapping file names, each looked up once."""
+class Samples:
+    """The samples that a table names, each looked up once."""
 
     def __init__(self, mapping: Path) -> None:
         self._folder = mapping.parent
@@ -134,6 +178,7 @@ class _Samples:
         self._named: dict[str, Sample] = {}
 
     def find(self, where: str, name: str, file: str) -> Sample:
+        """Give the sample of a file beside the table, or of library and presets."""
         if not file:
             return self._of_library(where, name)
         source = self._folder / file
@@ -157,19 +202,21 @@ class _Samples:
         return self._named[name]
 
 
-def _json_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+def _json_records(path: Path, text: str, fields: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
         msg = f"{path} is not valid JSON ({error}); correct it."
         raise InputError(msg) from error
     if not isinstance(data, list) or not all(isinstance(record, dict) for record in data):
-        msg = f"{path} must be a list of objects with the keys {', '.join(_FIELDS)}."
+        msg = f"{path} must be a list of objects with the keys {', '.join(fields)}."
         raise InputError(msg)
     return [(f"entry {number}", record) for number, record in enumerate(data, 1)]
 
 
-def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
+def _csv_records(
+    path: Path, text: str, fields: Sequence[str], needed: Sequence[str]
+) -> list[tuple[str, dict[str, Any]]]:
     # Not `splitlines`, which would break names at U+0085 and the like.
     lines = [line for line in re.split("\r\n|[\r\n]", text) if not line.startswith("#")]
     header = lines[0] if lines else ""
@@ -180,10 +227,10 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     except csv.Error as error:
         msg = f"{path}: a quotation mark is not closed ({error}); close or remove it."
         raise InputError(msg) from error
-    if "material" not in names or "sample" not in names:
+    if not set(needed) <= set(names):
         msg = (
             f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
-            f"{', '.join(_FIELDS)}, of which material and sample are needed."
+            f"{', '.join(fields)}, of which {' and '.join(needed)} are needed."
         )
         raise InputError(msg)
     records = []
@@ -198,40 +245,56 @@ def _csv_records(path: Path, text: str) -> list[tuple[str, dict[str, Any]]]:
     return records
 
 
-def _row(path: Path, place: str, record: dict[str, Any], samples: _Samples) -> Row:
+def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Row:
     where = f"{path}, {place}"
-    unknown = [key for key in record if key not in _FIELDS]
-    if unknown:
-        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(_FIELDS)}."
-        raise InputError(msg)
-    given = {key: record.get(key) for key in _FIELDS}
-    cells = {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
+    cells = check_columns(where, record, _FIELDS)
     if not cells["material"] or not cells["sample"]:
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
     sample = samples.find(where, cells["sample"], cells["file"])
-    if cells["kind"] and cells["kind"] not in KINDS:
+    if cells["kind"] and cells["kind"] not in COLORED:
         msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
         raise InputError(msg)
     if cells["kind"]:
-        sample = replace(sample, kind=cast(Kind, cells["kind"]))
-    sigma = sample.sigma_degrees
-    if cells["sigma_deg"]:
-        try:
-            sigma = float(cells["sigma_deg"])
-        except ValueError as error:
-            msg = f"{where}: sigma_deg is {cells['sigma_deg']!r}; give degrees as a number."
-            raise InputError(msg) from error
-    return Row(cells["material"], sample, sigma)
+        sample = sample.taken_as(cast(Kind, cells["kind"]))
+    sigma = StatedSigma(*(_number(where, name, cells[name]) for name in _SIGMA))
+    _, fault = sigma.fault(_SIGMA)
+    if fault:
+        raise InputError(f"{where}: {fault}.")
+    sample = _with_sigma(sample, sigma, f"Stated in {path.name}, {place}.")
+    return Row(cells["material"], sample, where)
 
 
-def _request(row: Row, degrees: float, options: argparse.Namespace) -> api.Request:
-    if fault := limits.sigma_fault(degrees):
-        msg = f"Material {row.material!r}: {fault}"
-        raise InputError(msg)
+def _number(where: str, name: str, cell: str) -> float | None:
+    if not cell:
+        return None
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        what = "degrees as a number" if name == _SIGMA.degrees else "a slope as a number"
+        raise InputError(f"{where}: {name} is {cell!r}; give {what}.")
+    return number
+
+
+def _with_sigma(sample: Sample, sigma: StatedSigma, about: str) -> Sample:
+    """Give a sample with the σ that was stated for it, and where that comes from."""
+    degrees = sigma.settled
+    if degrees is None or (degrees == sample.sigma_degrees and not sigma.slope):
+        return sample
+    return replace(sample, sigma_degrees=degrees, sigma_source=sigma.source(about))
+
+
+def _request(row: Row, sigma: StatedSigma, options: argparse.Namespace) -> api.Request:
+    where, degrees = row.where or f"Material {row.material!r}", row.sample.sigma_degrees
+    if sigma.settled is not None:  # the option counts, whatever the row says
+        where, degrees = f"Material {row.material!r}", sigma.settled
+    if fault := limits.sigma_fault(degrees or 0.0):
+        raise InputError(f"{where}: {fault}")
     return api.request(
-        row.sample,
-        math.radians(degrees),
+        _with_sigma(row.sample, sigma, "Stated as an option."),
+        math.radians(degrees or 0.0),
         kind=options.kind,
         model=options.model,
         illuminant=options.illuminant,

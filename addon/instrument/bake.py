@@ -22,7 +22,7 @@ from ...core.errors import RoughSpectraError
 from ...core.numerics.arrays import Array
 from ..blender import shader_nodes, working_space
 from ..colorimetry import rgb_space, tristimulus
-from ..matching import scene_match, solution, solve
+from ..matching import scene_match, solution, solve, surface_spectra
 from ..matching.scene_view import SceneView
 from ..material import (
     derivation,
@@ -250,6 +250,7 @@ def _predicted(
     values = solve.target_reading(request)
     weights = tristimulus.weights(sample.wavelengths, request.illuminant, request.observer)
     xyz = values @ weights
+    lowest, highest = _albedos(request)
     return Predicted(
         kind=sample.kind,
         model=request.model,
@@ -262,7 +263,20 @@ def _predicted(
         xyz=_triple(100 * xyz, 4),
         lab=_triple(color_difference.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
         preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
+        albedo_lowest=lowest,
+        albedo_highest=highest,
     )
+
+
+def _albedos(request: solve.Request) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Lowest and highest albedo of each band, as `Predicted` has them."""
+    sample = request.sample
+    known = (sample.reflectance, sample.reflectance) if sample.kind == "albedo" else None
+    found = known or surface_spectra.open_albedos(request)
+    if found is None:
+        return (), ()
+    lowest, highest = (tuple(round(v, 6) for v in side.tolist()) for side in found)
+    return lowest, highest
 
 
 def _measured(

@@ -199,31 +199,39 @@ def build(materials: list[Any]) -> tuple[Any, Any]:
     sun = bpy.data.lights.new("Light", "SUN")
     sun.angle = 0.0
     scene.collection.objects.link(bpy.data.objects.new("Light", sun))
-    settings = scene.render
-    settings.engine = "CYCLES"
+    settings = plain(scene)
     settings.resolution_x = settings.resolution_y = 2 * FIRST_PIXEL
-    settings.resolution_percentage = 100
     settings.use_border = settings.use_crop_to_border = True
     settings.border_min_x = settings.border_min_y = 0.5
     columns, rows = min(len(materials), COLUMNS), math.ceil(len(materials) / COLUMNS)
     settings.border_max_x = 0.5 + columns * PIXELS / (2 * FIRST_PIXEL)
     settings.border_max_y = 0.5 + rows * PIXELS / (2 * FIRST_PIXEL)
-    settings.use_persistent_data = True  # only sun and camera move
+    cycles = scene.cycles
+    cycles.samples = 1  # the first ray meets a pixel's middle, to 1/2048
+    # Pixels usually get random numbers of their own; at a distance of 0 all get the same ones.
+    cycles.auto_scrambling_distance, cycles.scrambling_distance = False, 0.0
+    cycles.max_bounces = 0
+    return scene, stretch
+
+
+def plain(scene: Any) -> Any:
+    """Let Cycles render what is there and nothing besides; gives the scene's render settings."""
+    settings = scene.render
+    settings.engine = "CYCLES"
+    settings.resolution_percentage = 100
+    settings.use_persistent_data = True  # only lights and camera move
     settings.use_compositing = settings.use_sequencer = False
     settings.film_transparent = False
     settings.image_settings.file_format = "OPEN_EXR"
     settings.image_settings.color_mode = "RGBA"
     settings.image_settings.color_depth = "32"
     cycles = scene.cycles
-    cycles.device, cycles.samples = "CPU", 1  # the first ray meets a pixel's middle, to 1/2048
+    cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
-    # Pixels usually get random numbers of their own; at a distance of 0 all get the same ones.
     cycles.sampling_pattern = "TABULATED_SOBOL"
-    cycles.auto_scrambling_distance, cycles.scrambling_distance = False, 0.0
-    cycles.max_bounces = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    return scene, stretch
+    return settings
 
 
 def square() -> Any:

@@ -30,7 +30,8 @@ class Request:
     sample
         The measured spectrum.
     sigma
-        Roughness σ, radians.
+        Roughness σ, radians, up to `limits.MATCHED_SIGMA`: tan σ is Rdq, the rms slope of a
+        profile; see `core.roughness`.
     model
         One of `core.models.NAMES`, or `AUTO`.
     illuminant
@@ -49,7 +50,8 @@ class Request:
     Raises
     ------
     DomainError
-        If a setting is none that a material could store, as a driver or a script may leave it.
+        If a setting is none that a material could store, as a driver or a script may leave it, or
+        the sample has no color.
     """
 
     sample: Sample
@@ -63,12 +65,25 @@ class Request:
 
     def __post_init__(self) -> None:
         """Refuse what would spread through every color, or stop the writing of many materials."""
+        if not self.sample.has_color:
+            nm = self.sample.wavelengths
+            holds = (
+                "emissivity" if self.sample.kind == "emissivity" else "nothing that the eye sees"
+            )
+            msg = (
+                f"{self.sample.source or 'Sample'}, {self.sample.name!r}: it holds {holds}, "
+                f"{nm[0]:g} to {nm[-1]:g} nm, so it has no color for a material; take a visible "
+                "reading or albedo, and this one for 'emissivity'."
+            )
+            raise DomainError(msg)
         for label, value in (("σ", self.sigma), ("The tolerance", self.tolerance)):
             if not math.isfinite(value):
                 msg = f"{label} is not a number; set it again, or mend its driver."
                 raise DomainError(msg)
-        if not 0 <= self.sigma <= limits.LARGEST_SIGMA:
-            msg = f"σ is {self.sigma:g} radians; give 0 to π/2, as math.radians(30) is."
+        if not 0 <= self.sigma <= limits.MATCHED_SIGMA:
+            msg = f"σ is {self.sigma:g} radians; give 0 to π/3, as math.radians(30) is."
+            if limits.MATCHED_SIGMA < self.sigma <= limits.LARGEST_SIGMA:
+                msg = limits.sigma_fault(math.degrees(self.sigma))
             raise DomainError(msg)
         lowest, highest = limits.TOLERANCES
         if not lowest <= self.tolerance <= highest:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from ...core import instruments, models, reading
+from ...core import feasible, instruments, models, reading
 from ...core.errors import DomainError
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
@@ -55,8 +55,7 @@ def sigma_max(request: Request) -> float | None:
     sample, model = request.sample, request.model
     if sample.kind == "albedo" or model == "lambert":
         return None
-    # The reference takes seconds at first, and the closure is within 1 % of it for white facets.
-    degrees, white = _white("closure" if model == "reference" else model, sample.instrument)
+    degrees, white = _white(_quick(model), sample.instrument)
     peak = float(sample.reflectance.max())
     too_dark = np.flatnonzero(white < peak)
     if not too_dark.size:
@@ -67,6 +66,33 @@ def sigma_max(request: Request) -> float | None:
     above, below = white[first - 1], white[first]
     share = (above - peak) / (above - below)
     return float(degrees[first - 1] + share * (degrees[first] - degrees[first - 1]))
+
+
+def open_albedos(request: Request) -> tuple[Array, Array] | None:
+    """Lowest and highest albedo, each (bands,), that may be behind a reading while σ is unknown.
+
+    None of an albedo, which is known, and of what reads more than white facets at every σ.
+    """
+    sample = request.sample
+    if sample.kind == "albedo":
+        return None
+    return _open_albedos(sample, _quick(request.model))
+
+
+@memoized(maxsize=32)
+def _open_albedos(sample: Sample, model: str) -> tuple[Array, Array] | None:
+    """Search once: while σ is dragged, the pictures show the same at every step."""
+    found = feasible.albedo_range(sample.reflectance, model, sample.instrument)
+    if np.isnan(found.sigma_max):
+        return None
+    for values in (found.lowest, found.highest):
+        values.setflags(write=False)
+    return found.lowest, found.highest
+
+
+def _quick(model: str) -> str:
+    """Give the closure for the reference: that takes seconds at first, and they differ by 1 %."""
+    return "closure" if model == "reference" else model
 
 
 def _as_printed(request: Request) -> bool:

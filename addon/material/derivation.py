@@ -14,9 +14,14 @@ from ...core.numerics.memoized import enlist, memoized
 from . import snapshot
 from .snapshot import Inputs
 
-DERIVATION = 1
-"""Raise when the same spectrum and settings come to give another color, beyond rounding; materials
-derived before are then stale."""
+WHAT_CHANGED = {
+    2: "σ is the angle of a profilometer's Rdq now, and the surface one of random heights",
+}
+"""Add a line when the same spectrum and settings come to give another color, beyond rounding:
+materials derived before are then stale for that reason, and are renewed with one click."""
+
+DERIVATION = max(WHAT_CHANGED)
+"""Version of the way from spectrum and settings to the color."""
 
 _KEPT = 2048
 """Stamps whose texts need no reading; one has about 2 kB."""

@@ -81,12 +81,13 @@ OBSERVER_ITEMS = (
 
 SIGMA = {
     "name": "σ",
-    "description": "Roughness: standard deviation of the slope angle of the surface's facets",
+    "description": "Roughness: the angle whose tangent is the rms slope of a profile across the "
+    "surface, a profilometer's Rdq. Sdq, of an area, is √2 larger",
     "subtype": "ANGLE",
     "precision": 1,
     "step": 100,
     "min": 0.0,
-    "max": limits.LARGEST_SIGMA,
+    "max": limits.MATCHED_SIGMA,
 }
 """The slider of σ, wherever it stands."""
 

@@ -136,7 +136,12 @@ def sigma_degrees(group: Any) -> float:
     The property is single precision: 15° comes back as 15.0000004°. Five decimals of a degree are
     what it can hold, and restore what was entered.
     """
-    return round(math.degrees(group.sigma), 5)
+    return entered_degrees(group.sigma)
+
+
+def entered_degrees(angle: float) -> float:
+    """Degrees as the user entered them, from the radians of a property of Blender's."""
+    return round(math.degrees(angle), 5)
 
 
 def tolerance(group: Any) -> float:

@@ -12,11 +12,13 @@ import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from ...core.limits import MATCHED_SIGMA_DEGREES
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from . import snapshot
 from .derivation import (
     DERIVATION,
+    WHAT_CHANGED,
     Stamp,
     parse,
     settings,
@@ -124,6 +126,20 @@ def fingerprint(surface: shader_nodes.Surface | None) -> str:
     return repr((surface.node, values, linked, list(surface.disturbing)))
 
 
+def beyond(sigma_degrees: float) -> str:
+    """Say what to do about a σ that materials are no longer matched at; empty where they are.
+
+    Files of earlier versions have one, and it stays as it is.
+    """
+    if sigma_degrees <= MATCHED_SIGMA_DEGREES:
+        return ""
+    most = f"{MATCHED_SIGMA_DEGREES:g}°"
+    return (
+        f"σ is {_degrees(sigma_degrees)}, and materials are matched up to {most} only; set σ to "
+        f"{most} or less, or keep what the node shows"
+    )
+
+
 _NONE = State("none")
 
 
@@ -131,7 +147,9 @@ def _stale_reasons(found: Snapshot) -> list[str]:
     stamp = parse(found.stamp)
     if stamp is None:
         return ["nothing was derived from the spectrum yet"]
-    return [*_changed_inputs(found.inputs, stamp), *_changed_surface(found, stamp)]
+    changed = [*_changed_inputs(found.inputs, stamp), *_changed_surface(found, stamp)]
+    too_large = "" if stamp.kept else beyond(found.inputs.sigma_degrees)
+    return [too_large, *changed] if too_large else changed
 
 
 def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
@@ -158,8 +176,12 @@ def _told(label: str, *values: str) -> list[str]:
         return [title(label, value) for value in values]
     if not all(re.fullmatch(r"-?\d+(\.\d+)?°", value) for value in values):
         return list(values)  # no number of degrees, in a damaged stamp
-    rounded = [f"{float(value.rstrip('°')):.2f}".rstrip("0").rstrip(".") + "°" for value in values]
+    rounded = [_degrees(float(value.rstrip("°"))) for value in values]
     return rounded if len(set(rounded)) == len(values) else list(values)
+
+
+def _degrees(value: float) -> str:
+    return f"{value:.2f}".rstrip("0").rstrip(".") + "°"
 
 
 def _changed_surface(found: Snapshot, stamp: Stamp) -> list[str]:
@@ -171,9 +193,12 @@ def _changed_surface(found: Snapshot, stamp: Stamp) -> list[str]:
     reasons = []
     if stamp.working_space != working_space:
         reasons.append(f"the working space changed from {stamp.working_space} to {working_space}")
-    if stamp.derivation != DERIVATION:
-        when = "a newer" if stamp.derivation > DERIVATION else "an older"
-        reasons.append(f"it was derived by {when} Rough Spectra {stamp.version}".rstrip())
+    if stamp.derivation > DERIVATION:
+        reasons.append(f"it was derived by a newer Rough Spectra {stamp.version}".rstrip())
+    elif stamp.derivation < DERIVATION:
+        since = f"since Rough Spectra {stamp.version}".rstrip()
+        what = [WHAT_CHANGED[each] for each in WHAT_CHANGED if each > stamp.derivation]
+        reasons.append(f"the model has changed {since} derived it: {'; '.join(what)}")
     if surface is None or surface.node != stamp.node:
         reasons.append(f"the surface no longer comes from {stamp.node!r}")
     elif linked := surface.linked:

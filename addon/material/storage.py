@@ -24,7 +24,7 @@ from ..matching.solution import Solution
 from ..matching.solve import Request
 from ..samples.sample import Sample
 from ..support.version import version
-from . import changes, snapshot
+from . import changes, snapshot, state
 from .derivation import DERIVATION, Stamp, get_stamp, settings, to_text
 from .properties import SCHEMA
 from .snapshot import (
@@ -35,7 +35,6 @@ from .snapshot import (
     sigma,
     tolerance,
 )
-from .state import fingerprint
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
@@ -234,6 +233,9 @@ def _refuse_damaged(material: Any) -> None:
         else:
             continue
         raise MaterialError(f"Material {material.name!r}: {msg}")
+    beyond = state.beyond(snapshot.sigma_degrees(group))
+    if beyond:
+        raise MaterialError(f"Material {material.name!r}: {beyond}.")
 
 
 def set_stamp(
@@ -291,7 +293,7 @@ def keep(material: Any) -> None:
             inputs=snapshot.digest(inputs),
             settings=tuple(settings(inputs).items()),
             working_space=working_space.working_space_name(),
-            kept=fingerprint(shader_nodes.surface(material)),
+            kept=state.fingerprint(shader_nodes.surface(material)),
         )
     )
     group.error = ""

@@ -27,7 +27,9 @@ class Predicted:
     """Reading that the core computes from the stored spectrum.
 
     Wavelengths are nanometers, values reflectance factors (1 is the perfect white diffuser), and
-    XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`.
+    XYZ has Y = 100 for it. `lab` is for `illuminant` and `observer`. The sample's own reading
+    leaves albedos open from `albedo_lowest` to `albedo_highest`, one a band, while σ is unknown;
+    both are the albedo where that was measured, and empty where no roughness fits the reading.
     """
 
     kind: str
@@ -41,6 +43,8 @@ class Predicted:
     xyz: Triple
     lab: Triple
     preview: Triple
+    albedo_lowest: tuple[float, ...] = ()
+    albedo_highest: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -211,6 +215,7 @@ def from_json(path: Path) -> Readings:
         raise InputError(msg) from error
 
 
+_ALBEDOS = ("albedo_lowest", "albedo_highest")
 _TRIPLES = {"rgb", "spread", "xyz", "lab", "preview"}
 
 
@@ -223,6 +228,10 @@ def _entry(data: dict[str, Any]) -> Reading:
             raise ValueError("a color has three numbers")
         if kind is Predicted and len(numbers["wavelengths"]) != len(numbers["values"]):
             raise ValueError("there is not one value a wavelength")
+        if kind is Predicted and any(
+            len(numbers.get(key, ())) not in (0, len(numbers["values"])) for key in _ALBEDOS
+        ):
+            raise ValueError("there is not one albedo a wavelength")
         return kind(**(part | numbers))
 
     known = dict(data)

@@ -38,7 +38,11 @@ def validate(path: Path) -> Verdict:
         fields = preset.fields_of(document)
     except InputError as error:
         return Verdict((str(error),), ())
-    found = [*preset_fields.faults(fields), *preset_fields.unknown(fields)]
+    found = [
+        *preset_fields.faults(fields),
+        *preset_fields.beyond(fields),
+        *preset_fields.unknown(fields),
+    ]
     faults = [str(document.error(f"field '{field}'", sentence)) for field, sentence in found]
     # A spectrum with faults of its own is looked at even where another field is wrong as well.
     if any(field in ("wavelengths", "values") for field, _ in found):
@@ -49,7 +53,8 @@ def validate(path: Path) -> Verdict:
     except InputError as error:
         return Verdict((*faults, str(error)), ())
     first, last = sample.wavelengths[0], sample.wavelengths[-1]
-    if first > COLOR_NM[0] or last < COLOR_NM[1]:
+    # What has no color serves for emissivity, and a remark says so.
+    if sample.has_color and (first > COLOR_NM[0] or last < COLOR_NM[1]):
         sentence = (
             f"it covers {first:g} to {last:g} nm, but a color needs {COLOR_NM[0]:g} to "
             f"{COLOR_NM[1]:g} nm; measure the whole range"

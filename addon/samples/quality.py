@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from ...core.color import color_difference
 from ...core.errors import DomainError
-from ...core.limits import COLOR_NM, EYE_NM
+from ...core.limits import COLOR_NM, EYE_NM, sigma_fault
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
@@ -35,6 +35,9 @@ WIDEST_STEP = 20.0
 
 GAP = 2.5
 """A step this many times the median one is a hole in the table, not its grid."""
+
+NO_COLOR = "it has no color, and no material can be made from it; it serves for emissivity."
+"""How a sentence on a sample ends that the eye sees nothing of."""
 
 _HARMLESS_STEP = 5.0  # nm; ASTM E308 calls its 5 nm weights equal to the 1 nm sum
 _END_TOLERANCE = 1.0  # nm; spectrometers begin at 400.2
@@ -59,6 +62,10 @@ def check(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     found = [list(sentences) for sentences in check_each(samples)]
     for i, sentence in _ultraviolet_effect(samples):
         found[i].append(sentence)
+    for i, sample in enumerate(samples):
+        fault = "" if sample.sigma_degrees is None else sigma_fault(sample.sigma_degrees)
+        if fault:
+            found[i].append(f"{sample.name!r} states a roughness that no material has: {fault}")
     return [tuple(sentences) for sentences in found]
 
 
@@ -100,13 +107,18 @@ def _judge_grid(samples: Sequence[Sample]) -> _Found:
     """Judge samples that share their wavelengths."""
     nm = samples[0].wavelengths
     values = np.stack([sample.values for sample in samples])
-    is_albedo = np.array([sample.kind == "albedo" for sample in samples])
-    yield from _contradiction(samples, values)
-    yield from _beyond_white(nm, values, is_albedo)
-    yield from _noise(nm, values)
-    yield from _saturation(nm, values)
-    for sentence in (*_steps(nm), *_range(nm)):
-        yield from ((i, sentence) for i in range(len(samples)))
+    kinds = np.array([sample.kind for sample in samples])
+    reflects = np.flatnonzero(kinds != "emissivity")
+    for i, sentence in (
+        *_contradiction([samples[k] for k in reflects], values[reflects]),
+        *_beyond_white(nm, values[reflects], kinds[reflects] == "albedo"),
+        *_noise(nm, values[reflects]),
+        *_saturation(nm, values[reflects]),
+        *((i, sentence) for sentence in (*_steps(nm), *_range(nm)) for i in range(reflects.size)),
+    ):
+        yield int(reflects[i]), sentence
+    for i in np.flatnonzero(kinds == "emissivity"):
+        yield from ((int(i), sentence) for sentence in _emissivity(nm, values[i]))
     for i, sample in enumerate(samples):
         if _CONTROL.search(sample.name):
             yield i, "has a control character in its name; give it another name in the library."
@@ -189,6 +201,21 @@ def _noise(nm: Array, values: Array) -> _Found:
         )
 
 
+def _emissivity(nm: Array, values: Array) -> Iterator[str]:
+    yield f"holds emissivity, of {nm[0]:g} to {nm[-1]:g} nm: {NO_COLOR}"
+    for outside, peak, limit in (
+        (values > 1, int(values.argmax()), "above 1"),
+        (values < 0, int(values.argmin()), "below 0"),
+    ):
+        count = int(outside.sum())
+        if count:
+            bands = "one band" if count == 1 else f"{count} bands"
+            yield (
+                f"is {limit} in {bands}, by {values[peak]:.4g} at {nm[peak]:g} nm, which is noise "
+                f"or a wrong temperature; it is kept, and counts as {limit[-1]} in computing."
+            )
+
+
 def _saturation(nm: Array, values: Array) -> _Found:
     """Find curves that are cut off: exactly level at their top, with a sharp edge beside it.
 
@@ -249,6 +276,9 @@ def _steps(nm: Array) -> Iterator[str]:
 
 def _range(nm: Array) -> Iterator[str]:
     if nm[0] <= COLOR_NM[0] + _END_TOLERANCE and nm[-1] >= COLOR_NM[1] - _END_TOLERANCE:
+        return
+    if nm[0] > EYE_NM[1] or nm[-1] < EYE_NM[0]:
+        yield f"covers {nm[0]:g} to {nm[-1]:g} nm, where the eye sees nothing: {NO_COLOR}"
         return
     held = tristimulus.held_share(nm)
     covers = (

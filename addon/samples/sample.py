@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One measured spectrum, as every reader returns it.
+"""One measured spectrum, as every reader returns it: visible or not, reflectance or emissivity.
 
 A `Sample` that exists is valid: its wavelengths increase, its values are finite and could be
 reflectance. Whatever breaks that is refused here in one sentence that names the file, the place and
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Literal, get_args
 
@@ -23,8 +23,12 @@ from ...core.errors import InputError
 from ...core.instruments import REGISTRY
 from ...core.limits import EYE_NM
 
-Kind = Literal["reading", "albedo"]
+Kind = Literal["reading", "albedo", "emissivity"]
 KINDS: tuple[str, ...] = get_args(Kind)
+KINDS_NAMED = "'reading', 'albedo' or 'emissivity'"
+
+COLORED: tuple[str, ...] = KINDS[:2]
+"""Kinds that a color is made from."""
 
 # Wavelengths below are taken for micrometers, not for nanometers: reflectance is not measured in
 # the extreme ultraviolet, and in micrometers these are the visible and the infrared.
@@ -35,7 +39,8 @@ DEEPEST_NOISE = -0.05
 """A reading below this is not noise around black. It holds where the eye sees, as do the limits
 below: outside, detectors end in noise of any size, which no color sees."""
 BRIGHTEST = 4.0
-"""A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3."""
+"""A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3. Nor
+is it an emissivity if most of a spectrum lies above."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,11 +58,12 @@ class Sample:
         visible range between `DEEPEST_NOISE` and `BRIGHTEST`; see `reflectance` for computing.
     kind
         ``"reading"`` for the reflectance factor at the instrument's geometry, ``"albedo"`` for the
-        reflectance of one facet.
+        reflectance of one facet, ``"emissivity"`` for that of the rough surface, seen from where
+        the instrument looks. The latter has no color.
     quantity
         What the file calls it, such as ``"reflectance factor"``, ``"radiance factor"`` or
         ``"directional-hemispherical reflectance"``. Never a transmittance, an absorbance or an
-        emission: readers refuse those.
+        emission of light: readers refuse those.
     instrument
         Geometry that the reading is computed with, one of `core.instruments.REGISTRY`; the nearest
         one where the file's own is not among them, and a note says so.
@@ -126,14 +132,40 @@ class Sample:
     def reflectance(self) -> NDArray[np.float64]:
         """The values to compute with, shape (bands,): noise below 0 counts as 0.
 
-        An albedo above 1 counts as 1. `quality` says so of every sample that it happens to.
+        An albedo above 1 counts as 1. Of an emissivity it is what the surface does not emit, 1 - ε,
+        from 0 to 1: by Kirchhoff's law what it reflects of light from all around. `quality` says so
+        of every sample in which something counts as something else.
         """
+        if self.kind == "emissivity":
+            return np.clip(1.0 - self.values, 0.0, 1.0)
         return np.clip(self.values, 0.0, 1.0 if self.kind == "albedo" else None)
 
+    @property
+    def has_color(self) -> bool:
+        """Whether the eye sees any of it. What has no color serves for emissivity."""
+        seen = self.wavelengths[0] <= EYE_NM[1] and self.wavelengths[-1] >= EYE_NM[0]
+        return bool(seen) and self.kind in COLORED
+
+    def taken_as(self, kind: Kind) -> Sample:
+        """Return the sample as a user says it is, whatever its file says.
+
+        Raises
+        ------
+        InputError
+            The kind is not known, or one of the two is an emissivity: its values are of another
+            quantity and not just of another surface.
+        """
+        if kind != self.kind and "emissivity" in (kind, self.kind):
+            raise InputError(
+                f"{self._where}: {self.name!r} holds {_HOLDS[self.kind]}, and cannot be taken as "
+                f"{_HOLDS.get(kind, kind)}; leave the kind as the file says."
+            )
+        return self if kind == self.kind else replace(self, kind=kind)
+
     def __post_init__(self) -> None:
-        where = ", ".join(part for part in (self.source or self.name, self.position) if part)
+        where = self._where
         if self.kind not in KINDS:
-            raise InputError(f"{where}: kind is {self.kind!r}; make it 'reading' or 'albedo'.")
+            raise InputError(f"{where}: kind is {self.kind!r}; make it {KINDS_NAMED}.")
         if self.instrument not in REGISTRY:
             raise InputError(
                 f"{where}: the instrument {self.instrument!r} is not known; make it one of: "
@@ -142,7 +174,16 @@ class Sample:
         wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
         object.__setattr__(self, "wavelengths", wavelengths)
         object.__setattr__(self, "values", values)
+        if self.kind == "emissivity" and float(np.median(values)) > BRIGHTEST:
+            raise InputError(
+                f"{where}: half of the emissivities are above {np.median(values):.4g}, and nothing "
+                "emits more than 1; if they are percent, let the file say so."
+            )
         self._check_statements(where)
+
+    @property
+    def _where(self) -> str:
+        return ", ".join(part for part in (self.source or self.name, self.position) if part)
 
     def _check_statements(self, where: str) -> None:
         """Turn numbers into Python's own and sequences into tuples, as they are read back."""
@@ -166,6 +207,8 @@ class Sample:
                 raise InputError(f"{where}: the observer is {observer:g}; make it 2 or 10.")
             object.__setattr__(self, "observer", int(observer))
 
+
+_HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivity"}
 
 _TEXTS = (
     *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),

@@ -21,12 +21,14 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
 
     Returns
     -------
-    Two arrays of shape (samples, 3); NaN where the bands do not cover the visible range.
+    Two arrays of shape (samples, 3); NaN where the bands do not cover the visible range, and of
+    emissivities.
     """
     xyz = np.full((len(samples), 3), np.nan)
     grids: dict[bytes, list[int]] = {}
     for i, sample in enumerate(samples):
-        grids.setdefault(sample.wavelengths.tobytes(), []).append(i)
+        if sample.has_color:
+            grids.setdefault(sample.wavelengths.tobytes(), []).append(i)
     white = tristimulus.white("D65", 2)
     for members in grids.values():
         try:

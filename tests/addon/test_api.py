@@ -16,6 +16,7 @@ SIGNATURES = {
     "assign": "(pairs, shader='auto')",
     "bake": "(surfaces, measure=True, progress=None)",
     "differences": "(material)",
+    "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "keep": "(material)",
     "materials": "()",
@@ -24,7 +25,7 @@ SIGNATURES = {
     "read": "(path, region=None)",
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
-    "tolerance=1.0)",
+    "tolerance=1.0, rdq=None, sdq=None)",
     "settle": "(material)",
     "state": "(material)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
@@ -39,6 +40,8 @@ FIELDS = {
     "Request": "sample sigma model illuminant observer scene flat tolerance",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
+    "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
+    "chi_square freedom notes",
     "State": "kind reasons stamp",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version",
@@ -110,8 +113,9 @@ def test_the_example_of(name, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("settings", "sentence"),
     [
-        ({"sigma": 30}, "σ is 30 radians; give 0 to π/2, as math.radians(30) is."),
-        ({"sigma": -0.1}, "σ is -0.1 radians; give 0 to π/2, as math.radians(30) is."),
+        ({"sigma": 30}, "σ is 30 radians; give 0 to π/3, as math.radians(30) is."),
+        ({"sigma": radians(75)}, "σ is 75°, and materials are matched up to 60°; give 0 to 60"),
+        ({"sigma": -0.1}, "σ is -0.1 radians; give 0 to π/3, as math.radians(30) is."),
         ({"sigma": float("nan")}, "σ is not a number; set it again, or mend its driver."),
         ({"tolerance": 0}, "The tolerance is ΔE00 0; give 0.05 to 20."),
         ({"model": "mirror"}, "The model 'mirror' is not known; choose one of auto, lambert, "),
@@ -133,10 +137,10 @@ def test_a_setting_that_no_material_could_store_is_refused(settings, sentence):
 
 
 def test_the_ends_of_the_range_are_in_it():
-    assert api.request(api.find("green"), radians(90)).sigma == radians(90)
+    assert api.request(api.find("green"), radians(60)).sigma == radians(60)
     wall = bpy.data.materials.new("Wall")
-    api.assign([(wall, api.request(api.find("green"), radians(90), tolerance=0.05))])
-    assert api.settle(wall).request.sigma == radians(90)
+    api.assign([(wall, api.request(api.find("green"), radians(60), tolerance=0.05))])
+    assert api.settle(wall).request.sigma == radians(60)
     assert api.settle(wall).request.tolerance == 0.05
 
 

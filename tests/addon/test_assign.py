@@ -87,7 +87,7 @@ def test_what_is_stored_is_bit_exact(make_material, awkward, request_for):
     assert snapshot.has_spectrum(material)
 
 
-@pytest.mark.parametrize("degrees", [0, 0.1, 1, 12.5, 15, 17.3, 30, 45, 59.99999, 89.9, 90])
+@pytest.mark.parametrize("degrees", [0, 0.1, 1, 12.5, 15, 17.3, 30, 45, 59.99999, 60])
 def test_sigma_comes_back_as_entered(make_material, colorchecker, request_for, degrees):
     material = make_material()
     derive.assign([(material, request_for(colorchecker[0], degrees))])

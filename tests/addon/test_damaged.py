@@ -203,7 +203,7 @@ def test_no_stored_text_raises_but_what_names_the_material(data, extension):
     style = sentences.Style(Plain(), "", "", "")
     sentences.reasons(found, style)
     sentences.difference(found, settled.numbers(found, found.flat), style)
-    sentences.source(group.source, group.details, group.sigma_source, style)
+    sentences.source(group.source, group.details, (group.sigma, group.sigma_source), style)
     sentences.scene(found, "Scene", style)
     state.follows(found)
     state.edited_by_hand(material)

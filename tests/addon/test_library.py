@@ -593,3 +593,18 @@ def test_adding_takes_time_in_proportion(tmp_path):
         seconds.append(time.process_time() - start)
     print(f"added in {seconds[-1]:.2f} s")
     assert seconds[2] < 25 * seconds[1]  # seen: 10; quadratic would be 100
+
+
+def test_what_has_no_color_is_kept_found_and_told(tmp_path):
+    nm = np.linspace(8000.0, 14000.0, NM.size)
+    warm = Sample("Warm sand", nm, np.linspace(0.8, 1.002, NM.size), "emissivity", "emissivity")
+    dark = Sample("Infrared felt", nm, np.linspace(0.1, 0.2, NM.size), "reading")
+    library.add([warm, dark, sample("Seen")], "mixed", tmp_path)
+    for each in (warm, dark):
+        [entry] = library.search(each.name, tmp_path)
+        assert same(library.load(entry.id, tmp_path), each)
+        assert (entry.swatch, entry.lab, entry.kind) == (None, None, each.kind)
+        assert any("has no color" in sentence for sentence in entry.warnings)
+    near = [entry.name for entry, _ in library.nearest((50, 0, 0), 1000, tmp_path)]
+    assert "Seen" in near
+    assert not {"Warm sand", "Infrared felt"} & set(near)

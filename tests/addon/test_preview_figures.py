@@ -19,7 +19,7 @@ from rough_spectra.addon.preview.drawing import (
     text,
 )
 from rough_spectra.addon.preview.figures import compose, data, plot
-from rough_spectra.core import reading
+from rough_spectra.core import feasible, reading
 from rough_spectra.core.color import color_difference
 
 DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
@@ -117,6 +117,52 @@ def test_bars_stand_at_their_values(look):
         assert canvas[int(y), int(left) + 2, 3] > 0.9
 
 
+@LOOKS
+@pytest.mark.parametrize("scale", [1, 2])
+def test_the_albedos_that_a_reading_leaves_open_are_shaded_and_nothing_else(look, scale):
+    look, size = scaled(look, scale), (SIZE[0] * scale, SIZE[1] * scale)
+    nm = np.arange(380.0, 731, 10)
+    low, nothing = 0.2 + 0.1 * np.sin(nm / 60), np.zeros(nm.size)
+    high = low + 0.25
+    bare = drawn(figures.spectrum, size, nm, nothing, np.full(nm.size, 0.55), [], look)
+    shown = drawn(
+        figures.spectrum, size, nm, nothing, np.full(nm.size, 0.55), [], look, (low, high)
+    )
+    axes = figures.spectrum_axes(size, look, 0.55)
+    changed = np.abs(shown - bare).max(axis=2)
+    columns = np.arange(axes.left + 3, axes.right - 3)
+    at = np.interp(columns + 0.5, (axes.left, axes.right), axes.x)
+    for column, wavelength in zip(columns, at, strict=True):
+        top, bottom = (axes.down(float(np.interp(wavelength, nm, side))) for side in (high, low))
+        rows = np.arange(axes.top, axes.bottom) + 0.5
+        inside = (rows > top + 2) & (rows < bottom - 2)
+        outside = (rows < top - 2) | (rows > bottom + 2)
+        # A grid line has nearly the color of what is laid over it.
+        seen = changed[axes.top : axes.bottom, column]
+        assert (seen[inside] > 0.05).mean() > 0.9
+        assert seen[outside].max() == 0
+
+
+def test_open_albedos_are_those_of_the_measured_reading_whatever_sigma(green):
+    space = working_space.current()
+    request = solve.Request(replace(green, kind="reading"), np.radians(20), "closure")
+    first, later = (
+        data.of_request(replace(request, sigma=np.radians(degrees)), np.full(3, 0.2), 0.3, space)
+        for degrees in (20, 50)
+    )
+    low, high = first.open_albedos
+    expected = feasible.albedo_range(green.reflectance, "closure")
+    np.testing.assert_array_equal(low, expected.lowest)
+    np.testing.assert_array_equal(high, expected.highest)
+    # The same arrays: while σ is dragged they are searched and shaded once.
+    assert later.open_albedos is first.open_albedos
+    for shown in (first, later):
+        assert (shown.albedo >= low - 1e-4).all()
+        assert (shown.albedo <= high + 1e-4).all()
+    known = solve.Request(replace(green, kind="albedo"), np.radians(20), "closure")
+    assert data.of_request(known, np.full(3, 0.2), 0.3, space).open_albedos is None
+
+
 def test_swatches_have_exactly_their_colors():
     one, other = (0.25, 0.5, 0.75), (0.24, 0.5, 0.75)
     canvas = drawn(figures.swatch_pair, (80, 80), one, other, DARK)
@@ -159,8 +205,8 @@ def test_the_range_of_sigma_ends_where_it_should(look):
     row = canvas[11]
     is_bar = np.abs(row[:, :3] - look.target).max(axis=1) < 0.02
     left, right = 4, 376
-    assert np.nonzero(is_bar)[0].max() == pytest.approx(left + (right - left) / 3, abs=1.5)
-    mark = left + (right - left) * 10 / 90
+    assert np.nonzero(is_bar)[0].max() == pytest.approx(left + (right - left) / 2, abs=1.5)
+    mark = left + (right - left) * 10 / 60
     top = canvas[0, :, 3]
     assert (np.arange(380) + 0.5) @ top / top.sum() == pytest.approx(mark, abs=0.5)
     everywhere = drawn(figures.sigma_range, (380, 30), 10, None, look)[11]
@@ -168,11 +214,11 @@ def test_the_range_of_sigma_ends_where_it_should(look):
 
 
 @LOOKS
-@pytest.mark.parametrize("sigma", [0, 31, 90])
+@pytest.mark.parametrize("sigma", [0, 31, 60])
 @pytest.mark.parametrize("width", [60, 120, 280])
 def test_letters_stay_inside_the_picture(look, sigma, width):
     """No ink on the outermost columns next to text: nothing is cut."""
-    canvas = drawn(figures.sigma_range, (width, 30), sigma, 88.0, look)
+    canvas = drawn(figures.sigma_range, (width, 30), sigma, 58.0, look)
     assert not canvas[19:, 0, 3].any()
     assert not canvas[19:, -1, 3].any()
     nm = np.linspace(380, 730, 36)

@@ -183,8 +183,33 @@ def test_a_range_that_is_too_short():
     assert sentences(nm=np.append(400.4, NM[1:])) == ()
     (sentence,) = sentences(nm=NM + 60)
     assert "no material can be made" in sentence
-    (sentence,) = sentences(nm=NM + 1000)
-    assert "leaves 100% of its color unmeasured" in sentence
+
+
+@pytest.mark.parametrize("kind", ["reading", "albedo"])
+@pytest.mark.parametrize("nm", [NM + 1000, NM / 2 - 1])
+def test_what_the_eye_does_not_see_has_no_color(kind, nm):
+    (sentence,) = sentences(nm=nm, kind=kind)
+    assert f"covers {nm[0]:g} to {nm[-1]:g} nm, where the eye sees nothing" in sentence
+    assert "it has no color" in sentence
+    assert "it serves for emissivity" in sentence
+
+
+def test_an_emissivity_has_no_color_and_its_noise_is_named():
+    nm = NM * 20
+    assert len(sentences(SMOOTH, nm, kind="emissivity")) == 1
+    noisy = changed(changed(SMOOTH, 2, 1.002), 7, -0.01)
+    color, above, below = sentences(noisy, nm, kind="emissivity")
+    assert "holds emissivity, of 8000 to 14000 nm: it has no color" in color
+    assert "is above 1 in one band, by 1.002 at 8400 nm" in above
+    assert above.endswith("counts as 1 in computing.")
+    assert "is below 0 in one band, by -0.01" in below
+    assert below.endswith("counts as 0 in computing.")
+    # Also where its bands are visible, and beside readings with the same bands.
+    one = Sample("Warm", NM, SMOOTH, "emissivity")
+    other = Sample("White", NM, changed(SMOOTH, 2, 1.002), "albedo")
+    (of_warm,), (of_white,) = quality.check([one, other])
+    assert "has no color" in of_warm
+    assert "has an albedo of 1.002" in of_white
 
 
 def test_specular_light_in_the_reading():

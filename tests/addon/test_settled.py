@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Panel, pictures and bake hold a material to the same target, whatever happened to it."""
 
+import json
 import math
 
 import bpy
@@ -14,7 +15,6 @@ from rough_spectra.addon.interface.panels.redraw import PanelMaterial
 from rough_spectra.addon.matching import scene_view, solve
 from rough_spectra.addon.material import (
     changes,
-    derivation,
     derive,
     settled,
     snapshot,
@@ -141,10 +141,9 @@ def derive_long_ago(material):
     """An older version took another model for the same settings."""
     group = material.rough_spectra
     group.sigma = math.radians(45)
-    model = derivation.get_stamp(material).model
-    group.stamp = group.stamp.replace('"derivation": 1', '"derivation": 0').replace(
-        f'"model": "{model}"', '"model": "first-order"'
-    )
+    data = json.loads(group.stamp) | {"derivation": 0}
+    assert data["model"] != "first-order"
+    group.stamp = json.dumps(data | {"model": "first-order"})
 
 
 def animate(material):

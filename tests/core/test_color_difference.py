@@ -78,6 +78,36 @@ def test_opposite_hues_are_half_a_turn_apart_and_not_more():
     np.testing.assert_allclose(delta_e(other, one), expected, rtol=1e-5)
 
 
+@pytest.mark.parametrize("shape", [(9001,), (3, 5000), (100, 1, 99)])
+def test_many_pairs_differ_as_each_alone_does(shape):
+    """Blocks end within rows here, and one of the two is spread over the other."""
+    rng = np.random.default_rng(7)
+    lab = rng.uniform((0, -60, -60), (100, 60, 60), (*shape, 3))
+    other = rng.uniform((0, -60, -60), (100, 60, 60), (shape[-1], 3))
+    lab[0, ..., 1:], other[0, 1:] = 0, 0
+    found = delta_e(lab, other)
+    expected = [delta_e(row, other) for row in lab.reshape(-1, shape[-1], 3)]
+    # 1e-12: which path a block takes depends on its neighbors.
+    np.testing.assert_allclose(found.reshape(-1, shape[-1]), expected, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(delta_e(other, lab), found, rtol=0, atol=1e-12)
+    few = np.array([delta_e(lab.reshape(-1, 3)[i], other[i % shape[-1]]) for i in range(50)])
+    np.testing.assert_allclose(found.ravel()[:50], few, rtol=0, atol=1e-12)
+
+
+def test_what_is_compared_is_left_as_it_was():
+    for count in (10, 9001):
+        lab = np.random.default_rng(8).uniform(-50, 50, (2, count, 3))
+        before = lab.copy()
+        delta_e(lab[0], lab[1])
+        np.testing.assert_array_equal(lab, before)
+
+
+def test_nothing_to_compare_and_no_numbers():
+    assert delta_e(np.empty((0, 3)), np.zeros(3)).shape == (0,)
+    broken = delta_e([[50, np.nan, 1], [50, 1, 2]], [50, 1, 1])
+    assert np.isnan(broken).tolist() == [True, False]
+
+
 def test_roots_lead_to_lab_and_have_its_slopes():
     relative = np.array((1e-4, 0.003, 0.008, 0.01, 0.2, 0.9, 1.3))
     bent, slope = roots(relative)

@@ -391,3 +391,37 @@ def test_numbers_in_rows_of_data_are_no_bands(tmp_path):
 def test_a_first_column_with_the_illuminant_is_what_colors_were_computed_for(tmp_path):
     (sample,) = read(tmp_path, "Illuminant;Name;400 nm;410 nm;420 nm\nD65;chalk;0.5;0.5;0.5\n")
     assert (sample.name, sample.illuminant) == ("chalk", "D65")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "wavelength (um),Emissivity\n8,0.9\n9,0.8\n",
+        "wavelength (um),Emissivity (%)\n8,90\n9,80\n",
+        "# kind: emissivity\n# wavelength_unit: um\n8,0.9\n9,0.8\n",
+        "# kind: emissivity\nname,8000 nm,9000 nm\nsand,0.9,0.8\n",
+        "Y units: Emissivity\nwavelength (um),sand\n8,0.9\n9,0.8\n",
+    ],
+)
+def test_emissivity_is_read_as_what_it_is(tmp_path, text):
+    (sample,) = read(tmp_path, text)
+    assert (sample.kind, sample.quantity) == ("emissivity", "emissivity")
+    assert sample.wavelengths.tolist() == [8000, 9000]
+    assert sample.values.tolist() == [0.9, 0.8]
+    assert sample.instrument == "di:8"
+    assert any("near the normal" in note for note in sample.notes)
+
+
+def test_reflectance_and_emissivity_may_stand_side_by_side(tmp_path):
+    text = "nm,Reflectance sand,Emissivity sand\n8000,0.1,0.9\n9000,0.2,0.8\n"
+    one, other = read(tmp_path, text)
+    assert [one.kind, other.kind] == ["reading", "emissivity"]
+    assert other.values.tolist() == [0.9, 0.8]
+
+
+@pytest.mark.parametrize("kind", ["albedo", "emissivity"])
+def test_a_comment_and_a_column_that_disagree_on_emissivity_are_refused(tmp_path, kind):
+    column = {"albedo": "Emissivity", "emissivity": "Reflectance"}[kind]
+    sentence = refusal(tmp_path, f"# kind: {kind}\nnm,{column}\n8000,0.9\n9000,0.8\n")
+    assert f"the kind is {kind}" in sentence
+    assert column in sentence

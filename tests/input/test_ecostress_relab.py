@@ -45,10 +45,12 @@ def test_ecostress_geometry_is_kept_and_the_nearest_is_named():
     ("old", "new", "parts"),
     [
         ("Reflectance (percent)", "Transmittance (percent)", ["line 16", "transmittance"]),
-        ("Reflectance (percent)", "Emissivity", ["line 16", "emissivity"]),
+        ("Reflectance (percent)", "Emissivity", ["line 22", "percent"]),
+        ("Hemispherical Reflectance", "Emissivity", ["line 16", "both reflectance and emissivity"]),
+        ("Reflectance (percent)", "Reflectance or emissivity (percent)", ["line 16", "both"]),
         ("Hemispherical Reflectance", "Transmittance", ["line 12", "transmittance"]),
         ("Reflectance (percent)", "Reflectance", ["line 16", "neither percent nor fraction"]),
-        ("Reflectance (percent)", "Counts", ["line 16", "'Counts'", "not reflectance"]),
+        ("Reflectance (percent)", "Counts", ["line 16", "'Counts'", "neither reflectance nor"]),
         ("(micrometers)", "(furlongs)", ["line 15", "furlongs", "micrometers"]),
         (" 0.7000\t50.0000\n", "", []),
         ("14.0000\t-0.2500\n", "", ["line 25", "'5' values but 4"]),
@@ -67,6 +69,28 @@ def test_each_fault_of_an_ecostress_file_is_named(tmp_path, old, new, parts):
     sentence = refusal(path)
     for part in parts:
         assert part in sentence
+
+
+def test_ecostress_emissivity_is_read_as_what_it_is():
+    (sample,) = readers.read(FIXTURES / "ecostress" / "emissivity.spectrum.txt")
+    assert (sample.kind, sample.quantity) == ("emissivity", "directional emissivity")
+    # As the file states them, in the order of wavelengths; computing takes what is not emitted.
+    assert sample.wavelengths.tolist() == [8000, 9000, 11000, 12500, 14000]
+    assert sample.values.tolist() == [0.85, 0.75, 0.95, 1.002, 0.965]
+    assert sample.reflectance == pytest.approx([0.15, 0.25, 0.05, 0, 0.035])
+    assert (sample.geometry, sample.instrument) == ("Directional (8 to 14 µm)", "di:8")
+    notes = " ".join(sample.notes)
+    assert "does not say percent" in notes
+    assert "near the normal" in notes
+    assert "not known" not in notes
+
+
+def test_ecostress_emissivity_in_percent(tmp_path):
+    text = CONCRETE.replace("Y Units: Reflectance (percent)", "Y Units: Emissivity (percent)")
+    (sample,) = readers.read(write(tmp_path, text))
+    assert sample.kind == "emissivity"
+    assert sample.values.tolist() == [0.125, 0.25, 0.375, 0.5, -0.0025]
+    assert not any("does not say percent" in note for note in sample.notes)
 
 
 def test_ecostress_fractions_are_not_divided(tmp_path):

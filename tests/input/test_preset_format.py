@@ -52,6 +52,7 @@ def allowed(schema, value):
             "properties": lambda demand=demand: all(
                 allowed(demand[name], item) for name, item in value.items() if name in demand
             ),
+            "anyOf": lambda demand=demand: any(allowed(each, value) for each in demand),
             "additionalProperties": lambda: set(value) <= set(schema["properties"]),
         }
         if key not in ("$schema", "title", "description") and not ok[key]():
@@ -121,8 +122,13 @@ CHANGES = [
     *((name, ABSENT) for name in BRICK),
     *((name, value) for name in SCHEMA["properties"] for value in (None, "", 7, True, [], ["a"])),
     ("kind", "albedo"),
-    ("sigma_degrees", 90),
+    ("sigma_degrees", 60),
+    ("sigma_degrees", 60.5),
     ("sigma_degrees", 90.5),
+    ("rdq", 0.36),
+    ("sdq", 0.5147),
+    ("sdq", 2.5),
+    ("rdq", -0.1),
     ("sigma_degrees", -1),
     ("instrument", "di:8"),
     ("instrument", "8:di"),
@@ -134,6 +140,7 @@ CHANGES = [
     ("lab", [1, 2, "3"]),
     ("id", "Everyday/Brick"),
     ("nmae", "Brick"),
+    ("rdq", 1.7321),
 ]
 
 

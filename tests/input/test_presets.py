@@ -167,7 +167,7 @@ ABSENT = object()
         ("instrument", "", ["text"]),
         ("sigma_source", ABSENT, ["is missing"]),
         ("sigma_degrees", ABSENT, ["is missing", "null if nobody knows"]),
-        ("sigma_degrees", -1, ["'-1'", "from 0 to 90"]),
+        ("sigma_degrees", -1, ["'-1'", "from 0 to 60"]),
         ("sigma_degrees", 90.5, ["'90.5'"]),
         ("sigma_degrees", float("nan"), ["'nan'"]),
         ("sigma_degrees", "30", ["'30'", "must be a number"]),

@@ -99,3 +99,24 @@ def test_each_fault_has_its_sentence(wavelengths, values, parts):
 def test_the_readers_own_words_for_a_place_are_used():
     with pytest.raises(InputError, match=r"410 nm at line 13 follows 420 nm at line 12"):
         check_spectrum([400, 420, 410], [0.5] * 3, "x", lambda band: f"line {band + 11}")
+
+
+def test_an_emissivity_is_kept_as_stated_and_computed_as_what_is_not_emitted():
+    stated = [0.2, 1.01, -0.02]
+    sample = Sample("sand", [8000.0, 9000.0, 10000.0], stated, "emissivity")
+    assert sample.values.tolist() == stated
+    assert sample.reflectance.tolist() == [0.8, 0.0, 1.0]
+    with pytest.raises(InputError, match=r"half of the emissivities are above 95.*percent"):
+        Sample("sand", [8000.0, 9000.0, 10000.0], [94.0, 95.0, 96.0], "emissivity")
+
+
+def test_a_kind_is_changed_by_who_knows_better_but_never_the_quantity():
+    reading = Sample("clay", NM, [0.1, 0.1, 0.1], "reading")
+    assert reading.taken_as("albedo").kind == "albedo"
+    assert reading.taken_as("reading") is reading
+    warm = Sample("clay", NM, [0.9, 0.9, 0.9], "emissivity")
+    assert warm.taken_as("emissivity") is warm
+    with pytest.raises(InputError, match="holds emissivity, and cannot be taken as a reading"):
+        warm.taken_as("reading")
+    with pytest.raises(InputError, match="holds a reading, and cannot be taken as emissivity"):
+        reading.taken_as("emissivity")

@@ -207,9 +207,9 @@ def test_a_sample_keeps_its_own_sigma_where_none_is_chosen(tmp_path):
     assert plan.assets(plan.of_file(path), [5], 63)[0].catalog == "Paper"
 
 
-@pytest.mark.parametrize("sigma", [-1, 90.5, float("nan")])
+@pytest.mark.parametrize("sigma", [-1, 60.5, float("nan")])
 def test_an_impossible_sigma_is_refused(sigma):
-    with pytest.raises(InputError, match="give 0 to 90 degrees"):
+    with pytest.raises(InputError, match="give 0 to 60 degrees"):
         plan.assets([plan.of_name("14")], [sigma], 63)
 
 

@@ -216,6 +216,56 @@ def test_a_name_like_a_comment_reads_back_too(name, scene_file, main, tmp_path):
     assert sample.name == "paper"
 
 
+def test_the_table_and_the_document_have_the_albedos_that_are_open(main, tmp_path):
+    from dataclasses import replace
+
+    from rough_spectra.addon.matching.solve import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.readings import document
+    from rough_spectra.addon.samples import presets
+    from rough_spectra.core import feasible
+
+    green, white = (presets.load(f"colorchecker/{name}") for name in ("14-green", "19-white-9-5"))
+    samples = {
+        "As read": replace(green, kind="reading"),
+        "By a sphere": replace(green, kind="reading", instrument="di:8"),
+        "Known": replace(green, kind="albedo"),
+        "Too bright": replace(white, kind="reading", values=white.values * 1.3),
+    }
+    derive.assign(
+        [
+            (rgb_material(name), Request(sample, 0.5, "two-bounce"))
+            for name, sample in samples.items()
+        ]
+    )
+    words = [word for name in samples for word in ("--material", name)]
+    assert main("bake", "--predicted-only", "--output", tmp_path / "x", *words).status == 0
+    _, rows = rows_of(tmp_path / "x.predicted.csv")
+    lowest, highest = (
+        [name for name in rows[0] if name.startswith(f"albedo {end} ")] for end in ("min", "max")
+    )
+    assert len(lowest) == len(highest) == green.wavelengths.size
+    entries = document.from_json(tmp_path / "x.json").entries
+    for row, entry, sample in zip(rows, entries, samples.values(), strict=True):
+        found = feasible.albedo_range(sample.values, "two-bounce", sample.instrument)
+        low, high = found.lowest, found.highest
+        if sample.kind == "albedo":
+            low = high = sample.values
+        if entry.material == "Too bright":
+            assert {row[name] for name in (*lowest, *highest)} == {""}
+            assert entry.predicted.albedo_lowest == entry.predicted.albedo_highest == ()
+            continue
+        for columns, told, expected in (
+            (lowest, entry.predicted.albedo_lowest, low),
+            (highest, entry.predicted.albedo_highest, high),
+        ):
+            # Six digits are kept.
+            np.testing.assert_allclose(told, expected, rtol=0, atol=0.51e-6)
+            np.testing.assert_allclose(
+                [float(row[name]) for name in columns], told, rtol=0, atol=1e-9
+            )
+
+
 def test_fine_wavelengths_keep_their_digits(main, tmp_path):
     from rough_spectra.addon.matching.solve import Request
     from rough_spectra.addon.material import derive
@@ -254,7 +304,8 @@ def test_csv_agrees_with_json(baked):
         for nm, value in zip(part["wavelengths"], part["values"], strict=True):
             assert float(row[f"{nm:g} nm"]) == value
         empty = [key for key, cell in row.items() if key.endswith(" nm") and not cell]
-        assert len(empty) == 81 - len(part["wavelengths"])
+        # Of each band that the sample lacks the value and two albedos.
+        assert len(empty) == 3 * (81 - len(part["wavelengths"]))
     _, rows = rows_of(baked.path("measured.csv"))
     for row, entry in zip(rows, baked.document["readings"], strict=True):
         assert [float(row[key]) for key in "RGB"] == entry["measured"]["rgb"]

@@ -96,6 +96,30 @@ def test_a_spectrum_without_a_color_makes_no_material_and_leaves_none(folder, tm
     assert own(folder) == ["short/short"]  # a library may hold what Cycles cannot show
 
 
+WARM = ROOT / "tests" / "fixtures" / "ecostress" / "emissivity.spectrum.txt"
+
+
+def test_what_has_no_color_goes_to_the_library_and_others_become_materials(folder, two):
+    batch = importing.read([two, WARM])
+    assert not batch.refused
+    assert any("has no color" in sentence for sentence in batch.found[2].warnings)
+    review(batch, [True, True, True], collection="mine", materials="CREATE")
+    assert own(folder) == ["mine/plaster", "mine/chalk", "mine/test-sand"]
+    assert "chalk" in bpy.data.materials
+    assert "Test Sand" not in bpy.data.materials
+
+
+@pytest.mark.parametrize("materials", ["CREATE", "ASSIGN"])
+def test_no_color_is_refused_where_one_is_asked_for(folder, materials):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    sentence = refusal(OPS.import_samples, filepath=str(WARM), materials=materials)
+    assert "it holds emissivity, 8000 to 14000 nm, so it has no color for a material" in sentence
+    assert not wall.active_material.rough_spectra.sample_name
+    assert own(folder) == ["emissivity.spectrum/test-sand"]
+    sentence = refusal(OPS.assign_file, filepath=str(WARM), kind="reading")
+    assert "holds emissivity, and cannot be taken as a reading" in sentence
+
+
 def review(batch, chosen, **options):
     """Press OK in the dialog, with the samples checked that `chosen` says."""
     import_review._batch[:] = [batch]

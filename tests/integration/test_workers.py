@@ -29,7 +29,7 @@ extension.register()
 from pathlib import Path
 from rough_spectra.addon.assets import build, plan
 chosen = plan.of_collection("colorchecker")
-build.build(plan.assets(chosen, range(0, 80, 10), 63), Path("library").absolute())
+build.build(plan.assets(chosen, range(0, 64, 8), 63), Path("library").absolute())
 """
 """Either takes a while; a worker that nobody stops leaves its results in its folder, for ever."""
 

@@ -74,7 +74,7 @@ def compare(other: Path, steps: int) -> None:
                 ask(worker, {"case": case})
             pairs = []
             for number in range(WARM_UP + steps):
-                sigma = 0.1 + 1.3 * number / (WARM_UP + steps)
+                sigma = 0.1 + 0.9 * number / (WARM_UP + steps)
                 order = (before, now) if number % 2 else (now, before)
                 took = {id(worker): ask(worker, {"sigma": sigma}) for worker in order}
                 pairs.append((took[id(before)], took[id(now)]))

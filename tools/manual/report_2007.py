@@ -1,25 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of docs/report-2007.md: tables of the page and CSV files in docs/data.
+"""Numbers of docs/report-2007.md: what the 2007 report computes, and what it leads to.
 
-Needs colour-science, so `report_2007_figures.py` starts this file in an environment that has bpy
-and draws the figures afterwards in one that has matplotlib.
+`report_2007_tables.py` makes tables and files of them.
 """
 
 from __future__ import annotations
 
-import csv
-import io
-import re
 import sys
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tools.run.run_command_line import ROOT, load_extension
+from tools.run.run_command_line import load_extension
 
 if "rough_spectra" not in sys.modules:
     load_extension()
@@ -27,16 +22,11 @@ if "rough_spectra" not in sys.modules:
 from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.samples.sample import Sample
-from rough_spectra.addon.support import atomic_files
 from rough_spectra.addon.support.colour_science import colour
 from rough_spectra.core import reading, vcavity
-from rough_spectra.core.color import color_difference
+from rough_spectra.core.color import chromaticity, color_difference
 
 Array = NDArray[np.float64]
-
-DOCS = ROOT / "docs"
-PAGE = DOCS / "report-2007.md"
-DATA = DOCS / "data"
 
 SIGMA = np.pi / 4
 """Roughness of the report's example."""
@@ -47,7 +37,9 @@ REPORTED = 3.83
 OBSERVERS = (2, 10)
 MODELS = ("first-order", "two-bounce", "closure", "reference")
 BEYOND_FIRST = MODELS[1:]
-PEAKS = (0.7205, 0.8, 0.9, 0.95, 0.99, 1.0)
+
+DATA_SETS = {"Ohta": "ColorChecker N Ohta", "BabelColor": "BabelColor Average"}
+"""Measured charts of 24 patches, as colour-science calls them; its third one is the first again."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +48,9 @@ class Row:
 
     Attributes
     ----------
-    srgb
-        The albedo under D65 as a screen shows it.
+    srgb, srgb_reading
+        As a screen shows them under D65: the albedo, and a color that is as light and has the a*
+        and b* of the reading.
     k
         Luminance of the reading over that of the albedo.
     L, a, b, L_reading, a_reading, b_reading
@@ -82,6 +75,7 @@ class Row:
     observer: int
     model: str
     srgb: str
+    srgb_reading: str
     k: float
     L: float
     a: float
@@ -104,11 +98,6 @@ def predict(albedo: Array, sigma: float, model: str) -> Array:
     if model == "reference":
         return vcavity.reading_from_albedo(albedo, sigma)
     return reading.from_albedo(albedo, sigma, model)
-
-
-def ab_distance(first: Array, second: Array) -> Array:
-    """Distance in the a*b* plane of Lab (..., 3)."""
-    return np.asarray(np.linalg.norm((first - second)[..., 1:], axis=-1))
 
 
 def uv(xyz: Array) -> Array:
@@ -147,19 +136,20 @@ def rows() -> list[Row]:
                 k[:, 0],
                 *lab.T,
                 *lab_after.T,
-                ab_distance(lab, lab_after),
-                ab_distance(lab, lab_darkened),
-                ab_distance(lab_darkened, lab_after),
-                ab_distance(lab, lab_equal),
+                chromaticity.ab_distance(lab, lab_after),
+                chromaticity.ab_distance(lab, lab_darkened),
+                chromaticity.ab_distance(lab_darkened, lab_after),
+                chromaticity.ab_distance(lab, lab_equal),
                 color_difference.delta_e(lab, lab_after),
                 color_difference.delta_e(lab, lab_equal),
                 np.linalg.norm(uv(before) - uv(after), axis=-1),
                 color_difference.delta_e(lab_target, lab_after),
             )
             table = np.stack(columns, axis=-1).tolist()
+            leveled = _screen_of_lab(np.column_stack((lab[:, :1], lab_after[:, 1:])))
             found += [
-                Row(name, observer, model, color, *numbers)
-                for name, numbers, color in zip(names, table, screen, strict=True)
+                Row(name, observer, model, color, other, *numbers)
+                for name, numbers, color, other in zip(names, table, screen, leveled, strict=True)
             ]
     return found
 
@@ -202,6 +192,30 @@ def variations() -> list[Variation]:
     ]
 
 
+@dataclass(frozen=True)
+class Candidate:
+    """A patch that the report's example may be, read by one data set and observer."""
+
+    number: int
+    patch: str
+    data_set: str
+    observer: int
+    ab: float
+    ab_equal: float
+
+
+def candidates() -> list[Candidate]:
+    """Give every patch of every data set for every observer, nearest to the report's first."""
+    found = []
+    for short, name in DATA_SETS.items():
+        for number, (patch, sd) in enumerate(colour().SDS_COLOURCHECKERS[name].items(), 1):
+            albedo, bands = np.asarray(sd.values), np.asarray(sd.wavelengths)
+            for observer in OBSERVERS:
+                distances = _distances(albedo, bands, "D65", observer)
+                found.append(Candidate(number, patch, short, observer, *distances))
+    return sorted(found, key=lambda candidate: abs(candidate.ab - REPORTED))
+
+
 def _variation(
     changed: str, albedo: Array, wavelengths: Array, illuminant: str = "D65"
 ) -> Variation:
@@ -218,7 +232,7 @@ def _distances(
     lab, as_is, equal = color_difference.xyz_to_lab(
         np.stack((before, after, after * before[1] / after[1])), weights.sum(axis=0)
     )
-    return float(ab_distance(lab, as_is)), float(ab_distance(lab, equal))
+    return float(chromaticity.ab_distance(lab, as_is)), float(chromaticity.ab_distance(lab, equal))
 
 
 def _scale_that_gives(distance: float, albedo: Array, wavelengths: Array) -> float:
@@ -229,6 +243,17 @@ def _scale_that_gives(distance: float, albedo: Array, wavelengths: Array) -> flo
         found, _equal = _distances(middle * albedo, wavelengths, "D65", 10)
         low, high = (middle, high) if found > distance else (low, middle)
     return low
+
+
+def _screen_of_lab(lab: Array) -> list[str]:
+    """Show L*a*b* (colors, 3) of whichever observer as if they were those of the 2° one."""
+    white = colour().XYZ_to_xy(tristimulus.white("D65"))
+    return [_hex(xyz) for xyz in colour().Lab_to_XYZ(lab, white)]
+
+
+def _hex(xyz: Array) -> str:
+    encoded = np.clip(colour().XYZ_to_sRGB(xyz), 0, 1)
+    return "#" + "".join(f"{round(255 * float(part)):02x}" for part in encoded)
 
 
 def largest_sigma(peak: float, model: str) -> float:
@@ -248,194 +273,3 @@ def white_curve(model: str) -> Array:
     if model == "reference":
         return vcavity.reading_from_albedo(np.ones((sigma.size, 1)), sigma)[:, 0]
     return reading.white_reading(sigma, model)
-
-
-# Files -------------------------------------------------------------------------------------------
-
-CONDITIONS = (
-    "ColorChecker N Ohta as the albedo, sigma = 45 deg, 45a:0, D65, CIE 1931 2 deg and CIE 1964 "
-    "10 deg observer; k, L, a, b and distances as docs/report-2007.md defines them"
-)
-
-
-def colors_csv(table: Iterable[Row]) -> str:
-    """Give docs/data/report-2007.csv."""
-    names = [field.name for field in fields(Row)]
-    return _csv(CONDITIONS, names, ([getattr(row, name) for name in names] for row in table))
-
-
-def curves_csv() -> str:
-    """Give docs/data/report-2007-curves.csv: all that depends on σ alone."""
-    sigma = np.radians(np.arange(91))
-    f1, f2 = reading.coefficients(sigma)
-    a1 = vcavity.ring_coefficients(sigma, 1)[:, 0]
-    white = [white_curve(model)[::100] for model in BEYOND_FIRST]
-    names = ["sigma_deg", "f1", "f2", *(f"white_{m}" for m in BEYOND_FIRST), "a1_reference"]
-    about = "45a:0; f1 and f2 weigh albedo and its square; white_* is the reading of white facets"
-    return _csv(about, names, zip(np.arange(91), f1, f2, *white, a1, strict=True))
-
-
-def variations_csv(found: Iterable[Variation]) -> str:
-    """Give docs/data/report-2007-variations.csv."""
-    names = [field.name for field in fields(Variation)]
-    about = (
-        "patch 14 at sigma = 45 deg, 45a:0, two-bounce; a*b* distance for the 2 and 10 deg observer"
-    )
-    return _csv(about, names, ([getattr(row, name) for name in names] for row in found))
-
-
-def _csv(about: str, names: Sequence[str], lines: Iterable[Iterable[object]]) -> str:
-    text = io.StringIO()
-    text.write(f"# {about}\n")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    for line in lines:
-        writer.writerow([f"{v:.6f}" if isinstance(v, float) else v for v in line])
-    return text.getvalue()
-
-
-def _hex(xyz: Array) -> str:
-    encoded = np.clip(colour().XYZ_to_sRGB(xyz), 0, 1)
-    return "#" + "".join(f"{round(255 * float(part)):02x}" for part in encoded)
-
-
-# Tables of the page ------------------------------------------------------------------------------
-
-
-def known_table() -> str:
-    """Put f1, f2, r and σmax beside the values that the design notes give."""
-    f1, f2 = (float(f) for f in reading.coefficients(np.pi / 2))
-    lines = [
-        ("f1(90°)", "0.5590", f"{f1:.4f}"),
-        ("f2(90°)", "0.1615", f"{f2:.4f}"),
-        ("r(ρ = 1, σ = 90°)", "0.7205", f"{f1 + f2:.4f}"),
-    ]
-    for peak, expected in ((0.8, "48.9°"), (0.9, "28.0°"), (0.95, "19.5°")):
-        lines.append(
-            (f"σmax of r = {peak:g}", expected, f"{largest_sigma(peak, 'two-bounce'):.1f}°")
-        )
-    return _markdown(("quantity", "design notes", "computed here"), lines)
-
-
-def green_table(table: Sequence[Row]) -> str:
-    """Take the a*b* distance of patch #14 apart."""
-    lines = []
-    for observer in OBSERVERS:
-        for row in _of(table, observer):
-            if row.patch.startswith("14 "):
-                numbers = (row.ab_darkening, row.ab_interreflection, row.ab, row.ab_equal)
-                cells = (f"{number:.2f}" for number in numbers)
-                lines.append((f"{observer}°", row.model, f"{row.k:.3f}", *cells))
-    head = (
-        "observer",
-        "model",
-        "k",
-        "darkening",
-        "interreflection",
-        "in all",
-        "at equal luminance",
-    )
-    return _markdown(head, lines)
-
-
-def all_table(table: Sequence[Row]) -> str:
-    """Tell what each model makes of patch #14 and of the 24 patches."""
-    lines = []
-    for observer in OBSERVERS:
-        for model in BEYOND_FIRST:
-            some = [row for row in _of(table, observer) if row.model == model]
-            green = some[GREEN]
-            cells = [f"{green.de00:.2f}", f"{green.de00_equal:.2f}"]
-            for name in ("ab", "ab_equal", "de00", "de00_equal", "de00_from_reference"):
-                numbers = np.array([getattr(row, name) for row in some])
-                cells.append(f"{numbers.mean():.2f} / {numbers.max():.2f}")
-            lines.append((f"{observer}°", model, *cells))
-    head = (
-        "observer",
-        "model",
-        "#14 ΔE00",
-        "#14 ΔE00, equal Y",
-        "a\\*b\\*",
-        "a\\*b\\*, equal Y",
-        "ΔE00",
-        "ΔE00, equal Y",
-        "ΔE00 from reference",
-    )
-    return _markdown(head, lines)
-
-
-def variations_table(found: Iterable[Variation]) -> str:
-    """Tell what moves the distance of patch #14."""
-    lines = [
-        (v.changed, *(f"{x:.2f}" for x in (v.ab_2, v.ab_10, v.ab_equal_2, v.ab_equal_10)))
-        for v in found
-    ]
-    head = ("changed", "2°", "10°", "2°, equal luminance", "10°, equal luminance")
-    return _markdown(head, lines)
-
-
-def bounds_table() -> str:
-    """Give σmax of peak readings under each model."""
-    lines = []
-    for peak in PEAKS:
-        found = (largest_sigma(peak, model) for model in BEYOND_FIRST)
-        cells = ("no bound" if s >= 89.5 else f"{s:.1f}°" for s in found)
-        lines.append((f"{peak:g}", *cells))
-    return _markdown(("peak reading", *BEYOND_FIRST), lines)
-
-
-def white_table() -> str:
-    """Compare the readings of white facets."""
-    lines = []
-    for degrees in (10, 20, 30, 45, 60, 90):
-        place = 100 * degrees
-        cells = (f"{white_curve(model)[place]:.4f}" for model in BEYOND_FIRST)
-        lines.append((f"{degrees}°", *cells))
-    return _markdown(("σ", *BEYOND_FIRST), lines)
-
-
-def _of(table: Iterable[Row], observer: int) -> list[Row]:
-    return [row for row in table if row.observer == observer]
-
-
-def _markdown(head: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
-    rule = ["---"] + ["--:"] * (len(head) - 1)
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in (head, rule, *lines))
-
-
-def fill(page: str, tables: dict[str, str]) -> str:
-    """Put each table between its two comments in the page.
-
-    Raises
-    ------
-    KeyError
-        If the page asks for a table that isn't there.
-    """
-
-    def put(match: re.Match[str]) -> str:
-        return f"{match[1]}\n\n{tables[match[2]]}\n\n{match[3]}"
-
-    return re.sub(r"(<!-- table: ([\w-]+) -->).*?(<!-- end -->)", put, page, flags=re.DOTALL)
-
-
-def main() -> int:
-    """Write the CSV files and renew the tables of the page; returns the exit status."""
-    colors, varied = rows(), variations()
-    tables = {
-        "known": known_table(),
-        "green": green_table(colors),
-        "variations": variations_table(varied),
-        "bounds": bounds_table(),
-        "white": white_table(),
-        "all": all_table(colors),
-    }
-    with atomic_files.publication() as files:
-        files.write(DATA / "report-2007.csv", colors_csv(colors).encode())
-        files.write(DATA / "report-2007-curves.csv", curves_csv().encode())
-        files.write(DATA / "report-2007-variations.csv", variations_csv(varied).encode())
-        files.write(PAGE, fill(PAGE.read_text("utf-8"), tables).encode())
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

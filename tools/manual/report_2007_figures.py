@@ -4,8 +4,8 @@
 
     python3 -m tools.manual.report_2007_figures
 
-It runs tools/manual/report_2007.py where colour-science is, then itself again where matplotlib is.
-Equal numbers give equal bytes.
+It runs tools/manual/report_2007_tables.py where colour-science is, then itself again where
+matplotlib is. Equal numbers give equal bytes.
 """
 
 from __future__ import annotations
@@ -63,121 +63,166 @@ def sigma_axis(axes):
     axes.set_xlabel("roughness σ (degrees)")
 
 
-def coefficients(plt):
-    """Figure 1: what is left of the first bounce, and what the second one adds."""
-    data = curves()
-    figure, axes = plt.subplots(figsize=(7, 4.2))
-    both = data["f1"] + data["f2"]
-    for values, color, style, label, place in (
-        (both, BLACK, "--", "f1 + f2: white facets (ρ = 1)", (45, 0.86)),
-        (data["f1"], BLUE, "-", "f1: weight of ρ, the first bounce", (10, 0.55)),
-        (data["f2"], VERMILION, "-", "f2: weight of ρ², the second bounce", (41, 0.19)),
-    ):
-        axes.plot(data["sigma_deg"], values, style, color=color, linewidth=2.2)
-        axes.text(*place, label, color=color)
-        axes.text(91, values[-1], f"{values[-1]:.4f}", color=color, va="center")
-    axes.set_ylim(0, 1.02)
-    axes.set_ylabel("weight in r = f1 ρ + f2 ρ²")
-    axes.set_title("Roughness takes more from the first bounce than the second gives back")
-    sigma_axis(axes)
-    return figure
-
-
-def feasible(plt):
-    """Figure 2: readings that two bounces can explain."""
-    import numpy as np
-
-    from core import reading
-
-    data = curves()
-    figure, axes = plt.subplots(figsize=(7, 4.4))
-    bound = data["white_two-bounce"]
-    axes.fill_between(data["sigma_deg"], 0, bound, color=SKY, alpha=0.3, linewidth=0)
-    axes.fill_between(
-        data["sigma_deg"], bound, 1.02, facecolor="#f2f2f2", edgecolor="#cccccc", hatch="//"
-    )
-    axes.plot(data["sigma_deg"], bound, color=BLUE, linewidth=2.2)
-    for peak in (0.8, 0.9, 0.95):
-        largest = float(np.degrees(reading.sigma_max(peak)))
-        axes.plot([0, largest, largest], [peak, peak, 0], ":", color=GRAY, linewidth=1.2)
-        axes.plot(largest, peak, "o", color=BLUE)
-        axes.text(
-            largest + 1.5,
-            peak + 0.017,
-            f"r = {peak:g}: σ ≤ {largest:.1f}°",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
-        )
-    axes.axhline(bound[-1], color=GRAY, linestyle="--", linewidth=1.2)
-    axes.text(69.5, bound[-1] - 0.045, f"below {bound[-1]:.4f}: any σ", ha="center", va="center")
-    axes.text(69.5, 0.35, "feasible:\nsome albedo ρ ≤ 1\ngives this reading", ha="center")
-    axes.text(
-        88,
-        0.925,
-        "not feasible: would need ρ > 1",
-        ha="right",
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
-    )
-    axes.set_ylim(0, 1.02)
-    axes.set_ylabel("reading r at 45°/0° (1 = white diffuser)")
-    axes.set_title("With two bounces, the peak of a reading bounds the roughness")
-    sigma_axis(axes)
-    return figure
-
-
-def albedo(plt):
-    """Figure 3: the albedo behind a reading."""
-    import numpy as np
-
-    from core import reading
-
-    figure, axes = plt.subplots(figsize=(6.2, 5.2))
-    shades = plt.get_cmap("viridis")(np.linspace(0, 0.85, 6))
-    for degrees, color in zip((0, 15, 30, 45, 60, 90), shades, strict=True):
-        sigma = np.radians(degrees)
-        values = np.linspace(0, float(reading.white_reading(sigma)), 200)
-        axes.plot(values, reading.to_albedo(values, sigma), color=color, linewidth=2)
-        axes.plot(values[-1], 1, "o", color=color, clip_on=False, zorder=3)
-        place = (1.03, 0.985) if degrees == 0 else (values[-1] - 0.005, 1.02)
-        turn = 0 if degrees == 0 else 55
-        axes.text(*place, f"σ = {degrees}°", color=color, ha="left", rotation=turn)
-    axes.set_xlim(0, 1.02)
+def albedo_axes(axes):
+    """Albedo across and reading up, as the report has them."""
+    axes.set_xlim(0, 1)
     axes.set_ylim(0, 1)
     axes.set_aspect("equal")
-    axes.set_xlabel("reading r at 45°/0°")
-    axes.set_ylabel("albedo ρ = 2 r / (f1 + √(f1² + 4 f2 r))")
-    axes.set_title("The rougher the surface, the lighter its facets must be", pad=52)
+    axes.set_xlabel("albedo ρ")
+    axes.set_ylabel("reading r at 45°/0°")
+
+
+def limit_curves(axes, largest):
+    """Fill what lies between the level surface and the roughest one, and give its curve."""
+    import numpy as np
+
+    from core import reading
+
+    rho = np.linspace(0, 1, 201)
+    lowest = reading.from_albedo(rho, largest)
+    axes.fill_between(rho, lowest, rho, color=SKY, alpha=0.3, linewidth=0)
+    axes.plot(rho, rho, color=BLACK, linewidth=2.2)
+    axes.plot(rho, lowest, color=BLUE, linewidth=2.2)
+    axes.plot([1, 1], [lowest[-1], 1], color=GRAY, linewidth=2.2, clip_on=False)
+    axes.text(0.52, 0.55, "σ = 0: r = ρ", rotation=45, rotation_mode="anchor", ha="center")
+    return rho, lowest
+
+
+def limits(plt):
+    """Figure 1: the limit curves over albedo and reading."""
+    import numpy as np
+
+    from core import reading
+
+    figure, axes = plt.subplots(figsize=(5.6, 5.4))
+    rho, _ = limit_curves(axes, np.pi / 2)
+    for degrees in (20, 45):
+        between = reading.from_albedo(rho, np.radians(degrees))
+        axes.plot(rho, between, "--", color=BLUE, linewidth=1)
+        axes.text(1.02, between[-1], f"σ = {degrees}°", color=BLUE, va="center")
+    axes.text(
+        0.63,
+        0.36,
+        "σ = π/2: r = 0.5590 ρ + 0.1615 ρ²",
+        color=BLUE,
+        rotation=36,
+        rotation_mode="anchor",
+        ha="center",
+    )
+    for value, name in ((1, "1"), (float(reading.white_reading(np.pi / 2)), "0.7205")):
+        axes.text(1.02, value, name, va="center")
+    axes.text(0.1, 0.8, "would need facets\nthat reflect less\nthan is read", color=GRAY)
+    axes.set_title("Feasible curves lie in the triangle")
+    albedo_axes(axes)
     return figure
 
 
-def green(plt):
-    """Figure 4: the spectrum of patch #14 and its place in the a*b* plane."""
+def bright(plt):
+    """Figure 2: the same for a reading with a high peak."""
+    import numpy as np
+
+    from core import reading
+
+    peak = 0.9
+    largest = float(reading.sigma_max(peak))
+    figure, axes = plt.subplots(figsize=(5.6, 5.4))
+    limit_curves(axes, largest)
+    rho = np.linspace(0, 1, 201)
+    axes.plot(rho, reading.from_albedo(rho, np.pi / 2), ":", color=GRAY, linewidth=1.6)
+    axes.text(0.83, 0.5, "σ = π/2", color=GRAY, rotation=37, ha="center")
+    axes.text(
+        0.5,
+        0.37,
+        f"σ = σmax = {np.degrees(largest):.1f}°",
+        color=BLUE,
+        rotation=40,
+        rotation_mode="anchor",
+        ha="center",
+    )
+    axes.plot([0, 1], [peak, peak], "--", color=GRAY, linewidth=1.2)
+    axes.text(0.02, peak + 0.015, f"highest value of the reading: {peak:g}", color="#444444")
+    low = 0.5
+    high = float(reading.to_albedo(np.array([low]), largest)[0])
+    axes.annotate(
+        "",
+        (high, low),
+        (low, low),
+        arrowprops={"arrowstyle": "<->", "color": VERMILION, "shrinkA": 0, "shrinkB": 0},
+    )
+    axes.plot([low, low, high, high], [0, low, low, 0], ":", color=VERMILION, linewidth=1.2)
+    axes.text(
+        (low + high) / 2,
+        0.15,
+        "albedos behind r = 0.5:\nfrom r to ρ(r; σmax)",
+        color=VERMILION,
+        ha="center",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 2},
+    )
+    axes.set_title("A bright reading cuts the triangle")
+    albedo_axes(axes)
+    return figure
+
+
+def patch_14():
+    """Give wavelengths, albedo and two-bounce reading of the patch."""
     import numpy as np
 
     from core import reading
 
     preset = json.loads(GREEN.read_text("utf-8"))
-    band, rho = np.array(preset["wavelengths"]), np.array(preset["values"])
-    sigma = np.radians(SIGMA)
+    rho = np.array(preset["values"])
+    return np.array(preset["wavelengths"]), rho, reading.from_albedo(rho, np.radians(SIGMA))
+
+
+def patch(plt):
+    """Figure 3: albedo and reading of the patch."""
+    band, rho, read = patch_14()
     row = green_rows()[2, "two-bounce"]
-    read = reading.from_albedo(rho, sigma)
-
-    figure, (left, right) = plt.subplots(
-        1, 2, figsize=(11, 4.8), gridspec_kw={"width_ratios": [1.25, 1]}
+    figure, (axes, below) = plt.subplots(
+        2, 1, figsize=(7, 5.6), sharex=True, gridspec_kw={"height_ratios": [2, 1]}
     )
-    left.plot(band, rho, color=BLACK, linewidth=2.2)
-    left.plot(band, read, color=BLUE, linewidth=2.2)
-    left.plot(band, read / row["k"], "--", color=VERMILION, linewidth=1.8)
-    left.text(566, 0.335, "albedo ρ (level surface)", color=BLACK)
-    left.text(566, 0.305, "reading / k, luminance as before", color=VERMILION)
-    left.text(566, 0.275, "reading r at σ = 45°", color=BLUE)
-    left.set_xlim(380, 780)
-    left.set_ylim(0, 0.4)
-    left.set_xlabel("wavelength λ (nm)")
-    left.set_ylabel("reflectance factor")
-    left.set_title("Darker, and a little steeper")
+    axes.plot(band, rho, color=BLACK, linewidth=2.2)
+    axes.plot(band, read, color=BLUE, linewidth=2.2)
+    axes.text(566, 0.335, "albedo ρ", color=BLACK)
+    axes.text(566, 0.295, "reading r at σ = π/4", color=BLUE)
+    axes.set_xlim(380, 780)
+    axes.set_ylim(0, 0.4)
+    axes.set_ylabel("reflectance factor")
+    axes.set_title("ColorChecker #14: darker, and not a simple scaling")
+    below.plot(band, read / rho, color=BLUE, linewidth=2.2)
+    below.axhline(row["k"], color=VERMILION, linestyle="--", linewidth=1.6)
+    below.text(776, row["k"] + 0.004, "of luminance", color=VERMILION, ha="right")
+    below.set_ylim(0.67, 0.74)
+    below.set_ylabel("r / ρ")
+    below.set_xlabel("wavelength λ (nm)")
+    return figure
 
+
+def colors(plt):
+    """Figure 4: two colors with the chromaticities of each and equal lightness; and the plane."""
+    import numpy as np
+
+    row = green_rows()[2, "two-bounce"]
     start = np.array([row["a"], row["b"]])
     end = np.array([row["a_reading"], row["b_reading"]])
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(11, 4.8), gridspec_kw={"width_ratios": [1, 1]}
+    )
+    for place, (name, key) in enumerate((("albedo", "srgb"), ("reading", "srgb_reading"))):
+        left.add_patch(plt.Rectangle((place, 0), 1, 1, facecolor=row[key], edgecolor="none"))
+        a, b = (start, end)[place]
+        left.text(
+            place + 0.5,
+            -0.05,
+            f"a*, b* of the {name}\n{a:.1f}, {b:.1f}".replace("-", "−"),
+            ha="center",
+            va="top",
+        )
+    left.set_xlim(0, 2)
+    left.set_ylim(-0.22, 1)
+    left.axis("off")
+    left.set_title(f"Both at L* = {row['L']:.1f}, the albedo's")
+
     # a* and b* scale with the cube root of luminance far from black.
     dark = start * np.cbrt(row["k"])
     aside = np.array([0.22, 0.27])
@@ -211,8 +256,45 @@ def green(plt):
     right.set_aspect("equal")
     right.set_xlabel("a* (← greener)")
     right.set_ylabel("b* (yellower →)")
-    right.set_title("Less colorful; interreflection works against it")
-    figure.suptitle("ColorChecker #14, σ = 45°, two bounces, D65, 2° observer")
+    right.set_title("Where they lie, and why")
+    figure.suptitle("ColorChecker #14, σ = π/4, two bounces, D65, 2° observer")
+    return figure
+
+
+def ranges(plt):
+    """Figure 5: the albedos that a reading leaves open, band by band."""
+    import numpy as np
+
+    from core import feasible
+
+    band, _, read = patch_14()
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.4), sharex=True)
+    for axes, values, title in zip(
+        panels,
+        (read, read * (0.9 / read.max())),
+        ("The reading of figure 3", "The same shape with a peak of 0.9"),
+        strict=True,
+    ):
+        for model, color, alpha in (("closure", ORANGE, 0.3), ("two-bounce", BLUE, 0.35)):
+            found = feasible.albedo_range(values, model)
+            largest = float(np.degrees(found.sigma_max))
+            axes.fill_between(
+                band,
+                found.lowest,
+                found.highest,
+                color=color,
+                alpha=alpha,
+                linewidth=0,
+                label=f"{model}, σ up to {largest:.1f}°",
+            )
+            axes.plot(band, found.highest, color=color, linewidth=1.5)
+        axes.plot(band, values, color=BLACK, linewidth=2.2, label="reading r")
+        axes.set_xlim(380, 780)
+        axes.set_ylim(0, 1.02 if values.max() > 0.5 else 0.45)
+        axes.set_xlabel("wavelength λ (nm)")
+        axes.set_title(title)
+        axes.legend(loc="upper right", frameon=False)
+    panels[0].set_ylabel("albedo ρ")
     return figure
 
 
@@ -222,7 +304,7 @@ def green_rows():
 
 
 def apart(plt):
-    """Figure 5: darkening and interreflection, model by model."""
+    """Figure 6: darkening and interreflection, model by model."""
     rows = green_rows()
     figure, panels = plt.subplots(1, 2, figsize=(11, 3.9), sharey=True, sharex=True)
     models = ("first-order", "two-bounce", "closure", "reference")
@@ -263,7 +345,7 @@ def apart(plt):
 
 
 def all_bounces(plt):
-    """Figure 6: the bound of figure 2 once every bounce counts."""
+    """Figure 7: the bound of figure 2 once every bounce counts."""
     data = curves()
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(11, 4.4), gridspec_kw={"width_ratios": [1.3, 1]}
@@ -320,7 +402,7 @@ def all_bounces(plt):
 
 
 def patches(plt):
-    """Figure 7: all 24 patches."""
+    """Figure 8: all 24 patches."""
     rows = [row for row in table("report-2007.csv") if row["observer"] == 2]
     names = list(dict.fromkeys(row["patch"] for row in rows))
     colors = {row["patch"]: row["srgb"] for row in rows}
@@ -373,13 +455,14 @@ def patches(plt):
 
 
 FIGURES = {
-    "1-coefficients": coefficients,
-    "2-feasible": feasible,
-    "3-albedo": albedo,
-    "4-green": green,
-    "5-apart": apart,
-    "6-all-bounces": all_bounces,
-    "7-patches": patches,
+    "1-limits": limits,
+    "2-bright": bright,
+    "3-patch": patch,
+    "4-colors": colors,
+    "5-ranges": ranges,
+    "6-apart": apart,
+    "7-all-bounces": all_bounces,
+    "8-patches": patches,
 }
 
 
@@ -416,7 +499,7 @@ def main(arguments):
     from tools.manual import two_pythons
 
     drawing = ("tools/manual/report_2007_figures.py", "--draw")
-    return two_pythons.run(("tools/manual/report_2007.py",), drawing)
+    return two_pythons.run(("tools/manual/report_2007_tables.py",), drawing)
 
 
 if __name__ == "__main__":

@@ -60,18 +60,19 @@ def _start(at, step):
 
 
 @_compiled
-def _along(heights, highest, top, x, y, z, dx, dy, slope, find_hit):
-    """Follow a line over the surface from a point of it.
+def _along(heights, highest, top, x, y, z, dx, dy, slope, find_hit, before=0.0):
+    """Follow a line over the surface from a point of it, or from above if `before` is negative.
 
     `find_hit`: distance at which a ray of that slope meets the surface, or -1 if it leaves.
     Otherwise: the steepest slope under which the surface is seen from there, at least `slope`.
+    `before` is the surface's height over the ray where that starts.
     """
     n = heights.shape[0]
     mask = n - 1
     tx, gx = _start(x, dx)
     ty, gy = _start(y, dy)
     td, gd = _start(x - y, dx - dy)
-    before, before_at = 0.0, 0.0
+    before_at = 0.0
     while True:
         # The next crossing of a line x = i, y = j or x - y = k.
         if tx <= ty and tx <= td:
@@ -299,3 +300,55 @@ def walk(heights, highest, polar, count, seed, orders):
             for azimuth in range(AZIMUTHS):
                 out[:, a, azimuth * ratios + b] *= scale
     return out.reshape(orders, alphas, AZIMUTHS, ratios)
+
+
+@_compiled
+def looks(heights, highest, directions, count, seed, orders):
+    """Trace paths from the eye: a_1 … in each direction, by another way than `walk`.
+
+    Rays come down from the eye to the surface, go on cosine-distributed, and at every point a ray
+    to the light tells whether it is lit. Parameters as in `walk`, but for
+
+    directions
+        θi, θr and Δφ, radians, shape (n, 3).
+
+    Returns
+    -------
+    float64, shape (orders, n).
+    """
+    np.random.seed(seed)
+    n = heights.shape[0]
+    top = heights.max() + 1e-6
+    out = np.zeros((orders, len(directions)))
+    side = int(np.sqrt(count))
+    for which in range(len(directions)):
+        theta_i, theta_r, delta_phi = directions[which]
+        for index in range(side * side):
+            x = ((index // side) + np.random.random()) / side * n
+            y = (index % side + np.random.random()) / side * n
+            turn = 2 * np.pi * np.random.random()
+            if theta_r > 1e-6:
+                # The eye is at azimuth `turn`: its rays go the other way.
+                dx, dy = -np.cos(turn), -np.sin(turn)
+                height = _place(heights, x, y)[0]
+                slope = -1 / np.tan(theta_r)
+                s = _along(heights, highest, top, x, y, top, dx, dy, slope, True, height - top)
+                x, y = x + dx * s, y + dy * s
+            lx, ly = np.cos(turn + delta_phi), np.sin(turn + delta_phi)
+            sine, cosine = np.sin(theta_i), np.cos(theta_i)
+            order = 0
+            while True:
+                z, nx, ny, nz = _place(heights, x, y)
+                value = (nx * lx + ny * ly) * sine + nz * cosine
+                if value > 0 and theta_i > 1e-6:
+                    rise = cosine / sine
+                    if _along(heights, highest, top, x, y, z, lx, ly, rise, True) >= 0:
+                        value = 0.0
+                if value > 0:
+                    out[min(order, orders - 1), which] += value / cosine
+                hit, x, y = _bounce(heights, highest, top, x, y, z, nx, ny, nz)
+                if not hit:
+                    break
+                order += 1
+        out[:, which] /= side * side
+    return out

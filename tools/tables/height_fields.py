@@ -77,6 +77,24 @@ def grains(n: int, radius: float, fill: float, rng: np.random.Generator) -> Arra
     return out
 
 
+def grooves(slopes: Array, n: int, half_width: int) -> Array:
+    """V-grooves with level rims along the second axis, all of one width.
+
+    Parameters
+    ----------
+    slopes
+        Angles of the walls, radians, in order of place; repeated until the field is full.
+    n
+        Points a side.
+    half_width
+        Cells from rim to bottom; n is a multiple of twice as many.
+    """
+    depth = half_width * np.tan(np.resize(slopes, n // (2 * half_width)))
+    shape = np.abs(np.arange(2 * half_width) - half_width) / half_width - 1
+    profile = (depth[:, np.newaxis] * shape).ravel()
+    return np.ascontiguousarray(np.repeat(profile[:, np.newaxis], n, axis=1))
+
+
 def with_slope(heights: Array, rdq: float) -> Array:
     """Scale heights so that the mean square slope of the mesh's facets along an axis is rdq²."""
     return np.asarray(heights * (rdq / slope(heights)))

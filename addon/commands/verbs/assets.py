@@ -25,7 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from ...matching import shaders
 
     parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="the folder")
-    parser.add_argument(
+    sigma = parser.add_mutually_exclusive_group()
+    sigma.add_argument(
         "--sigma",
         type=float,
         nargs="+",
@@ -33,6 +34,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DEGREES",
         help="roughnesses, each of which every sample gets; without any, what the samples say",
     )
+    for name, formula in (("rdq", "tan σ"), ("sdq", "√2 tan σ")):
+        sigma.add_argument(
+            f"--{name}",
+            type=float,
+            nargs="+",
+            default=[],
+            metavar="SLOPE",
+            help=f"the same as a profilometer's {name.title()} = {formula}",
+        )
     parser.add_argument(
         "--collection",
         nargs="+",
@@ -63,6 +73,7 @@ def run(options: argparse.Namespace) -> int:
     """Build the library; exit status 0."""
     from ...assets import build, plan
     from ...material import preferences
+    from ...samples.stated_sigma import StatedSigma
     from ..progress import ProgressLine, counted
 
     folder = options.library or preferences.user_folder()
@@ -73,7 +84,12 @@ def run(options: argparse.Namespace) -> int:
     ]
     if not (options.collection or options.preset or options.file):
         chosen = plan.of_collection("colorchecker")
-    assets = plan.assets(chosen, options.sigma, build.LONGEST_NAME)
+    sigma = [
+        *map(StatedSigma, options.sigma),
+        *(StatedSigma(rdq=slope) for slope in options.rdq),
+        *(StatedSigma(sdq=slope) for slope in options.sdq),
+    ]
+    assets = plan.assets(chosen, sigma, build.LONGEST_NAME)
     settings = build.Settings(
         model=options.model,
         illuminant=options.illuminant,

@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg, kind; a sample without a file is a preset or of the library",
+        "sigma_deg (or rdq, or sdq), kind; a sample without a file is a preset or of the library",
     )
     source.add_argument(
         "--by-name",
@@ -48,11 +48,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="a material, repeatable: of --preset, or the only ones of --by-name",
     )
-    parser.add_argument(
+    sigma = parser.add_mutually_exclusive_group()
+    sigma.add_argument(
         "--sigma",
         type=float,
         metavar="DEGREES",
         help="roughness of all of them, whatever the files say; without it what they say, or 0",
+    )
+    sigma.add_argument(
+        "--rdq", type=float, metavar="SLOPE", help="the same as a profilometer's Rdq = tan σ"
+    )
+    sigma.add_argument(
+        "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
     )
     parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")

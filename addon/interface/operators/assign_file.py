@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -63,9 +62,9 @@ class ROUGHSPECTRA_OT_assign_file(common.AssignOptions, bpy.types.Operator):
             samples = readers.read(bpy.path.abspath(self.filepath))
             if len(samples) > 1 and not self.sample and not bpy.app.background:
                 return self._ask(samples)
-            sample = _choose(samples, self.sample, self.filepath)
+            sample = choose(samples, self.sample, self.filepath)
             if self.kind != AS_FILE:
-                sample = replace(sample, kind=self.kind)
+                sample = sample.taken_as(self.kind)
             request = common.request_in_scope(context, self.scope, sample, self.sigma)
             assigned = common.assign_in_scope(context, self.scope, request, self.shader)
         except RoughSpectraError as error:
@@ -126,7 +125,14 @@ class ROUGHSPECTRA_OT_assign_file_sample(common.AssignOptions, bpy.types.Operato
             return {"CANCELLED"}
 
 
-def _choose(samples: list[Any], name: str, path: str) -> Any:
+def choose(samples: list[Any], name: str, path: str) -> Any:
+    """Give the sample of a file that has this name, or its only one.
+
+    Raises
+    ------
+    InputError
+        If none is called so, or several are there and none is named.
+    """
     if not name:
         if len(samples) == 1:
             return samples[0]

@@ -48,7 +48,7 @@ def _fill() -> None:
 
 
 def _about(entry: Any) -> str:
-    what = "Reading" if entry.kind == "reading" else "Albedo"
+    what = entry.kind.capitalize()
     sigma = "" if entry.sigma_degrees is None else f", σ {entry.sigma_degrees:g}°"
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 

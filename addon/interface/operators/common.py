@@ -14,7 +14,8 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, FloatProperty
 
-from ....core.errors import MaterialError, RoughSpectraError
+from ....core import limits
+from ....core.errors import InputError, MaterialError, RoughSpectraError
 from ...material.properties import SHADER_ITEMS, SIGMA
 
 if TYPE_CHECKING:
@@ -85,14 +86,24 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
 
 
 def new_request(sample: Sample, sigma: float) -> Request:
-    """Give the request of a new material, with the user's preferences."""
-    from ...matching.request import Request
-    from ...material import preferences
+    """Give the request of a new material, with the user's preferences.
 
+    Raises
+    ------
+    InputError
+        If no material has this σ, as a file of an earlier version may state it.
+    """
+    from ...matching.request import Request
+    from ...material import preferences, snapshot
+
+    degrees = snapshot.entered_degrees(sigma)
+    if fault := limits.sigma_fault(degrees):
+        msg = f"{sample.source or 'Sample'}, {sample.name!r}: {fault}"
+        raise InputError(msg)
     chosen = preferences.defaults()
     return Request(
         sample,
-        sigma,
+        radians(degrees),
         illuminant=chosen.illuminant,
         observer=chosen.observer,
         tolerance=chosen.tolerance,
@@ -106,18 +117,27 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, st
     ----------
     material
         A `bpy.types.Material`, or None where it has yet to be made.
-    """
-    from ...material import snapshot, storage
 
-    fresh = new_request(sample, radians(sample.sigma_degrees or 0.0))
+    Raises
+    ------
+    MaterialError
+        If the material keeps a σ of an earlier version, which is the user's to change.
+    """
+    from ...material import snapshot, state, storage
+
+    own = radians(sample.sigma_degrees or 0.0)
     if material is None or not snapshot.has_spectrum(material):
-        return fresh, "AUTO"
+        return new_request(sample, own), "AUTO"
     shader = material.rough_spectra.shader
+    beyond = state.beyond(snapshot.sigma_degrees(material.rough_spectra))
+    if beyond:
+        msg = f"Material {material.name!r}: {beyond}."
+        raise MaterialError(msg)
     try:
         return replace(storage.load(material), sample=sample), shader
     except MaterialError:
         # What is stored is damaged: assigning anew is what mends it.
-        return fresh, shader
+        return new_request(sample, own), shader
 
 
 def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> Request:
@@ -126,10 +146,13 @@ def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> 
     The active material keeps its light, model and tolerance, as with `replacing_request`; several
     materials, which may differ, get the user's preferences.
     """
-    if scope != "ACTIVE":
-        return new_request(sample, sigma)
-    request, _ = replacing_request(active_material(context), sample)
-    return replace(request, sigma=sigma)
+    from ...material import snapshot
+
+    fresh, material = new_request(sample, sigma), active_material(context)
+    if scope != "ACTIVE" or material is None or not snapshot.has_spectrum(material):
+        return fresh
+    request, _ = replacing_request(material, sample)
+    return replace(request, sigma=fresh.sigma)
 
 
 def begin_with_sigma(operator: Any, context: Any) -> None:
@@ -209,9 +232,11 @@ def assign_from_library(
     from ...samples import library
 
     sample = library.load(name, preferences.user_folder())
+    sigma = operator.sigma
     if not operator.properties.is_property_set("sigma"):
-        operator.sigma = radians(sample.sigma_degrees or 0.0)
-    request = request_in_scope(context, operator.scope, sample, operator.sigma)
+        sigma = radians(sample.sigma_degrees or 0.0)
+        operator.sigma = sigma  # Blender holds it within the slider: what counts is the sample's
+    request = request_in_scope(context, operator.scope, sample, sigma)
     return sample, assign_in_scope(context, operator.scope, request, operator.shader)
 
 

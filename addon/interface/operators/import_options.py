@@ -71,7 +71,7 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
             request = common.new_request(active.sample, _sigma(operator, active.sample))
             assigned = common.assign_in_scope(context, operator.scope, request, operator.shader)
         elif operator.materials == "CREATE":
-            assigned = _create(operator, chosen)
+            assigned = _create(operator, _colored(operator, chosen))
     except RoughSpectraError as error:
         common.report_error(operator, f"{error} Nonetheless, {said}." if said else error)
         return {"CANCELLED"}
@@ -92,6 +92,17 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
 def _sigma(operator: Any, sample: Sample) -> float:
     """Give the roughness: what the file states comes before the field."""
     return operator.sigma if sample.sigma_degrees is None else radians(sample.sigma_degrees)
+
+
+def _colored(operator: Any, chosen: Sequence[Found]) -> list[Found]:
+    """Leave out what no material can be made from, and say so; without anything left, refuse."""
+    found = [each for each in chosen if each.sample.has_color]
+    if not found:
+        common.new_request(chosen[0].sample, 0.0)  # says why
+    if len(found) < len(chosen):
+        text = rpt_("{} samples have no color and made no material; they serve for emissivity")
+        operator.report({"WARNING"}, text.format(len(chosen) - len(found)))
+    return found
 
 
 def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]]:

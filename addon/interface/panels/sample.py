@@ -62,12 +62,12 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
 
 def _draw_sigma_range(layout: Any, last: derivation.Stamp | None) -> None:
     """Draw how far σ may go, to the scale of the slider above."""
-    if last is None or last.sigma_max is None:
+    if last is None or last.sigma_max is None or last.sigma_max >= limits.MATCHED_SIGMA_DEGREES:
         return
     split = layout.split(factor=_LABELS)
     split.label(text="")
     words = iface_("Fits up to {degrees}°").format(degrees=f"{last.sigma_max:.1f}")
-    split.progress(text=words, factor=last.sigma_max / limits.LARGEST_SIGMA_DEGREES, type="BAR")
+    split.progress(text=words, factor=last.sigma_max / limits.MATCHED_SIGMA_DEGREES, type="BAR")
 
 
 def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:

@@ -5,12 +5,14 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
+from ....core import limits, roughness
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
@@ -147,16 +149,34 @@ def scene(found: Snapshot, name: str, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
-def source(cited: str, details: str, sigma: str, how: Style) -> tuple[tuple[Sentence, ...], ...]:
-    """Say where a spectrum and its σ come from; what the file says of itself stands together."""
+def source(
+    cited: str, details: str, sigma: tuple[float, str], how: Style
+) -> tuple[tuple[Sentence, ...], ...]:
+    """Say where a spectrum and its σ come from; what the file says of itself stands together.
+
+    `sigma` is σ in degrees and its source.
+    """
     about, notes = _details(details)
-    write = how.format.sentence
-    told = [write(f"{iface_('σ from')}: {sigma}", "FORCE_TURBULENCE")] if sigma else []
+    write, (degrees, stated) = how.format.sentence, sigma
+    told = [write(f"{iface_('σ from')}: {stated}", "FORCE_TURBULENCE")] if stated else []
+    slopes = _slopes(degrees)
+    if slopes:
+        told.append(write(slopes, "BLANK1" if told else "FORCE_TURBULENCE"))
     return (
         (write(cited or iface_("The source is not known"), "FILE"),),
         tuple(write(f"{iface_(label)}: {value}") for label, value in about),
         (*told, *(write(text, "INFO") for text in notes)),
     )
+
+
+def _slopes(degrees: float) -> str:
+    """Give σ as a profilometer states it; empty where no surface has it."""
+    if not 0 <= degrees <= limits.MATCHED_SIGMA_DEGREES:
+        return ""
+    sigma = math.radians(degrees)
+    rdq, sdq = roughness.rdq_from_sigma(sigma), roughness.sdq_from_sigma(sigma)
+    text = iface_("σ {degrees}° is an Rdq of {rdq} and an Sdq of {sdq}")
+    return text.format(degrees=f"{degrees:.4g}", rdq=f"{rdq:.3f}", sdq=f"{sdq:.3f}")
 
 
 def _capital(reason: str) -> str:

@@ -70,7 +70,7 @@ def _sheet(canvas: Array, found: Data, look: Look) -> list[Line]:
 
 def _spectrum(canvas: Array, found: Data, look: Look) -> list[Line]:
     curves = (found.wavelengths, found.albedo, found.reading)
-    return figures.spectrum(canvas, *curves, found.bars, look)
+    return figures.spectrum(canvas, *curves, found.bars, look, found.open_albedos)
 
 
 def _angles(canvas: Array, found: Data, look: Look) -> list[Line]:

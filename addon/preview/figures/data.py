@@ -62,6 +62,9 @@ class Data:
         Colors of the reading: wanted, and in Blender.
     wavelengths, albedo, reading
         Nanometers and fractions, shape (bands,); the reading is the virtual instrument's.
+    open_albedos
+        Lowest and highest albedo, each (bands,), that the sample's reading leaves open while σ is
+        unknown; None where there is no such range.
     bars
         First and last wavelength, and value, of Blender's blue, green and red.
     view
@@ -87,6 +90,7 @@ class Data:
     sigma: float
     sigma_max: float | None
     engine: str
+    open_albedos: tuple[Array, Array] | None = None
 
 
 def of_request(
@@ -139,6 +143,7 @@ def of_request(
         sigma=float(np.degrees(request.sigma)),
         sigma_max=surface_spectra.sigma_max(request),
         engine=engine,
+        open_albedos=surface_spectra.open_albedos(request),
     )
 
 

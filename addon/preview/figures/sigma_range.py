@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....core.limits import LARGEST_SIGMA_DEGREES as MOST
+from ....core.limits import MATCHED_SIGMA_DEGREES as MOST
 from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
 from ..drawing import raster, text
@@ -16,7 +16,7 @@ from .plot import Size
 
 
 def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look) -> None:
-    """Draw which roughness fits the reading, from 0 to 90°, and the one that is set.
+    """Draw which roughness fits the reading, up to the end of the slider, and the one that is set.
 
     What does not fit is hatched. A third of the height is the mark of the current value, a third
     the bar; the rest is for the largest value that fits, written where there is room.

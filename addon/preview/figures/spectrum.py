@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Albedo and reading over wavelength."""
+"""Albedo and reading over wavelength, and the albedos that the reading leaves open."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from .plot import Axes, Key, Size
 SHOWN_NM = (380.0, 730.0)
 """Wavelengths shown; the eye sees next to nothing beyond."""
 _NM_TICKS = (400, 500, 600, 700)
+_OPEN = 0.3
+"""How much of its color the range of albedos lays over what is behind it."""
 _BAND = 5.0
 """Height of the color band under the spectrum, at scale 1."""
 
@@ -38,6 +40,7 @@ def spectrum(
     reading: Array,
     bars: Sequence[tuple[float, float, float]],
     look: Look,
+    open_albedos: tuple[Array, Array] | None = None,
 ) -> list[Line]:
     """Show albedo and reading over wavelength, and the three numbers that Blender keeps.
 
@@ -49,17 +52,24 @@ def spectrum(
         Fractions, shape (bands,).
     bars
         First and last wavelength, and value, of blue, green and red: see `data.rgb_bars`.
+    open_albedos
+        Lowest and highest albedo at any σ, each (bands,), to be shaded; None for nothing.
 
     Returns
     -------
     The curves, which are not drawn yet.
     """
     shown = (wavelengths > SHOWN_NM[0] - 50) & (wavelengths < SHOWN_NM[1] + 50)
-    peak = max(*(float(c[shown].max(initial=0)) for c in (albedo, reading)), *(b[2] for b in bars))
-    size = canvas.shape[1], canvas.shape[0]
+    curves = (albedo, reading) if open_albedos is None else (albedo, reading, open_albedos[1])
+    peak = max(*(float(c[shown].max(initial=0)) for c in curves), *(b[2] for b in bars))
+    size, top = (canvas.shape[1], canvas.shape[0]), plot.ceiling(peak)
     axes, ground, (for_reading, for_albedo, for_bars) = _spectrum_ground(
-        size, look, plot.ceiling(peak)
+        size, look, top, open_albedos is not None
     )
+    nm = _thinned(wavelengths[shown], axes)
+    if open_albedos is not None:
+        sides = (np.interp(nm, wavelengths, values) for values in open_albedos)
+        ground = _shaded(size, look, top, nm.tobytes(), *(side.tobytes() for side in sides))
     canvas[:] = ground
     half = for_bars.width * look.scale / 2
     first, last = axes.x
@@ -68,7 +78,6 @@ def spectrum(
     y = axes.down(np.maximum(spans[2], 0.0))
     for box in zip(left, y - half, right, y + half, strict=True):
         raster.rectangle(canvas, box, for_bars.color)
-    nm = _thinned(wavelengths[shown], axes)
     return [
         plot.curve(canvas, axes, nm, np.interp(nm, wavelengths, values), key, look)
         for values, key in ((albedo, for_albedo), (reading, for_reading))
@@ -83,9 +92,28 @@ def _spectrum_keys(look: Look) -> tuple[Key, Key, Key]:
     )
 
 
+def _open_key(look: Look) -> Key:
+    return Key("any σ", look.faint, 6.0)
+
+
+@memoized(maxsize=16)
+def _shaded(size: Size, look: Look, top: float, nm: bytes, low: bytes, high: bytes) -> Array:
+    """Give the ground with the range of albedos laid over it: the same while σ is dragged."""
+    axes, ground, _ = _spectrum_ground(size, look, top, True)
+    canvas = ground.copy()
+    across = np.frombuffer(nm)
+    below, above = (
+        axes.place(across, np.minimum(np.maximum(np.frombuffer(side), 0), top))
+        for side in (low, high)
+    )
+    outline = np.concatenate((below, above[::-1]))
+    raster.polygon(canvas, [outline], _open_key(look).color, _OPEN)
+    return canvas
+
+
 @memoized(maxsize=16)
 def _spectrum_ground(
-    size: Size, look: Look, top: float
+    size: Size, look: Look, top: float, is_open: bool
 ) -> tuple[Axes, Array, tuple[Key, Key, Key]]:
     """Give all that does not change with the curves: where they go, what is behind, their keys."""
     axes, keys = spectrum_axes(size, look, top), _spectrum_keys(look)
@@ -97,7 +125,8 @@ def _spectrum_ground(
     row = axes.bottom + gap + (_BAND + 3) * look.scale + text.height(look.font)
     ticks = [(nm, f"{nm} nm" if nm == _NM_TICKS[-1] else f"{nm}") for nm in _NM_TICKS]
     plot.name_below(canvas, axes, ticks, row, look)
-    plot.draw_legend(canvas, keys, axes.left, look)
+    shown = (*keys, _open_key(look)) if is_open else keys
+    plot.draw_legend(canvas, shown, axes.left, look)
     return axes, canvas, keys
 
 

@@ -41,11 +41,16 @@ def predicted(readings: Readings) -> bytes:
     bands = sorted({nm for _, part in rows for nm in part.wavelengths})
     lights = {_viewing(part) for _, part in rows}
     comments = _comments("predicted by the core from the stored spectrum", lights)
+    comments.append("albedo min, albedo max: what the sample's reading leaves open at any sigma")
     header = ["material", "surface", "sample", "sigma_deg", "model", "illuminant", "observer"]
     header += ["X", "Y", "Z", "L*", "a*", "b*", *(f"{nanometers(nm)} nm" for nm in bands)]
+    header += [f"albedo {end} {nanometers(nm)} nm" for nm in bands for end in ("min", "max")]
     lines = []
     for entry, part in rows:
         at = dict(zip(part.wavelengths, part.values, strict=True))
+        sides = (part.albedo_lowest, part.albedo_highest)
+        # Empty where no roughness fits.
+        albedos = dict(zip(part.wavelengths, zip(*sides, strict=True), strict=False))
         lines.append(
             [
                 to_cell(entry.material),
@@ -57,9 +62,14 @@ def predicted(readings: Readings) -> bytes:
                 str(part.observer),
                 *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
                 *(f"{at[nm]:.6f}" if nm in at else "" for nm in bands),
+                *(
+                    "" if end is None else f"{end:.6f}"
+                    for nm in bands
+                    for end in albedos.get(nm, (None, None))
+                ),
             ]
         )
-    return _csv(comments, header, lines)
+    return csv_of(comments, header, lines)
 
 
 def measured(readings: Readings) -> bytes:
@@ -82,7 +92,7 @@ def measured(readings: Readings) -> bytes:
         ]
         for entry, part in rows
     ]
-    return _csv(comments, header, lines)
+    return csv_of(comments, header, lines)
 
 
 def nanometers(wavelength: float) -> str:
@@ -120,7 +130,8 @@ def _guarded(found: re.Match[str]) -> str:
     return f"{found[1]}'{found[2]}"
 
 
-def _csv(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
+def csv_of(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
+    """Give a table: comments, the names of its columns, and its rows, cells as `to_cell` gives."""
     text = io.StringIO()
     text.writelines(f"# {_DELIMITED.sub(_guarded, printable(line))}\n" for line in comments)
     table = csv.writer(text, lineterminator="\n")

@@ -22,13 +22,17 @@ def poll(context: Any) -> bool:
 
 def draw(layout: Any, context: Any) -> None:
     """Draw source, what the file says of the measurement, and every note."""
+    from ....material import snapshot
     from ...operators import common
     from .. import redraw, sentences, text
 
     material: Any = common.active_material(context)
     group, here = material.rough_spectra, redraw.current(context)
     cited, about, notes = sentences.source(
-        group.source, group.details, group.sigma_source, here.style
+        group.source,
+        group.details,
+        (snapshot.sigma_degrees(group), group.sigma_source),
+        here.style,
     )
     text.draw(layout, cited)
     text.draw(layout.column(align=True), about)

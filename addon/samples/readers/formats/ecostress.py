@@ -3,7 +3,7 @@
 """Files of the ECOSTRESS spectral library, and of the ASTER library before it.
 
 Lines ``Key: value``, among them the units of both columns, a blank line, two columns. Many files
-begin with the longest wavelength, and some hold transmittance or emissivity.
+begin with the longest wavelength, and some hold emissivity or transmittance.
 
 Source: S. K. Meerdink, S. J. Hook, D. A. Roberts and E. A. Abbott, "The ECOSTRESS spectral library
 version 1.0" (Remote Sensing of Environment 230, 2019); https://speclib.jpl.nasa.gov.
@@ -16,7 +16,7 @@ import re
 
 import numpy as np
 
-from ...sample import Sample, check_spectrum
+from ...sample import Kind, Sample, check_spectrum
 from ..parts import (
     band_order,
     geometry_words,
@@ -39,11 +39,12 @@ _COLUMNS = ("wavelength", "value")
 # In the words of `Y Units` and of `Measurement`; what matches first is meant.
 _REFUSED = (
     (re.compile("transmi", re.IGNORECASE), "transmittance"),
-    (re.compile("emissi|emittance", re.IGNORECASE), "emissivity"),
     (re.compile("absor", re.IGNORECASE), "absorbance"),
     (re.compile("radiance", re.IGNORECASE), "radiance"),
 )
 _REFLECTANCE = re.compile("reflect", re.IGNORECASE)
+_EMISSIVITY = re.compile("emissivit|emittance", re.IGNORECASE)
+_RATIO = "The file does not say percent: an emissivity is a ratio, and is taken as such."
 _PERCENT = re.compile("percent|%", re.IGNORECASE)
 _FRACTION = re.compile(r"fraction|unitless|decimal|0\s*(?:-|to)\s*1", re.IGNORECASE)
 
@@ -60,11 +61,11 @@ def read(document: Document) -> list[Sample]:
     Raises
     ------
     InputError
-        The values are no reflectance, a unit is missing or not known, rows are missing, or the
-        spectrum is not one (`check_spectrum`).
+        The values are neither reflectance nor emissivity, a unit is missing or not known, rows are
+        missing, or the spectrum is not one (`check_spectrum`).
     """
     keys, top = _header(document)
-    scale = _scale(document, keys)
+    kind, scale, said = _values(document, keys)
     factor = _nanometers_per_unit(document, keys)
     table = tables.rows(document, tables.SPACES, skip=top)
     block = tables.numbers(document, table, _COLUMNS, (0, 1))
@@ -80,18 +81,20 @@ def read(document: Document) -> list[Sample]:
     )
     measurement = _text(keys, "measurement")
     instrument, note = geometry_words.instrument_of(measurement)
+    if kind == "emissivity":
+        instrument, note = geometry_words.EMITTING, geometry_words.EMITTED
     return [
         Sample(
             name=" ".join(_text(keys, "name").split()) or document.path.stem,
             wavelengths=wavelengths,
             values=values,
-            kind="reading",
-            quantity=_quantity(measurement),
+            kind=kind,
+            quantity=_quantity(measurement, kind),
             instrument=instrument,
             geometry=measurement,
             source=str(document.path),
             position=f"lines {block.lines[0]} to {block.lines[-1]}",
-            notes=(*notes, *filter(None, [note])),
+            notes=(*notes, *filter(None, [said, note])),
             altered=altered,
         )
     ]
@@ -121,25 +124,36 @@ def _text(keys: dict[str, Row], key: str) -> str:
     return keys[key].fields[0] if key in keys else ""
 
 
-def _scale(document: Document, keys: dict[str, Row]) -> float:
-    """Return what to divide by; refuse other quantities by their names."""
+def _values(document: Document, keys: dict[str, Row]) -> tuple[Kind, float, str]:
+    """Return the kind, what to divide by, and a note; refuse other quantities by their names."""
     units = keys["y units"]
     for key in ("y units", "measurement"):
         for pattern, quantity in _REFUSED:
             if pattern.search(_text(keys, key)):
                 raise document.not_reflectance(f"line {keys[key].line}", quantity)
     text = units.fields[0]
-    if not _REFLECTANCE.search(text):
+    emits, reflects = bool(_EMISSIVITY.search(text)), bool(_REFLECTANCE.search(text))
+    measured = _text(keys, "measurement")
+    if reflects and (emits or _EMISSIVITY.search(measured)):
         raise document.error(
-            f"line {units.line}", f"the values are {quote(text)}, which is not reflectance"
+            f"line {units.line}",
+            f"{quote(text)} and the measurement {quote(measured)} name both reflectance and "
+            "emissivity; make them agree",
+        )
+    if not emits and not reflects:
+        raise document.error(
+            f"line {units.line}",
+            f"the values are {quote(text)}, which is neither reflectance nor emissivity",
         )
     percent, fraction = bool(_PERCENT.search(text)), bool(_FRACTION.search(text))
+    if emits and not percent:
+        return "emissivity", 1.0, "" if fraction else _RATIO
     if percent == fraction:
         raise document.error(
             f"line {units.line}",
             f"{quote(text)} says neither percent nor fraction; add the one that is meant",
         )
-    return 100.0 if percent else 1.0
+    return "emissivity" if emits else "reading", 100.0 if percent else 1.0, ""
 
 
 def _nanometers_per_unit(document: Document, keys: dict[str, Row]) -> float:
@@ -177,8 +191,10 @@ def _check_count(document: Document, keys: dict[str, Row], block: Block) -> tupl
     )
 
 
-def _quantity(measurement: str) -> str:
+def _quantity(measurement: str, kind: Kind) -> str:
     text = measurement.lower()
+    if kind == "emissivity":
+        return "directional emissivity" if "direction" in text else "emissivity"
     if "hemispher" in text:
         return "directional-hemispherical reflectance"
     return "bidirectional reflectance" if "bidirectional" in text else "reflectance"

@@ -4,8 +4,9 @@
 
 An object with ``format`` ("rough-spectra-library"), ``schema`` (1) and ``samples``: an array of
 objects with the fields of `Sample`, of which ``name``, ``kind``, ``wavelengths`` (nm) and
-``values`` (fractions) are needed. A sample's ``id`` tells it from the others of the file. Other
-fields may stand beside them, and stay there when the library is written again.
+``values`` (fractions) are needed. ``rdq`` or ``sdq`` may state the roughness instead of
+``sigma_degrees``. A sample's ``id`` tells it from the others of the file. Other fields may stand
+beside them, and stay there when the library is written again.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ import numpy as np
 
 from .....core.errors import InputError
 from .....core.instruments import REGISTRY
-from ...sample import KINDS, Sample, check_spectrum
+from ...sample import KINDS, KINDS_NAMED, Sample, check_spectrum
+from ...stated_sigma import FIELDS, StatedSigma
 from ..parts.document import Document, quote
 
 NAME = "Rough Spectra library"
@@ -147,6 +149,10 @@ def _sample(
         if not holds(value):
             raise document.error(place, f"the field {field.name!r} must be {demand}")
         given[field.name] = tuple(value) if isinstance(value, list) else value
+    sigma = _stated_sigma(document, place, fields)
+    if sigma.slope:
+        given["sigma_degrees"] = sigma.settled
+        given["sigma_source"] = sigma.source(given.get("sigma_source", ""))
     if given.get("instrument", "45a:0") not in REGISTRY:
         raise document.error(place, f"'instrument' must be one of {', '.join(REGISTRY)}")
     numbers = {key: fields.get(key) for key in ("wavelengths", "values")}
@@ -170,6 +176,18 @@ def _sample(
         raise
 
 
+def _stated_sigma(document: Document, place: str, fields: dict[str, Any]) -> StatedSigma:
+    for name in FIELDS:
+        value = fields.get(name)
+        if value is not None and not _is_number(value):
+            raise document.error(place, f"the field {name!r} must be a number or null")
+    sigma = StatedSigma(*(fields.get(name) for name in FIELDS))
+    _, fault = sigma.fault()
+    if fault:
+        raise document.error(place, fault)
+    return sigma
+
+
 def _brackets(text: str) -> int:
     return text.count("{") + text.count("[")
 
@@ -190,7 +208,7 @@ def _are_texts(value: Any) -> bool:
 
 _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "str": (lambda value: isinstance(value, str), "a text"),
-    "Kind": (lambda value: value in KINDS, "'reading' or 'albedo'"),
+    "Kind": (lambda value: value in KINDS, KINDS_NAMED),
     "float | None": (lambda value: value is None or _is_number(value), "a number or null"),
     "int | None": (lambda value: value is None or type(value) is int, "a whole number or null"),
     "tuple[float, float, float] | None": (

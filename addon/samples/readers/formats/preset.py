@@ -9,7 +9,7 @@ from typing import Any
 
 from ...sample import Sample, check_spectrum
 from ..parts.document import Document
-from ..parts.preset_fields import FORMAT, faults
+from ..parts.preset_fields import FORMAT, faults, stated_sigma
 
 NAME = "Rough Spectra preset"
 ENDINGS = ("json",)
@@ -56,7 +56,7 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         f"{document.path}, fields 'wavelengths' and 'values'",
         lambda band: f"number {band + 1}",
     )
-    sigma = fields["sigma_degrees"]
+    sigma = stated_sigma(fields)
     optional: dict[str, Any] = {
         name: tuple(fields[name]) if isinstance(fields[name], list) else fields[name]
         for name in _OPTIONAL
@@ -68,8 +68,8 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         values=values,
         kind=fields["kind"],
         instrument=fields["instrument"],
-        sigma_degrees=None if sigma is None else float(sigma),
-        sigma_source=fields["sigma_source"],
+        sigma_degrees=sigma.settled,
+        sigma_source=sigma.source(fields["sigma_source"]),
         source=fields["source"],
         license=fields["license"],
         **optional,

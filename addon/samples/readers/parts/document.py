@@ -19,6 +19,7 @@ HEAD = 2**16  # how much a sniffer sees; metadata before a table is a few kB at 
 
 OTHER_QUANTITIES = {
     "emission": "emission (the spectrum of a light source)",
+    "emissivity": "emissivity",
     "transmittance": "transmittance (light through the sample)",
     "absorbance": "absorbance (a logarithm)",
     "counts": "raw detector counts",

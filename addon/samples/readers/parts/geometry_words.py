@@ -16,6 +16,12 @@ from .document import quote
 ASSUMED = "45a:0"
 """Where a file says nothing: the geometry of most portable instruments, and of ISO 13655."""
 
+EMITTING = "di:8"
+"""Of emissivities: 1 - ε is what a sphere around the sample reads, whatever measured it."""
+
+EMITTED = "Emissivity is taken as seen from near the normal: 1 - ε is what a sphere reads (di:8°)."
+"""The note that says so."""
+
 _OTHER = "is not among the instruments"
 _LONGEST = 200  # characters of a description that are looked at
 _NUMBER = r"([-+]?\d+(?:[.,]\d+)?)"

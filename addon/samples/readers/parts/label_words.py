@@ -44,7 +44,11 @@ _UNITS = {
     **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),
     **dict.fromkeys(("percent", "%", "pct"), 100.0),
 }
-_KINDS: dict[str, Kind] = {"reading": "reading", "albedo": "albedo"}
+_KINDS: dict[str, Kind] = {
+    "reading": "reading",
+    "albedo": "albedo",
+    "emissivity": "emissivity",
+}
 _WAVELENGTH_UNITS = {
     **dict.fromkeys(("nm", "nanometer", "nanometers", "nanometre", "nanometres"), "nm"),
     **dict.fromkeys(("um", "µm", "μm", "micron", "microns", "micrometer", "micrometers"), "µm"),

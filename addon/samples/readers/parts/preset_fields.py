@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .....core.instruments import REGISTRY
-from .....core.limits import LARGEST_SIGMA_DEGREES
-from ...sample import KINDS
+from .....core.limits import LARGEST_SIGMA_DEGREES, MATCHED_SIGMA_DEGREES, sigma_fault
+from ...sample import KINDS, KINDS_NAMED
+from ...stated_sigma import FIELDS, StatedSigma
 from .document import quote
 
 FORMAT = "rough-spectra-preset"
@@ -53,6 +54,25 @@ def faults(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
                 yield name, fault
         elif rule.required:
             yield name, f"it is missing and {rule.demand}"
+    if not any(name in fields for name in FIELDS):
+        yield FIELDS.degrees, f"it is missing and {RULES[FIELDS.degrees].demand}"
+    elif all(RULES[name].fault(fields[name]) == "" for name in FIELDS if name in fields):
+        name, fault = stated_sigma(fields).fault()
+        if fault:
+            yield name, fault
+
+
+def beyond(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Give a σ that no material has. A file may keep it: another one can be chosen."""
+    sigma = fields.get(FIELDS.degrees)
+    if is_number(sigma) and MATCHED_SIGMA_DEGREES < sigma <= LARGEST_SIGMA_DEGREES:
+        yield FIELDS.degrees, sigma_fault(sigma).rstrip(".")
+
+
+def stated_sigma(fields: dict[str, Any]) -> StatedSigma:
+    """Give what fields without a fault state of σ."""
+    given = {name: fields.get(name) for name in FIELDS}
+    return StatedSigma(*(None if value is None else float(value) for value in given.values()))
 
 
 def unknown(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
@@ -134,13 +154,14 @@ RULES: dict[str, Rule] = {
     "name": _text(required=True),
     "source": _text(required=True),
     "license": _text(required=True),
-    "kind": _rule(lambda value: value in KINDS, "must be 'reading' or 'albedo'", required=True),
+    "kind": _rule(lambda value: value in KINDS, f"must be {KINDS_NAMED}", required=True),
     "instrument": _choice(tuple(REGISTRY), required=True),
     "sigma_degrees": _rule(
         _is_sigma,
-        f"must be a number from 0 to {LARGEST_SIGMA_DEGREES:.0f}, or null if nobody knows",
-        True,
+        f"must be a number from 0 to {MATCHED_SIGMA_DEGREES:.0f}, or null if nobody knows",
     ),
+    "rdq": _rule(is_number, "must be a number, the rms slope of a profile"),
+    "sdq": _rule(is_number, "must be a number, the rms slope of an area"),
     "sigma_source": _text(required=True),
     "quantity": _text(),
     "geometry": _text(),

@@ -34,6 +34,7 @@ _OTHERS = (
         "absorbance",
     ),
     (re.compile(r"kubelka|\bk\s*/\s*s\b|f\(r\)", re.IGNORECASE), "Kubelka-Munk values (K/S)"),
+    (re.compile(r"emissivit|emittance", re.IGNORECASE), "emissivity"),
     (re.compile(r"emissi|emitted|fluorescence|luminescence", re.IGNORECASE), "emission"),
     (re.compile(r"\bcounts?\b|\bscope\b|digital number|\bdn\b", re.IGNORECASE), "counts"),
     (

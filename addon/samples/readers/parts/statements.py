@@ -15,7 +15,7 @@ from .....core.instruments import REGISTRY
 from .....core.numerics.memoized import memoized
 from ...sample import Sample
 from .document import Document
-from .geometry_words import instrument_of, specular_of
+from .geometry_words import EMITTED, EMITTING, instrument_of, specular_of
 from .label_words import Comments
 from .series import Bands
 
@@ -136,6 +136,9 @@ def make(
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
+    if said.kind == "emissivity":
+        texts |= {"quantity": "emissivity", "instrument": EMITTING}
+        notes = (*notes, EMITTED)
     return Sample(
         name=name,
         wavelengths=found.wavelengths,

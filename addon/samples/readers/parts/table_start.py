@@ -56,7 +56,7 @@ def find_start(document: Document) -> int:
 
 
 def above(document: Document, start: int, said: label_words.Comments) -> dict[str, Any]:
-    """Return what the lines above the table say of its samples, and note units in `said`.
+    """Return what the lines above the table say of its samples; note units and kind in `said`.
 
     Raises
     ------
@@ -73,7 +73,9 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
             found.setdefault(field, content)
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
-            if other and not _header_says_reflectance(document, start):
+            if other == "emissivity":
+                said.kind = "emissivity"
+            elif other and not _header_says_reflectance(document, start):
                 raise document.not_reflectance(f"line {number}", other)
             if said.scale is None and "%" in value:
                 said.scale = 100.0

@@ -7,6 +7,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,8 @@ from .wavelengths_across import not_read
 
 # A single column with such a name says what is in it, not which sample it is.
 _QUANTITY = re.compile(
-    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|values?|r|y|spectrum)?"
+    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|emissivity|values?|r|y|"
+    r"spectrum)?"
     r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
     re.IGNORECASE,
 )
@@ -80,8 +82,10 @@ def read(
     labels = [label or f"column {i}" for i, label in enumerate(header, start=1)]
     axis = next((i for i, label in enumerate(header) if label_words.is_wavelength(label)), 0)
     units, own, table = _rows_above_numbers(header, axis, table)
-    columns, unread = _columns(document, header, labels, units, axis)
-    _refuse_others(document, [header[i] for i in columns])
+    columns, emitting, unread = _columns(document, header, labels, units, axis)
+    _check_kind(document, said, [header[i] for i in columns], [header[i] for i in emitting])
+    if said.kind != "emissivity":
+        _refuse_others(document, [header[i] for i in columns])
     block = tables.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
     nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]])
     values = block.values[:, 1:].T
@@ -108,7 +112,7 @@ def read(
         samples.append(
             statements.make(
                 document,
-                said,
+                replace(said, kind="emissivity") if column in emitting else said,
                 known,
                 found,
                 name=alone if generic else label or f"{document.path.stem} {column}",
@@ -117,6 +121,19 @@ def read(
             )
         )
     return samples
+
+
+def _check_kind(
+    document: Document, said: label_words.Comments, names: list[str], emitting: list[str]
+) -> None:
+    """Refuse a table whose comment states another kind than the names of its columns."""
+    reflecting = [name for name in names if series.says_reflectance(name)]
+    wrong = emitting if said.kind == "albedo" else reflecting if said.kind == "emissivity" else []
+    if wrong:
+        raise document.error(
+            f"column {quote(wrong[0])}",
+            f"a comment says that the kind is {said.kind}; make the two agree",
+        )
 
 
 def _refuse_others(document: Document, names: list[str]) -> None:
@@ -147,8 +164,8 @@ def _refuse_others(document: Document, names: list[str]) -> None:
 
 def _columns(
     document: Document, header: list[str], labels: list[str], units: list[str], axis: int
-) -> tuple[list[int], list[str]]:
-    """Return the columns with reflectance, and the names of those that are left out.
+) -> tuple[list[int], list[int], list[str]]:
+    """Return the columns to read, those of them with emissivity, and the names of the others.
 
     Raises
     ------
@@ -157,6 +174,8 @@ def _columns(
     """
     rest = [i for i in range(len(header)) if i != axis]
     others = {i: series.other_quantity(header[i]) or series.other_quantity(units[i]) for i in rest}
+    emitting = [i for i in rest if others[i] == "emissivity"]
+    others |= dict.fromkeys(emitting, "")
     named = any(series.says_reflectance(header[i]) for i in rest)
     aside = {
         i
@@ -170,7 +189,7 @@ def _columns(
             f"column {quote(labels[column])}", others[column] or "of another kind"
         )
     left = sorted(set(rest) - set(found))
-    return found, [labels[i] for i in left if header[i] or others[i]]
+    return found, emitting, [labels[i] for i in left if header[i] or others[i]]
 
 
 def _rows_above_numbers(

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a radiometer lets through, from a table with two columns: wavelength and response."""
+
+from __future__ import annotations
+
+import itertools
+import os
+
+import numpy as np
+
+from ...core.emissivity import Filter
+from ...core.errors import DomainError, InputError
+from .readers import open_document
+from .readers.parts import band_order, label_words, scale, table_start, tables
+from .readers.parts.delimiter import find_delimiter
+from .sample import SHORTEST_NM
+
+_COLUMNS = ("wavelength", "response")
+
+
+def read(path: str | os.PathLike[str]) -> Filter:
+    """Return the response that a file holds: CSV, tabs, semicolons or spaces.
+
+    A first row may name the columns; wavelengths are nanometers unless their name, or a comment
+    ``# wavelength_unit: um``, says micrometers. The response may be on any scale.
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, has other columns, or holds no response.
+    """
+    document = open_document(path)
+    said = label_words.comments(document)
+    start = table_start.find_start(document)
+    delimiter, skip = find_delimiter(document, start)
+    table = tables.rows(document, delimiter, skip)
+    first = next(table)
+    label = first.fields[0]
+    try:
+        float(label.replace(",", "."))
+    except ValueError:
+        pass
+    else:
+        table, label = itertools.chain([first], table), ""
+    block = tables.numbers(document, table, _COLUMNS, (0, 1), decimal_comma=delimiter != ",")
+    if not block.lines:
+        raise document.error("", "no rows of numbers follow; export the table with its values")
+    order, _ = band_order.in_order(block.values[:, 0])
+    nm = scale.nanometers(document, said, block.values[order, 0], [label])
+    if nm.max() < SHORTEST_NM:
+        raise document.error(
+            f"line {block.lines[0]}",
+            "the wavelengths look like micrometers; call their column 'wavelength (µm)'",
+        )
+    try:
+        return Filter(nm, np.asarray(block.values[order, 1]))
+    except DomainError as error:
+        raise InputError(f"{path}: {str(error).rstrip('.')}.") from None
