@@ -109,8 +109,9 @@ def _response(directions: bytes, resolution: Resolution) -> Array:
     powers = _powers(grooves.ratio)
     whole = grooves.modes(np.ones((grooves.slope.size, 1)))[:, 0]
     theta = np.frombuffer(directions)
-    out = np.empty((theta.size, grooves.slope.size, powers.shape[-1] + 2))
-    for row, tangent in zip(out, np.tan(theta), strict=True):
+    out = np.empty((theta.size, 1 + grooves.slope.size, powers.shape[-1] + 2))
+    out[:, 0] = np.eye(1, out.shape[-1])  # the level surface sends all light out at once
+    for row, tangent in zip(out[:, 1:], np.tan(theta), strict=True):
         light = tangent * steepness
         azimuth, share = _azimuth_rule(light)
         lit = groove.lit_fraction(light[:, np.newaxis] * np.cos(azimuth))
