@@ -4,9 +4,14 @@
 
     r = ρ (b + a / (1 + √(1 - g ρ)))
 
-b, a and g are led through what the solver says of r/ρ at ρ → 0, at one albedo between and at ρ = 1,
-which is tabulated: see `core.closure.table`. tan σ is a profilometer's Rdq.
-`tools/tables/make_vcavity_table.py` makes the table and prints the errors stated here.
+b, a and g are those that miss the solver least over all albedos; what they say of r/ρ at ρ → 0, at
+one albedo between and at ρ = 1 is tabulated: see `core.closure.table`. tan σ is a profilometer's
+Rdq. `tools/tables/make_vcavity_table.py` makes the table and prints the errors stated here.
+
+Worst over ρ, at polar angles below 80° it misses the solver by 0.02 % in the median and 0.3 % at
+worst for σ of 10° to 30°, by 0.14 % and 0.9 % for 30° to 50°, by 0.5 % and 2.5 % to 65°, where it
+ends: steeper grooves return their light too late for one square root. The worst is where light and
+view are steep and opposite. The table adds but a tenth of a percent to what the form itself misses.
 """
 
 from __future__ import annotations
@@ -18,7 +23,13 @@ from ..closure.formula import forward, over_blocks
 from ..numerics.arrays import Array, spectrum
 from . import closed_data as data
 
-__all__ = ["TABLE", "factors", "reflectance"]
+__all__ = ["ERROR", "RING_ERROR", "TABLE", "factors", "reflectance"]
+
+ERROR = 0.01
+"""Largest relative error against the solver below 80°, σ ≤ 50°, 0 < ρ ≤ 1."""
+
+RING_ERROR = 0.001
+"""The same of a 45a:0 reading; at σ = 60° it is 0.004."""
 
 TABLE = table.Table(
     "closure",

@@ -149,7 +149,8 @@ def report() -> None:
         found = closed.reflectance(PROBE_ALBEDOS, *angles, PROBE_SIGMAS)
         worst = np.abs(found / expected - 1).max(axis=-1)
         for low, high in ((0, 10), (10, 30), (30, 50), (50, 65)):
-            inside = (PROBE_SIGMAS > np.radians(low)) & (PROBE_SIGMAS < np.radians(high + 0.1))
+            degrees = np.degrees(PROBE_SIGMAS)
+            inside = np.abs(degrees - (low + high) / 2) < (high - low) / 2 + 0.1
             quantiles = np.quantile(worst[:, inside], [0.5, 0.95, 0.99, 1])
             sys.stdout.write(
                 f"{name}, σ {low} to {high}°, worst over ρ: median / 95 % / 99 % / worst "
