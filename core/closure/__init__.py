@@ -2,38 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All bounces in closed form: r = ρ (b + a / (1 + √(1 - g ρ))).
 
-formula        the model and its inverse
-fitted         its numbers
+formula        the form and its inverse
+table          b, a and g of a surface, in any direction
+packing        how a table's numbers ship
 """
 
-from .formula import (
-    LARGEST_ANGLE,
-    RING_ERROR,
-    coefficients,
-    combine,
-    factors,
-    forward,
-    from_albedo,
-    inverse,
-    monomials,
-    over_blocks,
-    reflectance,
-    roughness_variable,
-    to_albedo,
-)
+from .formula import forward, inverse, over_blocks
 
-__all__ = [
-    "LARGEST_ANGLE",
-    "RING_ERROR",
-    "coefficients",
-    "combine",
-    "factors",
-    "forward",
-    "from_albedo",
-    "inverse",
-    "monomials",
-    "over_blocks",
-    "reflectance",
-    "roughness_variable",
-    "to_albedo",
-]
+__all__ = ["forward", "inverse", "over_blocks"]

@@ -5,7 +5,7 @@
 lambert       r = ρ
 first-order   r = F1 ρ                             light that leaves after one bounce
 two-bounce    r = F1 ρ + F2 ρ²                     the published model: `core.oren_nayar`
-closure       r = ρ (b + a / (1 + √(1 - g ρ)))     all bounces, fitted: `core.closure`
+closure       r = ρ (b + a / (1 + √(1 - g ρ)))     V-grooves, tabulated: `core.vcavity.closed`
 reference     r = Σ a_k ρ^k                        the V-cavity itself: `core.vcavity`
 surface       r = ρ (b + a / (1 + √(1 - g ρ)))     random surfaces, traced: `core.surface`
 
@@ -87,7 +87,7 @@ _MODELS = (
     Model("lambert", "Lambert", "As if the surface were smooth", 4),
     Model("first-order", "First-order", "Without light between facets: F1 ρ", 1),
     Model("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
-    Model("closure", "Closure", "All bounces, in a formula fitted to the V-cavity reference", 2),
+    Model("closure", "Closure", "V-grooves, all bounces, in closed form and tabulated", 2, 65.0),
     Model(
         "reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5
     ),

@@ -1,19 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The model "closure": all bounces in one square root, see `core.closure`."""
+"""The model "closure": V-grooves with all bounces in closed form, see `core.vcavity.closed`."""
 
 from __future__ import annotations
 
 import numpy.typing as npt
 
-from ..closure import (
-    forward,
-    inverse,
-    over_blocks,
-    reflectance,
-)
+from ..closure.formula import forward, inverse, over_blocks
 from ..instruments import curves
 from ..numerics.arrays import Array, spectrum
+from ..vcavity.closed import TABLE, reflectance
 
 __all__ = ["from_albedo", "reflectance", "to_albedo"]
 
@@ -24,10 +20,10 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) ->
     Examples
     --------
     >>> np.round(from_albedo([0.2, 0.6], 0.5, "45a:0"), 3).tolist()
-    [0.164, 0.531]
+    [0.17, 0.55]
     """
     rho = spectrum(albedo, "the albedo")
-    return over_blocks(forward, curves.closure_coefficients(sigma, instrument), rho)
+    return over_blocks(forward, curves.of_table(TABLE, sigma, instrument), rho)
 
 
 def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> Array:
@@ -39,4 +35,4 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
     [0.2, 0.6]
     """
     r = spectrum(reading, "the reading")
-    return over_blocks(inverse, curves.closure_coefficients(sigma, instrument), r)
+    return over_blocks(inverse, curves.of_table(TABLE, sigma, instrument), r)

@@ -9,28 +9,9 @@ import numpy.typing as npt
 
 from ..instruments import curves
 from ..numerics.arrays import Array, spectrum
-from ..vcavity import bounce_series, slope_law
-from ..vcavity import reflectance as of_slopes
+from ..vcavity import bounce_series, reflectance
 
-SLOPES = slope_law.OREN_NAYAR
-"""The law to which `core.closure` and `core.vcavity.tabulated` are fitted."""
-
-
-def reflectance(
-    albedo: npt.ArrayLike,
-    theta_i: npt.ArrayLike,
-    theta_r: npt.ArrayLike,
-    delta_phi: npt.ArrayLike,
-    sigma: npt.ArrayLike,
-) -> Array:
-    """Give r in one direction each; arguments and errors as in `core.ladder.reflectance`.
-
-    Examples
-    --------
-    >>> np.round(reflectance([0.2, 0.6], np.pi / 4, 0.0, 0.0, 0.5), 3).tolist()
-    [0.164, 0.533]
-    """
-    return of_slopes(albedo, theta_i, theta_r, delta_phi, sigma, slopes=SLOPES)
+__all__ = ["from_albedo", "reflectance", "to_albedo"]
 
 
 def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> Array:
@@ -39,10 +20,10 @@ def from_albedo(albedo: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) ->
     Examples
     --------
     >>> np.round(from_albedo([0.2, 0.6], 0.5, "45a:0"), 3).tolist()
-    [0.164, 0.533]
+    [0.17, 0.55]
     """
     rho = spectrum(albedo, "the albedo")
-    rows = curves.series(instrument, SLOPES).rows(sigma)
+    rows = curves.series(instrument).rows(sigma)
     with np.errstate(invalid="ignore"):  # ∞ - ∞ is NaN, and needs no warning beside it
         return bounce_series.evaluate(rows, rho)
 
@@ -56,4 +37,4 @@ def to_albedo(reading: npt.ArrayLike, sigma: npt.ArrayLike, instrument: str) -> 
     [0.2, 0.6]
     """
     r = spectrum(reading, "the reading")
-    return bounce_series.invert(curves.series(instrument, SLOPES).rows(sigma), r)
+    return bounce_series.invert(curves.series(instrument).rows(sigma), r)

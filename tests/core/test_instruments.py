@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from core import (
-    closure,
     instruments,
     models,
     oren_nayar,
@@ -15,8 +14,7 @@ from core import (
 )
 from core.errors import DomainError
 from core.instruments import curves, quadrature
-from core.models import reference
-from core.vcavity import bounce_series, slope_law, surface
+from core.vcavity import bounce_series, closed, slope_law, surface
 
 NAMES = reading.INSTRUMENTS
 AVERAGING = ("45a:0-iso", "0:45a-iso", "45x:0-iso", "di:8", "de:8")
@@ -170,7 +168,6 @@ def test_reference_agrees_with_spread_directions(name):
             azimuth,
             sigma,
             resolution=resolution,
-            slopes=reference.SLOPES,
         )
         expected = weight @ values / weight.sum()
         found = reading.from_albedo(albedo, sigma, "reference", name)
