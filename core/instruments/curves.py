@@ -29,27 +29,6 @@ from ..numerics.memoized import memoized
 from ..vcavity import sigma_tables, slope_law
 from . import quadrature
 
-INTERPOLATION_ERROR` of the solver, for either slope law.
-- Closure and surface, which are tabulated in closed form, r = ρ (b + a / (1 + √(1 - gρ))). The three
-  values of r/ρ that determine b, a and g are averaged, so that the form is led through those of the
-  instrument.
-
-Where light and view are 45° apart and one of them is the normal, all of this is the formula of
-45a:0 to the last bit.
-"""
-
-from __future__ import annotations
-
-import numpy as np
-import numpy.typing as npt
-
-from .. import oren_nayar
-from ..closure import table as tables
-from ..numerics.arrays import Array, precision, slope_deviation
-from ..numerics.memoized import memoized
-from ..vcavity import sigma_tables, slope_law
-from . import quadrature
-
 CLOSURE_ERROR = 0.02
 """Largest relative error of the closure against the reference, σ ≤ 50°, 0 < ρ ≤ 1, whatever the
 instrument; for 45a:0 and its equals it is 0.001."""

@@ -18,7 +18,6 @@ from rough_spectra.addon.material import derive
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.support.colour_science import colour
-from rough_spectra.core import closure
 
 SIGMAS = (0, 15, 30, 45)
 LIMIT = 0.05
@@ -167,7 +166,7 @@ def test_other_models_read_their_own_target(colorchecker, request_for, model):
         s2 = math.radians(degrees) ** 2
         expected = {
             "first-order": (1 - 0.5 * s2 / (s2 + 0.33)) * 0.8,
-            "closure": closure.from_albedo([0.8], math.radians(degrees))[0],
+            "closure": reading.from_albedo([0.8], math.radians(degrees), "closure")[0],
         }
         np.testing.assert_allclose(seen, expected[model], rtol=1e-5)
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from core import (
-    closure,
     ladder,
     models,
     oren_nayar,
@@ -16,6 +15,7 @@ from core import (
     vcavity,
 )
 from core.errors import DomainError
+from core.vcavity import closed
 
 GEOMETRY = np.radians([[[0.0], [30.0]], [[45.0], [70.0]], [[10.0], [150.0]]])
 
@@ -31,7 +31,7 @@ def test_each_rung_is_the_model_of_its_name(model, dtype):
         "lambert": lambda: np.broadcast_to(albedo, (2, 3, 4)),
         "first-order": lambda: f1[..., np.newaxis] * albedo,
         "two-bounce": lambda: oren_nayar.reflectance(albedo, *GEOMETRY, sigma),
-        "closure": lambda: closure.reflectance(albedo, *GEOMETRY, sigma),
+        "closure": lambda: closed.reflectance(albedo, *GEOMETRY, sigma),
         "reference": lambda: vcavity.reflectance(albedo, *GEOMETRY, sigma),
         "surface": lambda: surface.reflectance(albedo, *GEOMETRY, sigma),
     }[model]()

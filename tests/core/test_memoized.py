@@ -5,9 +5,10 @@
 import numpy as np
 import pytest
 
-from core import closure, cycles, oren_nayar, surface
+from core import cycles, oren_nayar, surface
 from core.errors import DomainError
 from core.numerics import direction_grid, memoized
+from core.vcavity import closed
 
 FEW = memoized.FEW
 
@@ -75,7 +76,7 @@ def test_bytes_in_the_other_order_are_other_numbers(sums):
 @pytest.mark.parametrize(
     "of",
     [
-        lambda angles: closure.factors(*angles, 0.6),
+        lambda angles: closed.factors(*angles, 0.6),
         lambda angles: oren_nayar.factors(*angles, 0.6),
         lambda angles: surface.factors(*angles, 0.6),
         lambda angles: [cycles.reflectance(np.full((angles[0].size, 3), 0.4), 0.6, *angles)],
@@ -96,7 +97,7 @@ def test_few_directions_give_what_they_give_among_many(of):
 @pytest.mark.parametrize(
     "of",
     [
-        closure.factors,
+        closed.factors,
         oren_nayar.factors,
         surface.factors,
         lambda *angles: cycles.reflectance(np.full((1, 3), 0.4), angles[-1], *angles[:-1]),

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core import closure, models, oren_nayar, reading
+from core import models, oren_nayar, reading
 from core.errors import DomainError
 
 HALF_PI = math.pi / 2
@@ -124,12 +124,11 @@ def test_formulas_are_ordered_by_the_bounces_they_count():
     assert (first[-1, -1], second[-1, -1]) < (0.56, 0.73)
 
 
-def test_closure_is_the_fitted_one_and_the_nearest_to_the_reference():
+def test_closure_is_the_nearest_to_the_reference():
     sigma = np.radians(np.linspace(1, 50, 40))
     rho = ALBEDOS[1:]
     reference = reading.from_albedo(rho, sigma, "reference")
     fitted = reading.from_albedo(rho, sigma, "closure")
-    np.testing.assert_array_equal(fitted, closure.from_albedo(rho, sigma))
     error, geometric, two_bounce = (
         np.max(np.abs(values / reference - 1))
         for values in (
