@@ -11,12 +11,11 @@ from __future__ import annotations
 from .. import ladder, models, reading
 from ..errors import DomainError
 from ..instruments import curves
-from ..models import reference
 from ..numerics.arrays import Array
 from ..vcavity import bounce_series, reflectance, slope_law
 from .readings import Directions
 
-OTHER_LAWS = {f"reference, {law}": law for law in slope_law.LAWS if law != reference.SLOPES}
+OTHER_LAWS = {f"reference, {law}": law for law in slope_law.LAWS if law != slope_law.DEFAULT}
 """Slope laws of the V-cavity besides that of "reference", by the name of the model here."""
 
 SPREAD = (

@@ -9,7 +9,7 @@ curves over σ, found once and cached:
   factor times 0.17 σ²/(σ² + 0.13). The two factors are averaged; over σ nothing is interpolated.
 - Reference. The mean series of the V-cavity, from a table of `core.vcavity.sigma_tables`, within
   `INTERPOLATION_ERROR` of the solver, for either slope law.
-- Closure and surface, which are tabulated in closed form, r = ρ (b + a / (1 + √(1 - gρ))). The three
+- Closure and surface, tabulated in closed form, r = ρ (b + a / (1 + √(1 - gρ))). The three
   values of r/ρ that determine b, a and g are averaged, so that the form is led through those of the
   instrument.
 

@@ -21,7 +21,6 @@ from core import (
     oren_nayar,
     reading,
 )
-from core.vcavity import tabulated as yardstick
 from tools.chart.chart_work import Array
 
 ForAnyAngle = Callable[[Array, Array, Any], Array]
@@ -74,11 +73,6 @@ def lambert_as_read(albedo: Array, angles: Array, sigma: Any) -> Array:
     """Show the 45°/0° reading everywhere: what a color picked from a chart amounts to."""
     seen = reading.from_albedo(albedo, np.asarray(sigma, albedo.dtype), "reference")
     return np.tile(seen, (angles.shape[1], 1))
-
-
-def tabulated(albedo: Array, angles: Array, sigma: Any) -> Array:
-    """Interpolate the reference."""
-    return yardstick.reflectance(albedo[np.newaxis], *_three(angles), sigma)[0]
 
 
 def mixed_constants(albedo: Array, angles: Array, sigma: Any) -> Array:
@@ -203,14 +197,6 @@ def methods(matrix: Array, to_xyz: Callable[[Array], Array]) -> dict[str, Method
             "F1 RGB(ρ) + F2 RGB(ρ²): the two-bounce color under one light",
             "RGB",
         ),
-        "tabulated": Method(
-            "reference, tabulated",
-            RUNG,
-            tabulated,
-            None,
-            "the reference interpolated, which the choice of a model compares with",
-            timed=4096,
-        ),
         "rgb-squared": Method(
             "RGB(ρ)² for RGB(ρ²)",
             NAIVE,
@@ -272,8 +258,9 @@ def _ladder() -> dict[str, Method]:
         "lambert": "r = ρ: roughness ignored",
         "first-order": "F1 ρ of the published model",
         "two-bounce": "F1 ρ + F2 ρ²: the published model",
-        "closure": "all bounces in one square root, fitted to the reference",
+        "closure": "V-grooves, all bounces in one square root, tabulated",
         "reference": "the V-cavity solved; its error is that against twice the nodes",
+        "surface": "random rough surfaces, traced and tabulated: another truth than the reference",
     }
 
     def rung(model: str) -> Method:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from core import closure, oren_nayar, reading
+from core import oren_nayar, reading
 from tools.chart.chart_timing import best_of_turns
 from tools.chart.chart_work import BANDS, Array, write_json
 
@@ -73,10 +73,10 @@ def measure() -> list[dict[str, Any]]:
         "matmul": lambda: pairs @ basis,
         "trigonometry": trigonometry,
         "invert": lambda: reading.to_albedo(spectra, SIGMA),
-        "invert closure": lambda: closure.to_albedo(spectra, SIGMA),
+        "invert closure": lambda: reading.to_albedo(spectra, SIGMA, "closure"),
         "copy": spectra.copy,
         "two-bounce": lambda: reading.from_albedo(spectra, SIGMA),
-        "closure": lambda: closure.from_albedo(spectra, SIGMA),
+        "closure": lambda: reading.from_albedo(spectra, SIGMA, "closure"),
     }
     seconds = best_of_turns(works, SECONDS, most=15)
     plain = seconds["matmul"] + seconds["trigonometry"]
@@ -97,11 +97,8 @@ def measure() -> list[dict[str, Any]]:
         EVALUATE_BOUND,
         f"float32 within {worst(single, double):.0e} of float64",
     )
-    for model, key, forward, inverse in (
-        ("two-bounce", "invert", reading.from_albedo, reading.to_albedo),
-        ("closure", "invert closure", closure.from_albedo, closure.to_albedo),
-    ):
-        back = worst(forward(inverse(some, SIGMA), SIGMA), some)
+    for model, key in (("two-bounce", "invert"), ("closure", "invert closure")):
+        back = worst(reading.from_albedo(reading.to_albedo(some, SIGMA, model), SIGMA, model), some)
         add(
             f"inverting 10⁶ readings, {model} / copy",
             seconds[key] / seconds["copy"],
@@ -113,7 +110,7 @@ def measure() -> list[dict[str, Any]]:
         seconds["closure"] / seconds["two-bounce"],
         CLOSURE_BOUND,
         f"at σ = {np.degrees(SIGMA):.0f}°, within "
-        f"{worst(closure.from_albedo(some, SIGMA), exact):.1%} of the reference; "
+        f"{worst(reading.from_albedo(some, SIGMA, 'closure'), exact):.1%} of the reference; "
         f"two-bounce within {worst(reading.from_albedo(some, SIGMA), exact):.1%}",
     )
     for key, what in (
