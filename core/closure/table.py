@@ -42,8 +42,9 @@ _CUBIC = 4
 _FINER = 2
 """Intervals that the refinement makes of one."""
 
-_STEEPEST = 0.9999
-"""Largest g: at 1 the slope of r at ρ = 1 would be infinite."""
+_STEEPEST, _SHALLOWEST = 0.9999, 0.01
+"""Largest and smallest g. At 1 the slope of r at ρ = 1 would be infinite; near 0 a and b grow like 1/g
+and cancel, and what the walk adds is r/ρ's straight line within a thousandth of it anyway."""
 
 _CHUNK = 1 << 13
 """Directions worked on at once: their temporaries stay in the processor's cache."""
@@ -260,9 +261,10 @@ def through(found: Array, meeting: float) -> tuple[Array, Array, Array]:
     tiny = np.finfo(np.float64).tiny
     with np.errstate(invalid="ignore"):  # NaN stays NaN, and needs no warning beside it
         share = np.sqrt(np.maximum(between - first, 0) / (np.maximum(later, tiny) * meeting))
-    # These are g = _STEEPEST and next to g = 0.
-    steepest = (1 + np.sqrt(1 - _STEEPEST)) / (1 + np.sqrt(1 - _STEEPEST * meeting))
-    share = np.minimum(np.maximum(share, steepest), 1 - 1e-9)
+    steepest, shallowest = (
+        (1 + np.sqrt(1 - g)) / (1 + np.sqrt(1 - g * meeting)) for g in (_STEEPEST, _SHALLOWEST)
+    )
+    share = np.minimum(np.maximum(share, steepest), shallowest)
     root = (1 + meeting * share * (share - 2)) / (1 - meeting * share * share)
     ratio = (1 - root * root) / meeting
     walk = 2 * np.maximum(later, 0) * (1 + np.sqrt(1 - ratio)) ** 2 / ratio

@@ -80,7 +80,8 @@ def _mean_anchors(table: tables.Table, instrument: str) -> Array:
     of = quadrature.of(instrument)
     nodes = tables.at_nodes(table, of.theta_i, of.theta_r, of.delta_phi)
     if len(nodes) > 1:
-        nodes = np.log(of.weights @ np.exp(nodes))
+        mean = of.weights @ np.exp(nodes)
+        nodes = np.log(mean / mean[0])  # at σ = 0 the weights' sum, which is 1 but for rounding
     return np.asarray(nodes.reshape(len(table.sigma), tables.ANCHORS))
 
 

@@ -67,7 +67,8 @@ class Model:
         What a .blend stores for it: never changed, and never given to another. 3 is taken by
         "auto".
     largest_sigma
-        Where it ends, degrees.
+        To where it holds, degrees. A table ends there; the reference goes on, less exactly, to
+        grooves that are slots.
     """
 
     name: str
@@ -89,7 +90,11 @@ _MODELS = (
     Model("two-bounce", "Two-bounce", "Oren and Nayar's published model: F1 ρ + F2 ρ²", 0),
     Model("closure", "Closure", "V-grooves, all bounces, in closed form and tabulated", 2, 65.0),
     Model(
-        "reference", "Reference", "The V-cavity itself, all bounces; takes seconds at first use", 5
+        "reference",
+        "Reference",
+        "The V-cavity itself, all bounces; takes seconds at first use",
+        5,
+        80.0,
     ),
     Model(
         "surface", "Surface", "Random rough surfaces, all bounces, traced and tabulated", 6, 65.0

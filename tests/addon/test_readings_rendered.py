@@ -18,6 +18,7 @@ from rough_spectra.addon.material import derive
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.support.colour_science import colour
+from rough_spectra.core import reading
 
 SIGMAS = (0, 15, 30, 45)
 LIMIT = 0.05

@@ -25,6 +25,11 @@ SIGMAS = np.array(
 ALBEDOS = np.concatenate(([0.0, 1e-6], np.linspace(0.01, 0.99, 30), [0.999, 1.0]))
 
 
+def sigmas(model):
+    """Those of `SIGMAS` to which a model goes."""
+    return SIGMAS[np.radians(models.find(model).largest_sigma) >= SIGMAS]
+
+
 def test_the_names_and_the_default():
     assert NAMES[0] == "45a:0"
     assert {"0:45a", "45x:0", "di:8", "de:8", "45as15", "45as110", *AVERAGING} <= set(NAMES)
@@ -221,7 +226,7 @@ def test_level_surface_reads_its_albedo(name, model):
     for dtype in (np.float64, np.float32):
         albedo = ALBEDOS.astype(dtype)
         tolerance = 2 * np.finfo(dtype).eps
-        if model == "reference":
+        if model in ("closure", "reference", "surface"):
             # Where σ is 0 nothing is interpolated.
             tolerance += curves.INTERPOLATION_ERROR
         for sigma in (0.0, 1e-12):
@@ -235,9 +240,9 @@ def test_level_surface_reads_its_albedo(name, model):
 @pytest.mark.parametrize(("dtype", "tolerance"), [(np.float64, 1e-12), (np.float32, 1e-5)])
 def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
     albedo = np.concatenate((ALBEDOS, [1.1])).astype(dtype)
-    read = reading.from_albedo(albedo, SIGMAS, model, name)
+    read = reading.from_albedo(albedo, sigmas(model), model, name)
     assert (np.diff(read) > 0).all()
-    back = reading.to_albedo(read, SIGMAS, model, name)
+    back = reading.to_albedo(read, sigmas(model), model, name)
     assert read.dtype == back.dtype == dtype
     np.testing.assert_allclose(back, np.broadcast_to(albedo, back.shape), rtol=tolerance)
 
@@ -247,8 +252,9 @@ def test_albedo_comes_back_from_its_reading(name, model, dtype, tolerance):
 def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
     for dtype in (np.float64, np.float32):
         albedo = ALBEDOS.astype(dtype)
-        expected = reading.from_albedo(albedo, SIGMAS, model)
-        np.testing.assert_array_equal(reading.from_albedo(albedo, SIGMAS, model, name), expected)
+        expected = reading.from_albedo(albedo, sigmas(model), model)
+        found = reading.from_albedo(albedo, sigmas(model), model, name)
+        np.testing.assert_array_equal(found, expected)
     s2 = SIGMAS**2
     f1, f2 = reading.coefficients(SIGMAS, name)
     np.testing.assert_array_equal(f1, 1 - 0.5 * s2 / (s2 + 0.33))
@@ -258,7 +264,8 @@ def test_45_and_0_are_one_geometry_to_the_last_bit(name, model):
 @pytest.mark.parametrize("model", models.NAMES)
 def test_reciprocity(model):
     there, back = (
-        reading.from_albedo(ALBEDOS, SIGMAS, model, name) for name in ("45a:0-iso", "0:45a-iso")
+        reading.from_albedo(ALBEDOS, sigmas(model), model, name)
+        for name in ("45a:0-iso", "0:45a-iso")
     )
     np.testing.assert_allclose(there, back, rtol=1e-12)
 
@@ -306,7 +313,8 @@ def test_closure_stays_near_the_reference(name):
 
 def test_sphere_loses_no_light_in_the_reference_and_28_percent_in_the_published_model():
     sigma = np.radians(np.linspace(0, 90, 31))
-    np.testing.assert_allclose(reading.white_reading(sigma, "reference", "di:8"), 1, atol=2e-4)
+    white = reading.white_reading(sigmas("reference"), "reference", "di:8")
+    np.testing.assert_allclose(white, 1, atol=4e-4)
     published = reading.white_reading(sigma, "two-bounce", "di:8")
     assert published[-1] == pytest.approx(0.7205, abs=1e-3)
     assert (np.diff(published) < 0).all()
@@ -342,8 +350,8 @@ def test_shapes_precision_and_nan(name, model, dtype):
     white = reading.white_reading(np.full((2, 1), 0.3, dtype), model, name)
     assert (white.dtype, white.shape) == (dtype, (2, 1))
     assert reading.coefficients(np.full(3, 0.3, dtype), name)[1].dtype == dtype
-    right_angle = np.array([np.pi / 2], np.float32)
-    assert np.isfinite(reading.white_reading(right_angle, model, name)).all()
+    last = np.radians(np.array([models.find(model).largest_sigma], np.float32))
+    assert np.isfinite(reading.white_reading(last, model, name)).all()
 
 
 @pytest.mark.parametrize("model", models.NAMES)

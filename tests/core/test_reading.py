@@ -68,10 +68,11 @@ def test_readings_agree_with_rational_arithmetic(model):
 @pytest.mark.parametrize(("dtype", "tolerance"), [(np.float64, 1e-12), (np.float32, 1e-5)])
 def test_albedo_comes_back_from_its_reading(model, dtype, tolerance):
     rho = ALBEDOS.astype(dtype)
-    read = reading.from_albedo(rho, SIGMAS, model)
-    back = reading.to_albedo(read, SIGMAS, model)
+    sigma = SIGMAS[np.radians(models.find(model).largest_sigma) >= SIGMAS]
+    read = reading.from_albedo(rho, sigma, model)
+    back = reading.to_albedo(read, sigma, model)
     assert read.dtype == back.dtype == dtype
-    assert back.shape == (SIGMAS.size, rho.size)
+    assert back.shape == (sigma.size, rho.size)
     np.testing.assert_allclose(back, np.broadcast_to(rho, back.shape), rtol=tolerance, atol=0)
 
 
