@@ -85,8 +85,8 @@ def geometric_closure(albedo: npt.ArrayLike, sigma: npt.ArrayLike) -> Array:
     """Predict a 45a:0 reading with r = f1 ρ + f2 ρ² / (1 - g ρ), g of `bounce_ratio`.
 
     The closure with no new parameter: what follows the second bounce is the geometric series that
-    lets white facets lose nothing. Kept to compare with; the model "closure" is five times nearer
-    to the reference.
+    lets white facets lose nothing. Kept to compare with; the model "closure" is
+    a hundred times nearer to the reference.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def from_albedo(
     >>> np.round(from_albedo([0.2, 0.6], np.radians(30)), 4).tolist()
     [0.1592, 0.5054]
     >>> np.round(from_albedo([0.2, 0.6], np.radians(30), "closure", "di:8"), 3).tolist()
-    [0.16, 0.522]
+    [0.168, 0.543]
     """
     return models.find(model).formulas.from_albedo(albedo, sigma, instrument)
 

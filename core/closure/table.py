@@ -43,8 +43,8 @@ _FINER = 2
 """Intervals that the refinement makes of one."""
 
 _STEEPEST, _SHALLOWEST = 0.9999, 0.01
-"""Largest and smallest g. At 1 the slope of r at ρ = 1 would be infinite; near 0 a and b grow like 1/g
-and cancel, and what the walk adds is r/ρ's straight line within a thousandth of it anyway."""
+"""Largest and smallest g. At 1 the slope of r at ρ = 1 would be infinite; near 0 a and b grow like
+1/g and cancel, and what the walk adds to r/ρ is a straight line within a thousandth anyway."""
 
 _CHUNK = 1 << 13
 """Directions worked on at once: their temporaries stay in the processor's cache."""

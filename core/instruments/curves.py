@@ -61,7 +61,7 @@ def of_table(
     """Coefficients b, a and g, float64, of a tabulated surface: the mean over its directions.
 
     What is averaged at each σ of the table are the values of r/ρ that b, a and g are led through.
-    Arrays of the shape of `sigma`.
+    Arrays of the shape of `sigma`; those of a single σ are kept, and read-only.
 
     Examples
     --------
@@ -70,6 +70,24 @@ def of_table(
     >>> float(single + walk / 2), float(ratio)
     (1.0, 0.0)
     """
+    spread = np.asarray(sigma)
+    if spread.size != 1 or spread.dtype == np.float32:
+        return _of_table(table, spread, instrument)
+    # White facets, a reading's albedo and what another instrument reads ask for the same σ.
+    one = _of_one_sigma(table, float(spread.reshape(())), instrument)
+    single, walk, ratio = (coefficient.reshape(spread.shape) for coefficient in one)
+    return single, walk, ratio
+
+
+@memoized(maxsize=64)
+def _of_one_sigma(table: tables.Table, sigma: float, instrument: str) -> tuple[Array, ...]:
+    found = _of_table(table, np.array([sigma]), instrument)
+    for coefficient in found:
+        coefficient.setflags(write=False)
+    return found
+
+
+def _of_table(table: tables.Table, sigma: Array, instrument: str) -> tuple[Array, Array, Array]:
     found = tables.sigma_weights(table, sigma) @ _mean_anchors(table, instrument)
     return tables.through(found, table.meeting)
 

@@ -104,7 +104,7 @@ def test_several_albedos_share_one_roughness():
     assert together.sigma == pytest.approx(math.radians(30), abs=math.radians(0.2))
     # Information adds up: 1 over the variance is the sum of those of the pairs.
     added = sum(each.standard_error**-2 for each in alone) ** -0.5
-    assert together.standard_error == pytest.approx(added, rel=0.02)
+    assert together.standard_error == pytest.approx(added, rel=0.04)
     for name, albedo in albedos.items():
         np.testing.assert_allclose(together.albedo[name], albedo, atol=5e-3)
 

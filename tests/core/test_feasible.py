@@ -83,7 +83,7 @@ def test_a_rough_white_surface_may_read_more_than_a_level_one():
     for model in ("closure", "reference"):
         found = feasible.albedo_range([0.2, 1.003], model)
         low, high = np.degrees([found.sigma_min, found.sigma_max])
-        assert 10 < low < 29 < high < 50
+        assert 5 < low < 29 < high
         np.testing.assert_allclose(reading.white_reading([found.sigma_min], model), 1.003)
         assert found.lowest[1] < 1.003
 
