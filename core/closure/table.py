@@ -70,8 +70,8 @@ class Table:
         The albedo m of the anchor between.
     packed
         The anchors, as `packed` makes them.
-    step
-        Of which the packed integers are multiples.
+    steps
+        Of which the packed integers are multiples, one for each σ but 0 and each anchor.
     """
 
     name: str
@@ -81,7 +81,7 @@ class Table:
     azimuth: tuple[float, ...]
     meeting: float
     packed: str
-    step: float
+    steps: tuple[float, ...]
 
     @property
     def largest_sigma(self) -> float:
@@ -320,7 +320,7 @@ def unpacked(table: Table) -> Array:
     0.0
     """
     polar, ratio, azimuth = len(table.polar), len(table.ratio), len(table.azimuth)
-    rows = unpack(table.packed, (table.step,) * ((len(table.sigma) - 1) * ANCHORS))
+    rows = unpack(table.packed, table.steps)
     # Along the normal azimuth has no meaning, and with both along it neither has the ratio.
     out = np.zeros((polar, ratio, azimuth, len(table.sigma), ANCHORS))
     rows = rows.reshape(len(rows), -1, ANCHORS)

@@ -33,7 +33,7 @@ TABLE = table.Table(
     data.AZIMUTH,
     data.MEETING,
     data.PACKED,
-    data.STEP,
+    data.STEPS,
 )
 
 

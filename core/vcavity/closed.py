@@ -39,7 +39,7 @@ TABLE = table.Table(
     data.AZIMUTH,
     data.MEETING,
     data.PACKED,
-    data.STEP,
+    data.STEPS,
 )
 
 

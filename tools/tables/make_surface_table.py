@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from core.closure import packing, table
+from core.closure import table
 from core.numerics.arrays import Array
 
 from . import surface_nodes
@@ -25,8 +25,8 @@ TARGET = Path(__file__).parents[2] / "core" / "surface" / "data.py"
 MEETING = np.linspace(0.6, 0.9, 7)
 """Albedos tried as the one between."""
 ALBEDOS = np.concatenate((np.linspace(0.05, 0.9, 18), [0.93, 0.95, 0.97, 0.985, 1.0]))
-STEP = 2.5e-4
-"""Of the packed logarithms: rounding moves the reflectance by 1.3e-4 at most."""
+DARKEST = -8.0
+"""Least logarithm of r/ρ that is kept: 0.03 %."""
 AZIMUTH = (0, 7.5, 15, 22.5, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165, 180)
 """Nodes of the table, degrees; the traces have every 7.5°."""
 
@@ -114,7 +114,7 @@ def misfit(ratios: Array, meeting: float) -> Array:
 def rendered(ratios: Array, meeting: float) -> str:
     """Text of the module that holds the table."""
     # Steep surfaces send less than 0.03 % to the far side by one bounce, and much by later ones.
-    values = np.maximum(np.moveaxis(logs(ratios, meeting), 0, -2), -STEP * np.iinfo(np.int16).max)
+    values = np.maximum(np.moveaxis(logs(ratios, meeting), 0, -2), DARKEST)
     rows = table.packable(values)
     nodes: dict[str, Sequence[float]] = {
         "SIGMA": (0, *surface_nodes.SIGMA),
@@ -122,8 +122,7 @@ def rendered(ratios: Array, meeting: float) -> str:
         "RATIO": surface_nodes.RATIO,
         "AZIMUTH": AZIMUTH,
     }
-    packed = packing.pack(rows, np.full(rows.shape[1], STEP))
-    return render("surface", "tools/tables/make_surface_table.py", nodes, meeting, packed, STEP)
+    return render("surface", "tools/tables/make_surface_table.py", nodes, meeting, rows)
 
 
 if __name__ == "__main__":

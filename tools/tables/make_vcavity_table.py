@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from core.closure import packing, table
+from core.closure import table
 from core.numerics.arrays import Array
 from core.vcavity import bounce_series, closed, closed_data, sigma_tables, slope_law, surface
 
@@ -38,8 +38,6 @@ AZIMUTH = (0, 7.5, 15, 22.5, 30, 45, 60, 75, 90, 105, 120, 135, 147, 157, 166, 1
 """Degrees."""
 MEETING = 0.6
 """The albedo between; what is fitted does not depend on it."""
-STEP = 2e-4
-"""Of the packed logarithms: rounding moves the reflectance by 1e-4 at most."""
 
 ALBEDOS = np.concatenate((np.linspace(0.02, 0.9, 20), [0.92, 0.94, 0.96, 0.975, 0.985, 0.993, 1.0]))
 """Over which the largest relative error is made smallest."""
@@ -128,8 +126,7 @@ def rendered(values: Array) -> str:
         "RATIO": RATIO,
         "AZIMUTH": AZIMUTH,
     }
-    packed = packing.pack(rows, np.full(rows.shape[1], STEP))
-    return render("closure", "tools/tables/make_vcavity_table.py", nodes, MEETING, packed, STEP)
+    return render("closure", "tools/tables/make_vcavity_table.py", nodes, MEETING, rows)
 
 
 def report() -> None:
