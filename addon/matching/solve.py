@@ -278,7 +278,8 @@ def _warnings(
 def _infeasible(request: Request) -> str:
     """Say when no surface of this roughness can give the reading; nothing is clipped."""
     sample = request.sample
-    if sample.kind == "albedo" or request.model == "lambert":
+    # Of a level surface `quality` says so: it reads more than white.
+    if sample.kind == "albedo" or request.model == "lambert" or request.sigma == 0:
         return ""
     peak = int(np.argmax(sample.reflectance))
     value = float(sample.reflectance[peak])

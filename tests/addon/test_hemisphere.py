@@ -15,8 +15,8 @@ from rough_spectra.core.numerics import direction_grid
 
 from tools.manual import hemisphere_table
 
-LIMIT = 0.6
-"""Mean ΔE00 that the project promises for each σ up to 45°."""
+LIMITS = {15: 0.4, 30: 0.7, 45: 1.0}
+"""Mean ΔE00 that the project promises for each σ: one lobe of Cycles cannot be nearer."""
 
 
 RENDERED = slice(None, None, 25)
@@ -59,12 +59,12 @@ def test_renders_show_what_the_formula_says(shown):
 def test_mean_color_difference_stays_within_the_promise(rows):
     rough = [row for row in rows if row.material.startswith("Diffuse")]
     assert [row.sigma_degrees for row in rough] == [15, 30, 45] * 2
-    assert [row.truth for row in rough] == ["two-bounce"] * 3 + ["reference"] * 3
+    assert [row.truth for row in rough] == ["two-bounce"] * 3 + ["surface"] * 3
     for row in rough:
         # Cyan lies outside Rec.709; so does yellow where all bounces count.
         assert row.patches >= 22
         assert row.geometries == hemisphere_table.GEOMETRIES == 500
-        assert row.mean <= LIMIT
+        assert row.mean <= LIMITS[row.sigma_degrees]
 
 
 def test_matched_material_beats_the_lambertian_one_by_far(rows):

@@ -18,7 +18,7 @@ def errors(extension):
 
 def test_every_model_errs_as_the_manual_says(errors):
     median = {model: float(np.median(found)) for model, found in errors.items()}
-    assert median["surface"] == 0
+    assert median["surface"] < 1e-12
     # V-grooves are nearer than no roughness at all, and none of them is near.
     assert 3 < median["lambert"] < 9
     for model in ("two-bounce", "closure", "reference"):

@@ -20,7 +20,7 @@ STORED = {
         *("45a:0", "0:45a", "45x:0", "45a:0-iso", "0:45a-iso", "45x:0-iso", "di:8", "de:8"),
         *("45as-15", "45as15", "45as25", "45as45", "45as75", "45as110"),
     ],
-    "model": ["two-bounce", "first-order", "closure", "auto", "lambert", "reference"],
+    "model": ["two-bounce", "first-order", "closure", "auto", "lambert", "reference", "surface"],
 }
 """What files hold, in the order of their numbers. Lines are added at the end and never change."""
 

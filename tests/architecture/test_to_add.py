@@ -36,7 +36,7 @@ SOCKETS = """\
     "SHEEN": Sockets("ShaderNodeBsdfSheen", "Color", "Roughness", "Normal"),
 """
 LINES = {
-    "core/models/__init__.py": ('to the V-cavity reference", 2),\n', MODEL),
+    "core/models/__init__.py": ('in closed form and tabulated", 2, 65.0),\n', MODEL),
     "core/instruments/geometries.py": ("    _multi_angle(110, number=13),\n", INSTRUMENT),
     "addon/blender/sockets.py": ("OF_SHADER: Mapping[str, Sockets] = {\n", SOCKETS),
 }
@@ -397,7 +397,7 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
     assert found["waved"] == [["FINISHED"], "Wave"]
     menu = found["drawn"][: found["drawn"].index("rough_spectra.bake") + 1]
     groups = " ".join(name.removeprefix("rough_spectra.") for name in menu).split(" - ")
-    assert groups[1:] == ["analyze_scene renew keep wave", "measure bake"]
+    assert groups[1:] == ["analyze_scene renew keep estimate_sigma wave", "measure bake"]
 
 
 def test_a_box_of_one_file_is_found_everywhere(found):

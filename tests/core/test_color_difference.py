@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """L*a*b* and ΔE00 against published data; tests/addon compares them with colour-science too."""
 
-import time
-from unittest import mock
-
 import numpy as np
 import pytest
 
-from core.color import color_difference
 from core.color.color_difference import (
     LAB_FROM_ROOTS,
     adaptation,
@@ -96,19 +92,6 @@ def test_many_pairs_differ_as_each_alone_does(shape):
     np.testing.assert_allclose(delta_e(other, lab), found, rtol=0, atol=1e-12)
     few = np.array([delta_e(lab.reshape(-1, 3)[i], other[i % shape[-1]]) for i in range(50)])
     np.testing.assert_allclose(found.ravel()[:50], few, rtol=0, atol=1e-12)
-
-
-def test_blocks_save_time_on_many_pairs():
-    lab = np.random.default_rng(9).uniform((0, -60, -60), (100, 60, 60), (2, 100_000, 3))
-    times = {"in blocks": [], "at once": []}
-    for _ in range(7):
-        for name, pairs in (("in blocks", color_difference._PAIRS), ("at once", 100_000)):
-            with mock.patch.object(color_difference, "_PAIRS", pairs):
-                start = time.process_time()
-                delta_e(*lab)
-                times[name].append(time.process_time() - start)
-    # By tools/benchmarks/bench.py it is half.
-    assert min(times["in blocks"]) < 0.85 * min(times["at once"])
 
 
 def test_what_is_compared_is_left_as_it_was():

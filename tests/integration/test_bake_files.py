@@ -327,7 +327,7 @@ def test_cgats_has_a_table_for_each_grid_light_and_model(baked):
     tables = cgats_tables(baked.path("predicted.cgats.txt"))
     parts = [e["predicted"] for e in baked.document["readings"] if e["predicted"]]
     kinds = {(len(p["wavelengths"]), p["illuminant"], p["observer"], p["model"]) for p in parts}
-    assert len(tables) == len(kinds) == 4
+    assert len(tables) == len(kinds) == 3
     for keywords, _, rows in tables:
         models = {parts[int(row[0]) - 1]["model"] for row in rows}
         assert keywords["DESCRIPTOR"].endswith(f"{models.pop()} model")

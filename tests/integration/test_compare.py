@@ -24,8 +24,8 @@ def readings(tmp_path):
     """One paint on a smooth and on a rough ground, and another paint, as an instrument reads."""
     path = tmp_path / "paints.csv"
     columns = {
-        "smooth": reading.from_albedo(PAINT, math.radians(5), "closure"),
-        "rough": reading.from_albedo(PAINT, math.radians(40), "closure"),
+        "smooth": reading.from_albedo(PAINT, math.radians(5), "surface"),
+        "rough": reading.from_albedo(PAINT, math.radians(40), "surface"),
         "=other # one": OTHER,
     }
     lines = [",".join(["nm", *columns])]
@@ -58,7 +58,7 @@ def test_one_paint_of_two_roughnesses_is_one_color_as_albedos(main, readings, tm
         "second: albedo to reading",
     ]
     assert {float(number) for number in rows["their albedos"].values() if number} == {0}
-    smooth, rough = (reading.from_albedo(PAINT, math.radians(s), "closure") for s in (5, 40))
+    smooth, rough = (reading.from_albedo(PAINT, math.radians(s), "surface") for s in (5, 40))
     one, other = lab(smooth), lab(rough)
     measured = {key: float(value) for key, value in rows["samples as measured"].items() if value}
     expected = {
@@ -102,7 +102,10 @@ def test_names_files_and_signs_in_them(main, readings, tmp_path):
         (("{file}", "green"), "has 3 samples; name one as FILE#NAME, of: smooth, rough"),
         (("{file}#none", "green"), "has no sample 'none'"),
         (("none.csv", "green"), "'none.csv' is no file, and no sample either"),
-        (("green", "red", "--sigma", "10", "95"), "Sample 'red': σ is 95°; give 0 to 90 degrees."),
+        (
+            ("green", "red", "--sigma", "10", "95"),
+            "Sample 'red': σ is 95°, and materials are matched up to 60°",
+        ),
     ],
 )
 def test_what_cannot_be_compared_is_refused_and_nothing_is_written(
@@ -118,7 +121,7 @@ def test_what_cannot_be_compared_is_refused_and_nothing_is_written(
 def test_samples_on_different_wavelengths_and_instruments_compare():
     fine = np.arange(380.0, 731, 5)
     smooth = api.Sample("smooth", BANDS, PAINT, "albedo")
-    values = np.interp(fine, BANDS, reading.from_albedo(PAINT, 0.6, "closure", "di:8"))
+    values = np.interp(fine, BANDS, reading.from_albedo(PAINT, 0.6, "surface", "di:8"))
     rough = api.Sample("rough", fine, values, "reading", instrument="di:8")
     found = api.compare(smooth, api.request(rough, 0.6))
     # Interpolation and what lies beyond 400 to 700 nm.
@@ -158,7 +161,7 @@ def test_settings_must_be_the_same():
 
 def test_what_is_beyond_the_model_is_said():
     white = api.Sample("white", BANDS, np.full(BANDS.size, 0.95), "reading")
-    found = api.compare(white, api.request(white, 1.2, model="closure"))
+    found = api.compare(white, api.request(white, 1.0, model="surface"))
     assert not found.warnings
-    pair = (api.request(white, sigma, model="two-bounce") for sigma in (0.1, 1.2))
+    pair = (api.request(white, sigma, model="two-bounce") for sigma in (0.1, 1.0))
     assert any(sentence.startswith("white: ") for sentence in api.compare(*pair).warnings)

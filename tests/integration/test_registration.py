@@ -172,7 +172,7 @@ def test_stored_properties_have_tooltips_and_identifiers_that_files_hold():
     # Blender stores an item's number: never give one to another item.
     assert found["kind"] == dict(enumerate(["reading", "albedo"]))
     assert found["instrument"][0] == "45a:0"
-    models = ["two-bounce", "first-order", "closure", "auto", "lambert", "reference"]
+    models = ["two-bounce", "first-order", "closure", "auto", "lambert", "reference", "surface"]
     assert found["model"] == dict(enumerate(models))
     assert found["shader"] == dict(enumerate(["AUTO", "DIFFUSE", "PRINCIPLED"]))
     assert found["observer"] == {0: "2", 1: "10"}

@@ -4,7 +4,7 @@
 
 Assigns the 24 ColorChecker presets at three roughnesses, once for the published two-bounce model
 and once with the model left to choose; renders them in 500 geometries of light and view; and
-compares with the spectral truth there: the two-bounce model itself, and the V-cavity reference.
+compares with the spectral truth there: the two-bounce model itself, and "surface".
 Beside each stands a Lambertian material with the same reading at 45°/0°, which is what a color
 picked from a chart amounts to. Writes docs/data/hemisphere.csv and docs/hemisphere-table.md. Needs
 an environment with bpy:
@@ -41,7 +41,7 @@ from rough_spectra.core.numerics.arrays import Array
 SIGMAS = (15, 30, 45)
 """Degrees. At 0° both materials are Lambertian and exact."""
 GEOMETRIES = 500
-TARGETS = {"two-bounce": "two-bounce", solve.AUTO: "reference"}
+TARGETS = {"two-bounce": "two-bounce", solve.AUTO: "surface"}
 """What a material was assigned with, and the model of `core.ladder` it is compared with."""
 
 DOCS = ROOT / "docs"
@@ -241,7 +241,7 @@ def markdown(rows: list[Row]) -> str:
             f"{rows[0].patches} ColorChecker patches within Rec.709, {rows[0].geometries} "
             "cosine-weighted geometries of light and view below 80°, D65, 2° observer. Each is a "
             "Cycles render. Materials assigned with the two-bounce model are compared with it, "
-            "spectrally; materials whose model was left to choose, with the V-cavity reference. "
+            'spectrally; all others with "surface". '
             "The Lambertian material shows its 45°/0° reading everywhere.",
             "",
         ]

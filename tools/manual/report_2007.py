@@ -23,7 +23,7 @@ from rough_spectra.addon.colorimetry import tristimulus
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.support.colour_science import colour
-from rough_spectra.core import reading, vcavity
+from rough_spectra.core import models, reading, vcavity
 from rough_spectra.core.color import chromaticity, color_difference
 
 Array = NDArray[np.float64]
@@ -260,16 +260,17 @@ def largest_sigma(peak: float, model: str) -> float:
     """Largest σ in degrees at which white facets still reach a peak reading; NaN if none does."""
     if model == "two-bounce":
         return float(np.degrees(reading.sigma_max(peak)))
-    degrees = np.linspace(0, 90, 9001)
+    white = white_curve(model)
     # Energy is conserved to rounding by the closure.
-    reached = degrees[white_curve(model) >= peak - 1e-12]
-    return float(reached.max()) if reached.size else float("nan")
+    reached = np.flatnonzero(white >= peak - 1e-12)
+    return float(reached.max() / 100) if reached.size else float("nan")
 
 
 @lru_cache(maxsize=4)
 def white_curve(model: str) -> Array:
-    """Give the reading of white facets at σ = 0, 0.01 … 90°."""
-    sigma = np.radians(np.linspace(0, 90, 9001))
+    """Give the reading of white facets at σ = 0, 0.01 … to where the model holds."""
+    end = round(models.find(model).largest_sigma)
+    sigma = np.radians(np.linspace(0, end, 100 * end + 1))
     if model == "reference":
         return vcavity.reading_from_albedo(np.ones((sigma.size, 1)), sigma)[:, 0]
     return reading.white_reading(sigma, model)

@@ -32,9 +32,9 @@ CASES = (
     ("grains", 30),
 )
 POINTS = 2048
-FIELDS = 12
-PATHS = 6_400
-AT_THE_INSTRUMENT = 250_000
+FIELDS = 48
+PATHS = 2_500
+AT_THE_INSTRUMENT = 90_000
 """Paths of a field and direction; at 45°/0° more, since σ is inferred there from small changes."""
 ORDERS = 64
 
