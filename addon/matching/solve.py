@@ -46,8 +46,8 @@ __all__ = [
 ]
 
 MATCH_GEOMETRIES = 32
-"""Directions the roughness is matched over. Against 2,000 of them the mean ΔE00 of the
-ColorChecker comes out within 0.03."""
+"""Directions the roughness is matched over. Against 2,000 of them the mean ΔE00 of
+patches comes out within 0.12; three times as many come no nearer."""
 
 ASKED_FOR = "asked for"
 """Reason of a model that was named; its material is then matched, however smooth."""

@@ -15,7 +15,7 @@ from rough_spectra.core.numerics import direction_grid
 
 from tools.manual import hemisphere_table
 
-LIMITS = {15: 0.4, 30: 0.7, 45: 1.0}
+LIMITS = {15: 0.6, 30: 0.9, 45: 1.0}
 """Mean ΔE00 that the project promises for each σ: one lobe of Cycles cannot be nearer."""
 
 

@@ -14,6 +14,8 @@ import csv
 import json
 import sys
 
+import numpy as np
+
 from tools.manual import figure_style
 from tools.manual.figure_style import (
     BLACK,
@@ -389,15 +391,16 @@ def all_bounces(plt):
     left.set_ylabel("reading r of white facets (ρ = 1)")
     left.set_title("The bound on (σ, r) all but vanishes")
     left.legend(loc="lower left", frameon=False)
-    peak = int(data["white_reference"].argmax())
-    for place, height, across in ((peak, 0.0007, "left"), (90, -0.0011, "right")):
+    peak = int(np.nanargmax(data["white_reference"]))
+    last = int(np.flatnonzero(np.isfinite(data["white_reference"]))[-1])
+    for place, height, across in ((peak, 0.0014, "center"), (last, -0.0022, "right")):
         value = data["white_reference"][place]
         right.plot(place, value, "o", color=VERMILION, clip_on=False)
         label = f"{value:.4f} at {place}°"
         right.text(place, value + height, label, color=VERMILION, ha=across, va="center")
-    right.set_ylim(0.99, 1.01)
-    right.set_yticks([0.99, 0.995, 1.0, 1.005, 1.01])
-    right.set_title("The same, about 20 times enlarged")
+    right.set_ylim(0.98, 1.02)
+    right.set_yticks([0.98, 0.99, 1.0, 1.01, 1.02])
+    right.set_title("The same, about 10 times enlarged")
     return figure
 
 

@@ -24,7 +24,7 @@ if "rough_spectra" not in sys.modules:
     load_extension()
 
 from rough_spectra.addon.support import atomic_files
-from rough_spectra.core import feasible, reading, vcavity
+from rough_spectra.core import feasible, models, reading, vcavity
 from rough_spectra.core.limits import LARGEST_SIGMA
 
 from tools.manual import report_2007
@@ -69,7 +69,11 @@ def curves_csv() -> str:
     sigma = np.radians(np.arange(91))
     f1, f2 = reading.coefficients(sigma)
     a1 = vcavity.ring_coefficients(sigma, 1)[:, 0]
-    white = [white_curve(model)[::100] for model in BEYOND_FIRST]
+    # A model that ends before 90° has no cells there.
+    white = [
+        np.concatenate((curve[::100], np.full(91 - curve[::100].size, np.nan)))
+        for curve in map(white_curve, BEYOND_FIRST)
+    ]
     names = ["sigma_deg", "f1", "f2", *(f"white_{m}" for m in BEYOND_FIRST), "a1_reference"]
     about = "45a:0; f1 and f2 weigh albedo and its square; white_* is the reading of white facets"
     return _csv(about, names, zip(np.arange(91), f1, f2, *white, a1, strict=True))
@@ -251,7 +255,10 @@ def bounds_table() -> str:
     lines = []
     for peak in PEAKS:
         found = (largest_sigma(peak, model) for model in BEYOND_FIRST)
-        cells = ("no bound" if s >= 89.5 else f"{s:.1f}°" for s in found)
+        ends = (models.find(model).largest_sigma - 0.5 for model in BEYOND_FIRST)
+        cells = (
+            "no bound" if s >= end else f"{s:.1f}°" for s, end in zip(found, ends, strict=True)
+        )
         lines.append((f"{peak:g}", *cells))
     return _markdown(("peak reading", *BEYOND_FIRST), lines)
 
@@ -261,7 +268,8 @@ def white_table() -> str:
     lines = []
     for degrees in (10, 20, 30, 45, 60, 90):
         place = 100 * degrees
-        cells = (f"{white_curve(model)[place]:.4f}" for model in BEYOND_FIRST)
+        curves = (white_curve(model) for model in BEYOND_FIRST)
+        cells = (f"{curve[place]:.4f}" if place < curve.size else "–" for curve in curves)
         lines.append((f"{degrees}°", *cells))
     return _markdown(("σ", *BEYOND_FIRST), lines)
 
