@@ -21,16 +21,14 @@ V-grooves.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import DomainError
 from ..numerics.arrays import Array, polar_angle, precision, slope_deviation
-from ..numerics.memoized import memoized, remembered
+from ..numerics.memoized import FEW, memoized
 from .packing import unpack
 
 ANCHORS = 3
@@ -92,16 +90,6 @@ class Table:
     def largest_angle(self) -> float:
         """Radians."""
         return float(np.radians(self.polar[-1]))
-
-    @cached_property
-    def remembered(self) -> Callable[[Array, Array, Array], tuple[Array, ...]]:
-        """`at_nodes`, which keeps its results for few directions."""
-
-        def nodes_of(light: Array, view: Array, azimuth: Array) -> tuple[Array, ...]:
-            return (_between(self, _refined(self).nodes, light, view, azimuth),)
-
-        nodes_of.__qualname__ = f"at_nodes.{self.name}"
-        return remembered(nodes_of)
 
 
 def factors(
@@ -211,7 +199,20 @@ def at_nodes(table: Table, theta_i: Array, theta_r: Array, delta_phi: Array) -> 
     >>> at_nodes(TABLE, light, light * 0, light)[0, :3].tolist()
     [0.0, 0.0, 0.0]
     """
-    [found] = table.remembered(theta_i, theta_r, delta_phi)
+    if theta_i.size > FEW:
+        return _between(table, _refined(table).nodes, theta_i, theta_r, delta_phi)
+    angles = (angle.tobytes() for angle in (theta_i, theta_r, delta_phi))
+    return _of_few(table, theta_i.shape, *angles)
+
+
+@memoized(maxsize=64)
+def _of_few(
+    table: Table, shape: tuple[int, ...], light: bytes, view: bytes, azimuth: bytes
+) -> Array:
+    """Keep what few directions look up: while σ is dragged they are the same at every step."""
+    angles = (np.frombuffer(data).reshape(shape) for data in (light, view, azimuth))
+    found = _between(table, _refined(table).nodes, *angles)
+    found.setflags(write=False)
     return found
 
 
