@@ -40,7 +40,7 @@ class Nothing:
 def _sigmas(count: int) -> Iterator[list[float]]:
     """Give roughnesses as from a slider, others each time."""
     for run in itertools.count(1):
-        yield [0.1 + 1.3 * (i + run * 0.618 % 1) / count for i in range(count)]
+        yield [0.1 + 0.9 * (i + run * 0.618 % 1) / count for i in range(count)]
 
 
 def _plane() -> Any:
