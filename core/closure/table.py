@@ -308,7 +308,8 @@ def _refined(table: Table) -> _Refined:
         )
         axes.append(finer)
     width = len(table.sigma) * ANCHORS
-    return _Refined(*axes, np.ascontiguousarray(coarse.reshape(-1, width)))
+    polar, ratio, azimuth = axes
+    return _Refined(polar, ratio, azimuth, np.ascontiguousarray(coarse.reshape(-1, width)))
 
 
 def unpacked(table: Table) -> Array:

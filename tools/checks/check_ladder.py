@@ -114,8 +114,9 @@ def errors(scenes: Sequence[Scene]) -> dict[str, Array]:
     """Largest ΔE00 of each scene from the target, by every model: shape (scenes,)."""
     found = {model: np.zeros(len(scenes)) for model in models.NAMES}
     for index, scene in enumerate(scenes):
+        light, view, azimuth = scene.geometries
         spectra = {
-            model: ladder.reflectance(model, scene.albedo, *scene.geometries, scene.sigma)
+            model: ladder.reflectance(model, scene.albedo, light, view, azimuth, scene.sigma)
             for model in models.NAMES
         }
         for name in scene.illuminants:
@@ -131,10 +132,10 @@ def cost(model: str) -> float:
     """Microseconds for a spectrum of 31 bands in one of many new directions."""
     random = np.random.default_rng(7)
     count = TIMED // 1000 if model == "reference" else TIMED
-    angles = np.arccos(random.uniform(0.2, 1, (2, count)))
+    light, view = np.arccos(random.uniform(0.2, 1, (2, count)))
     azimuth = random.uniform(0, np.pi, count)
     start = time.perf_counter()
-    ladder.reflectance(model, np.full(31, 0.5), *angles, azimuth, 0.5)
+    ladder.reflectance(model, np.full(31, 0.5), light, view, azimuth, 0.5)
     return (time.perf_counter() - start) / count * 1e6
 
 

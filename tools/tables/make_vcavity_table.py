@@ -69,7 +69,9 @@ def solve(geometry: Array, sigma: Array) -> Array:
     weights = slope_law.weights(sigma, surface.STANDARD.slopes)
     bounces = sigma_tables.SERIES_BOUNCES
     parts = np.array_split(geometry, (len(geometry) + 1) // 2)
-    return np.concatenate([weights @ surface.response(*part.T, bounces) for part in parts])
+    columns = (part.T for part in parts)
+    rows = (surface.response(light, view, turn, bounces) for light, view, turn in columns)
+    return np.concatenate([weights @ row for row in rows])
 
 
 def anchors() -> Array:
@@ -142,8 +144,8 @@ def report() -> None:
         ("below 80°", probes),
     ):
         expected = bounce_series.evaluate(solve(geometry, PROBE_SIGMAS), PROBE_ALBEDOS)
-        angles = (geometry[:, i : i + 1] for i in range(3))
-        found = closed.reflectance(PROBE_ALBEDOS, *angles, PROBE_SIGMAS)
+        light, view, azimuth = (geometry[:, i : i + 1] for i in range(3))
+        found = closed.reflectance(PROBE_ALBEDOS, light, view, azimuth, PROBE_SIGMAS)
         worst = np.abs(found / expected - 1).max(axis=-1)
         for low, high in ((0, 10), (10, 30), (30, 50), (50, 65)):
             degrees = np.degrees(PROBE_SIGMAS)
