@@ -11,7 +11,8 @@ The nodes lie over σ, the larger polar angle α, the smaller one over it, and t
 and view may be swapped, so this covers all there is; and where they meet the reflectance has a
 kink, which lies on the border of the table so.
 
-- Over σ, local cubics. At σ = 0 all anchors are 0, where r = ρ to the last bit.
+- Over σ, local cubics; at σ = 0 all anchors are 0, where r = ρ to the last bit, and from there to
+  the first node they are a polynomial in σ², as a surface does not know the sign of its slopes.
 - Over the directions, the table is refined by local cubics once, and is linear between.
 - Beyond its last polar angle it stays as it is there.
 
@@ -36,6 +37,9 @@ ANCHORS = 3
 
 _CUBIC = 4
 """Nodes of a local cubic."""
+
+_EVEN = 3
+"""Nodes, σ = 0 with them, of the even polynomial between the first two."""
 
 _FINER = 2
 """Intervals that the refinement makes of one."""
@@ -240,7 +244,14 @@ def sigma_weights(table: Table, sigma: npt.ArrayLike) -> Array:
             f"{table.sigma[-1]:g}°; the published models go on to 90°."
         )
         raise DomainError(msg)
-    return _cubic_weights(np.radians(table.sigma), spread)
+    nodes = np.radians(table.sigma)
+    weights = _cubic_weights(nodes, spread)
+    onset = spread < nodes[1]
+    if np.count_nonzero(onset):
+        first = nodes[:_EVEN] ** 2
+        weights[onset] = 0
+        weights[onset, :_EVEN] = _weights_of(first, spread[onset][:, np.newaxis] ** 2)
+    return weights
 
 
 def through(found: Array, meeting: float) -> tuple[Array, Array, Array]:
@@ -389,15 +400,21 @@ def _cubic_weights(nodes: Array, at: Array) -> Array:
     """Weights of all nodes in the local cubic at each place: shape of `at` + (nodes,)."""
     first = np.clip(nodes.searchsorted(at) - _CUBIC // 2, 0, nodes.size - _CUBIC)
     index = first[..., np.newaxis] + np.arange(_CUBIC)
-    near = nodes[index]
-    apart = at[..., np.newaxis] - near
     out = np.zeros((*at.shape, nodes.size))
-    for own in range(_CUBIC):
-        others = [other for other in range(_CUBIC) if other != own]
-        gaps = near[..., own, np.newaxis] - near[..., others]
-        weight = (apart[..., others] / gaps).prod(axis=-1)
-        np.put_along_axis(out, index[..., own, np.newaxis], weight[..., np.newaxis], axis=-1)
+    np.put_along_axis(out, index, _weights_of(nodes[index], at[..., np.newaxis]), axis=-1)
     return out
+
+
+def _weights_of(nodes: Array, at: Array) -> Array:
+    """Lagrange's weights of nodes (..., n) at places (..., 1): shape (..., n)."""
+    count = nodes.shape[-1]
+    apart = at - nodes
+    weights = []
+    for own in range(count):
+        others = [other for other in range(count) if other != own]
+        gaps = nodes[..., own, np.newaxis] - nodes[..., others]
+        weights.append((apart[..., others] / gaps).prod(axis=-1))
+    return np.stack(weights, axis=-1)
 
 
 def _each_anchor(weights: Array) -> Array:

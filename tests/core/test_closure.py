@@ -46,6 +46,16 @@ def test_level_surface_is_exact(dtype):
     np.testing.assert_array_equal(level, np.broadcast_to(albedo, level.shape))
 
 
+@pytest.mark.parametrize("model", ["closure", "surface"])
+def test_what_is_lost_begins_with_the_square_of_the_slope(model):
+    """A surface does not know the sign of its slopes: half of σ, a quarter of the loss."""
+    sigma = np.radians([0.02, 0.04, 0.2, 0.4])
+    lost = 1 - reading.from_albedo(np.array([0.05, 0.5, 0.9]), sigma, model) / [0.05, 0.5, 0.9]
+    assert (lost > 0).all()
+    np.testing.assert_allclose(lost[1] / lost[0], 4, rtol=1e-3)
+    np.testing.assert_allclose(lost[3] / lost[2], 4, rtol=0.02)
+
+
 @pytest.mark.parametrize(("dtype", "bound"), [(np.float64, 1e-12), (np.float32, 1e-5)])
 def test_readings_round_trip(dtype, bound):
     sigma = np.array([0, 1e-300, 1e-8, 1e-4, 0.1, 0.5, 0.9, 1.1])

@@ -215,7 +215,7 @@ def _materials(count: int) -> list[Any]:
     samples = presets.load_all()
     derive.assign(
         [
-            (material, Request(samples[i % len(samples)], 0.1 + i / count))
+            (material, Request(samples[i % len(samples)], 0.1 + 0.9 * i / count))
             for i, material in enumerate(made)
         ]
     )
