@@ -65,7 +65,7 @@ _WHY_NOT = {
         "emitted, up to 0.2 at σ = 45°, and it makes light at grazing"
     ),
     "closure": (
-        "it was fitted to single directions and misses the integral over all by up to 0.004, where "
+        "it is a table of single directions and misses the integral over all by up to 0.001, where "
         "the reference costs no more"
     ),
 }

@@ -128,6 +128,7 @@ def models():
         label="reference (simulated grooves)",
     )
     for model, color, dash in (
+        ("surface", BLACK, (0, (6, 1, 1, 1))),
         ("closure", TEAL, (0, (1, 1))),
         ("two-bounce", BLUE, "-"),
         ("first-order", VERMILION, (0, (5, 2))),
@@ -166,7 +167,7 @@ def green():
 def hemisphere():
     with HEMISPHERE.open(encoding="utf-8", newline="") as file:
         table = csv.DictReader(line for line in file if not line.startswith("#"))
-        rows = [row for row in table if row["truth"] == "reference"]
+        rows = [row for row in table if row["truth"] == "surface"]
     figure, axes = plt.subplots(figsize=(8, 3.6), layout="constrained")
     names = list(dict.fromkeys(row["material"] for row in rows))
     sigmas = sorted({float(row["sigma_degrees"]) for row in rows})
