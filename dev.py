@@ -47,6 +47,9 @@ CHART = Environment(
     "Mitsuba and LuxCore, which the chart compares with, about 200 MB to fetch, once",
 )
 FUZZ = Environment(ROOT, "fuzz", ("3.13", "3.11"), "atheris, the fuzzer of the readers, once")
+TABLES = Environment(
+    ROOT, "tables", ("3.13", "3.11"), "numba, for the tools that trace the tables that ship, once"
+)
 BLENDERS = {"5.2": BLENDER_5_2, "4.5": BLENDER_4_5}
 
 NO_PYTHON = (
@@ -272,6 +275,20 @@ def command_fuzz(options: argparse.Namespace) -> int:
     return call(tool(FUZZ.python, "tools/checks/fuzz.py", *options.arguments))
 
 
+def command_tables(options: argparse.Namespace) -> int:
+    """Run a tool of tools/tables, which trace and make the tables that ship."""
+    if not options.arguments:
+        raise SetupError(
+            "Name a tool of tools/tables and its arguments, for instance "
+            "'python3 dev.py tables trace_surfaces FOLDER'."
+        )
+    name, *rest = options.arguments
+    command = tool(TABLES.python, f"tools/tables/{name}.py", *rest)
+    if not environments.prepare(TABLES, say):
+        raise SetupError(NO_PYTHON)
+    return call(command)
+
+
 def command_screenshots(options: argparse.Namespace) -> int:
     """Take the manual's pictures in the window of a desktop Blender."""
     status = command_build(options)
@@ -315,6 +332,7 @@ COMMANDS = {
     "figures": (command_figures, "draw the figures of the manual"),
     "bench": (command_bench, "measure speed"),
     "screenshots": (command_screenshots, "take the manual's pictures in a desktop Blender"),
+    "tables": (command_tables, "run a tool that traces or makes a table that ships"),
     "fuzz": (command_fuzz, "fuzz the readers of measurement files"),
     "chart": (command_chart, "measure cost against error, peers included, and draw the chart"),
 }
@@ -324,6 +342,7 @@ TAKES_ARGUMENTS = {
     "figures": "tools/manual/figures.py",
     "fuzz": "tools/checks/fuzz.py",
     "screenshots": "tools/manual/screenshots.py",
+    "tables": "the tool named first",
 }
 
 

@@ -109,6 +109,13 @@ def test_missing_script_is_named():
         dev.script("tools/nothing.py")
 
 
+def test_tables_wants_a_tool_that_there_is(stubbed):
+    with pytest.raises(SetupError, match="Name a tool of tools/tables"):
+        dev.main(["tables"])
+    with pytest.raises(SetupError, match=r"tools/tables/nothing\.py does not exist"):
+        dev.main(["tables", "nothing", "FOLDER"])
+
+
 @pytest.mark.parametrize("command", [*dev.COMMANDS, ""])
 def test_help(command):
     with pytest.raises(SystemExit) as end:

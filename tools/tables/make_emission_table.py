@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the table of what random surfaces reflect into the whole hemisphere; needs numba to trace.
+"""Make the table of what random surfaces reflect into the whole hemisphere.
 
-    python -m tools.tables.make_emission_table FOLDER [--fields 36] [--walks 40000]
-    python -m tools.tables.make_emission_table FOLDER --write
+    python3 dev.py tables make_emission_table FOLDER [--fields 36] [--walks 40000]
+    python3 dev.py tables make_emission_table FOLDER --write
 
 Every σ and field is a file of its own in the folder, so that an interrupted run goes on where it
 was. Random numbers start from fixed seeds: the same files come out again. The fields are those of

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the table of the model "surface" from what `trace_surfaces` found; needs numpy alone.
+"""Make the table of the model "surface" from what `trace_surfaces` found.
 
-python -m tools.tables.make_surface_table FOLDER            print what the form misses
-python -m tools.tables.make_surface_table FOLDER --write    write core/surface/data.py too
+python3 dev.py tables make_surface_table FOLDER            print what the form misses
+python3 dev.py tables make_surface_table FOLDER --write    write core/surface/data.py too
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the table of the model "closure" from the solver of the V-cavity; needs numpy alone.
 
-python -m tools.tables.make_vcavity_table            print what the table in use misses
-python -m tools.tables.make_vcavity_table --write    write core/vcavity/closed_data.py first
+python3 dev.py tables make_vcavity_table            print what the table in use misses
+python3 dev.py tables make_vcavity_table --write    write core/vcavity/closed_data.py first
 
 The solver is asked at the table's directions for all σ, and the closed form that misses least over
 the albedos is tabulated; then the solver is asked again in random directions between. Led exactly

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Trace surfaces that no table was made from, for the tests and the manual to judge by.
 
-    python -m tools.tables.trace_held_out [--processes 2] [KIND …]
+    python3 dev.py tables trace_held_out [--processes 2] [KIND …]
 
-Needs numba. Paths start at the eye, as those of the table do not; fields, grids and random numbers
+Paths start at the eye, as those of the table do not; fields, grids and random numbers
 are others. Written is tests/fixtures/traces/KIND-σ.csv: a line for each of 65 directions below 80°
 with the reflectance factor at six albedos and its standard error.
 """

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Trace Gaussian height fields over directions and roughness, for `make_surface_table`.
 
-    python -m tools.tables.trace_surfaces FOLDER [--processes 2] [--fields 24] [--walks 40000]
+    python3 dev.py tables trace_surfaces FOLDER [--processes 2] [--fields 24] [--walks 40000]
 
-Needs numba. Every σ and field is a file of its own in the folder, so that an interrupted run goes
+Every σ and field is a file of its own in the folder, so that an interrupted run goes
 on where it was. Random numbers start from fixed seeds: the same files come out again.
 """
 
