@@ -30,15 +30,14 @@ _NEWTON_STEPS = 12
 _SURE_STEPS = 2
 """Steps taken by all: to ask whether a color needs them costs nearly as much as a step."""
 
-_PLACES = 9
-"""Roughnesses tried at once, both ends of an interval among them."""
-_KNOWN = np.arange(_PLACES) % (_PLACES // 2) == 0
-"""Those of them that were tried before in the interval twice around."""
-_SHARES = np.linspace(0, 1, _PLACES)
+_COARSE = np.linspace(0, 1, 9)
+"""Roughnesses tried at first."""
+_FINE = np.linspace(0, 1, 17)
+"""Those tried next, between the neighbors of the best. Steps are 1/64 then, and a parabola goes on
+from there."""
+_KNOWN = np.arange(_FINE.size) % 8 == 0
+"""Those of them that were tried before."""
 _AROUND = np.arange(-1, 2)
-_ZOOMS = 2
-"""Times that the interval shrinks to two steps of the one before: the last step is 0.008, and a
-parabola goes on from there."""
 _CHUNK = 64
 """Materials matched at once: 1 to 2 MB of colors."""
 
@@ -152,15 +151,12 @@ def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> 
 
     Many places a call and few calls: numpy spends more on a call than on a hundred numbers.
     """
-    shares = _SHARES.astype(dtype)
-    tried = np.tile(shares, (count, 1))
-    costs = cost(tried)
-    for _ in range(_ZOOMS):
-        near, known = _around_least(tried, costs)
-        low, high = near[:, :1], near[:, 2:]
-        tried = low + (high - low) * shares
-        costs = np.empty_like(tried)
-        costs[:, _KNOWN], costs[:, ~_KNOWN] = known, cost(tried[:, ~_KNOWN])
+    tried = np.tile(_COARSE.astype(dtype), (count, 1))
+    near, known = _around_least(tried, cost(tried))
+    low, high = near[:, :1], near[:, 2:]
+    tried = low + (high - low) * _FINE.astype(dtype)
+    costs = np.empty_like(tried)
+    costs[:, _KNOWN], costs[:, ~_KNOWN] = known, cost(tried[:, ~_KNOWN])
     (a, b, c), (at_a, at_b, at_c) = (x.T for x in _around_least(tried, costs))
     # The vertex of the parabola through the last three; where all are alike, the middle.
     bend = at_a - 2 * at_b + at_c
@@ -172,7 +168,7 @@ def _least(cost: Callable[[Array], Array], count: int, dtype: np.dtype[Any]) -> 
 
 def _around_least(tried: Array, costs: Array) -> tuple[Array, Array]:
     """Give three neighbors with the least cost among them, and in the middle unless at an end."""
-    middle = np.minimum(np.maximum(costs.argmin(axis=1), 1), _PLACES - 2)
+    middle = np.minimum(np.maximum(costs.argmin(axis=1), 1), costs.shape[1] - 2)
     row, column = np.arange(len(costs))[:, np.newaxis], middle[:, np.newaxis] + _AROUND
     return tried[row, column], costs[row, column]
 

@@ -102,9 +102,23 @@ def weights(sigma: Array, per_panel: int, slopes: str = DEFAULT) -> Array:
     ([1.0, 1.0], 1.0)
     """
     check(slopes)
+    if sigma.size == 1:
+        return _of_one(float(sigma[0]), per_panel, slopes)
     if sigma.size > _BLOCK:
         blocks = np.split(sigma, range(_BLOCK, sigma.size, _BLOCK))
         return np.concatenate([weights(block, per_panel, slopes) for block in blocks])
+    return _of_all(sigma, per_panel, slopes)
+
+
+@memoized(maxsize=16)
+def _of_one(sigma: float, per_panel: int, slopes: str) -> Array:
+    """Keep those of one σ, which is asked for a reading, for a match and for a plot in turn."""
+    found = _of_all(np.array([sigma]), per_panel, slopes)
+    found.setflags(write=False)
+    return found
+
+
+def _of_all(sigma: Array, per_panel: int, slopes: str) -> Array:
     slope, share = LAWS[slopes](sigma)
     level, inner = _panels(per_panel)
     # Steeper ones are taken for the steepest solved: beyond it a polynomial knows nothing.
