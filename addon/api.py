@@ -558,7 +558,7 @@ def renew(materials: Iterable[bpy.types.Material]) -> list[Solution]:
     ...     wall.rough_spectra.sigma = radians(40)
     >>> [solution] = renew([wall])
     >>> round(solution.roughness, 2)
-    0.69
+    0.68
     """
     return derive.renew([_checked(material) for material in materials])
 
