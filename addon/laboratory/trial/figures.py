@@ -65,8 +65,7 @@ class Panel:
 def panels_of_grays(grays: Sequence[Grays]) -> list[Panel]:
     """Give what was measured of meshes, as panels."""
     return [
-        Panel(of.name, math.radians(of.degrees), "45a:0", of.albedo, of.reflectance)
-        for of in grays
+        Panel(of.name, math.radians(of.degrees), "45a:0", of.albedo, of.reflectance) for of in grays
     ]
 
 

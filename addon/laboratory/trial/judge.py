@@ -95,9 +95,7 @@ def _read(
         lab = color_difference.xyz_to_lab(np.stack((one, other)) @ weights, weights.sum(axis=0))
         return float(color_difference.delta_e(*lab))
 
-    def each(
-        sigmas: dict[str, float], compare: Callable[[str, float], float]
-    ) -> dict[str, float]:
+    def each(sigmas: dict[str, float], compare: Callable[[str, float], float]) -> dict[str, float]:
         return {m: compare(m, s) if _holds(m, s) else math.nan for m, s in sigmas.items()}
 
     def predicted(model: str, sigma: float) -> Array:

@@ -29,7 +29,7 @@ GRAYS = (0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.96)
 """Albedos that are measured: from black to white of a chart."""
 
 PLAN = (
-    *((kind, degrees) for kind in ("gaussian", "multiscale", "grooves") for degrees in (15, 30, 45)),
+    *((kind, sigma) for kind in ("gaussian", "multiscale", "grooves") for sigma in (15, 30, 45)),
     ("grooves-oren-nayar", 30),
     ("grains", 30),
 )
