@@ -25,11 +25,13 @@ _SCALE = 2.0
 _COLUMNS = 3
 _PANEL = 300, 190
 """Width and height at scale 1."""
-_WIDTH, _ROW = 700, 22
+_WIDTH, _ROW = 700, 34
 _NAMES = 230
 """Room for names of surfaces, at scale 1."""
 _MOST = 40
 """Characters of a name that are shown."""
+_LANE = 4.6
+"""Between the dots of two models in a row, at scale 1: dots in one place would hide each other."""
 
 # Okabe and Ito's colors.
 _COLORS = {
@@ -106,7 +108,9 @@ def over_albedo(panels: Sequence[Panel]) -> Array:
     high = max(1.1, min(1.5, math.ceil(10 * float(np.quantile(shown, 0.99))) / 10))
     for number, panel in enumerate(panels):
         top, left = head + number // columns * height, number % columns * width
-        _panel(canvas[top : top + height, left : left + width], panel, (low, high), look)
+        one = _canvas(height, width)  # lines need a canvas in one piece
+        _panel(one, panel, (low, high), look)
+        canvas[top : top + height, left : left + width] = one
     return np.asarray(canvas[..., :3])
 
 
@@ -161,7 +165,7 @@ def differences(reads: Sequence[Read], which: str) -> Array:
         for row, value in enumerate(values):
             if math.isfinite(value):
                 x = axes.across(math.log10(min(max(value, ticks[0]), ticks[-1])))
-                _dot(canvas, x, _middle(axes, row), 3.6, _color(model))
+                _dot(canvas, x, _middle(axes, row) + _lane(model), 2.8, _color(model))
     return np.asarray(canvas[..., :3])
 
 
@@ -175,19 +179,20 @@ def sigmas(found: Sequence[Inferred]) -> Array:
     _name_ticks(canvas, axes, ticks, "σ", look)
     shown_models = [m for m in _COLORS if m != "lambert"]
     keys = [Key("known", look.text, 2.0), *_keys(shown_models, look, 6.0)]
-    plot.draw_legend(canvas, [*keys, Key("reference, oren-nayar", _OTHER, 6.0)], axes.left, look)
+    other = Key("reference, oren-nayar", _OTHER, 6.0)
+    plot.draw_legend(canvas, [*keys, other], 40 * _SCALE, look)
     for row, of in enumerate(found):
         y = _middle(axes, row)
         if math.isfinite(of.least):
-            box = (axes.across(of.least), y - 3 * _SCALE, axes.across(of.most), y + 3 * _SCALE)
+            low, high = axes.across(of.least), axes.across(of.most)
+            box = (low, y + _lane("surface") - 4, high, y + _lane("surface") + 4)
             raster.rectangle(canvas, box, look.grid)
         if math.isfinite(of.stated):
             x = axes.across(of.stated)
-            raster.rectangle(canvas, (x - 2, y - 9 * _SCALE, x + 2, y + 9 * _SCALE), look.text)
+            raster.rectangle(canvas, (x - 1, y - 15 * _SCALE, x + 2, y + 15 * _SCALE), look.text)
         for model, sigma in of.by_model.items():
             if math.isfinite(sigma):
-                radius = 4.2 if model == "surface" else 2.6
-                _dot(canvas, axes.across(sigma), y, radius, _color(model))
+                _dot(canvas, axes.across(sigma), y + _lane(model), 2.8, _color(model))
     return np.asarray(canvas[..., :3])
 
 
@@ -218,6 +223,12 @@ def _name_ticks(
 
 def _middle(axes: Axes, row: int) -> float:
     return axes.top + (row + 0.5) * _ROW * _SCALE
+
+
+def _lane(model: str) -> float:
+    """How far below the middle of a row a model's dot stands; another model has lambert's lane."""
+    lane = list(_COLORS).index(model) if model in _COLORS else 0
+    return (lane - (len(_COLORS) - 1) / 2) * _LANE * _SCALE
 
 
 def _dot(canvas: Array, x: float, y: float, radius: float, color: raster.Color) -> None:
