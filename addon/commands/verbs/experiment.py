@@ -70,13 +70,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure or read, judge, and write; exit status 0."""
-    from ...laboratory.trial import page
+    from ...laboratory.trial import page, tables
     from ...support import atomic_files
     from ..progress import counted
 
     atomic_files.check_base(options.output)
     found = _of_readings(options) if options.mapping else _of_meshes(options)
-    for sentence in page.tables.untold(found.inferred):
+    for sentence in tables.remarks(found.inferred):
         tell(f"warning: {sentence}")
     written = page.write(found, options.output)
     tell(

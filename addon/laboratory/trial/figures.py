@@ -25,10 +25,10 @@ _SCALE = 2.0
 _COLUMNS = 3
 _PANEL = 300, 190
 """Width and height at scale 1."""
-_WIDTH, _ROW = 700, 34
-_NAMES = 230
+_WIDTH, _ROW = 720, 34
+_NAMES = 255
 """Room for names of surfaces, at scale 1."""
-_MOST = 40
+_MOST = 46
 """Characters of a name that are shown."""
 _LANE = 4.6
 """Between the dots of two models in a row, at scale 1: dots in one place would hide each other."""
@@ -159,7 +159,8 @@ def differences(reads: Sequence[Read], which: str) -> Array:
     }
     ticks = (0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
     canvas, axes, look = _rows(names, (math.log10(ticks[0]), math.log10(ticks[-1])))
-    _name_ticks(canvas, axes, [(math.log10(t), f"{t:g}") for t in ticks], "mean ΔE00", look)
+    marks = [(math.log10(t), f"{t:g}" if t > ticks[0] else f"≤ {t:g}") for t in ticks]
+    _name_ticks(canvas, axes, marks, "mean ΔE00", look)
     plot.draw_legend(canvas, _keys(models.NAMES, look, 6.0), axes.left, look)
     for model, values in means.items():
         for row, value in enumerate(values):
@@ -205,6 +206,9 @@ def _rows(names: Sequence[str], x: tuple[float, float]) -> tuple[Array, Axes, Lo
     left, right = round(_NAMES * _SCALE), round((_WIDTH - 16) * _SCALE)
     axes = Axes(left, head, right, head + height, x, (0.0, float(len(names))))
     for row, name in enumerate(names):
+        if row % 2:
+            band = (0, axes.top + row * _ROW * _SCALE, right, axes.top + (row + 1) * _ROW * _SCALE)
+            raster.rectangle(canvas, band, look.grid, 0.35)
         base = _middle(axes, row) + text.height(look.font) / 2
         text.draw(canvas, _short(name), left - 8 * _SCALE, base, look.font, look.text, align=1)
     return canvas, axes, look

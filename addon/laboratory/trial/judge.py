@@ -27,6 +27,9 @@ from .surfaces import Material, Surface, check
 FOLDS = 4
 """Hands that materials are dealt into."""
 
+DARK = 0.01
+"""Readings below it count in colors, and not in percent, where noise alone would tell."""
+
 ASKED = (*models.NAMES[1:], *(name for name in estimate.SPREAD if name not in models.NAMES))
 """Models whose σ is asked: all that know roughness, and the slope laws besides."""
 
@@ -108,13 +111,19 @@ def _read(
         *about,
         raw=apart(albedo, seen),
         stated=each(stated, lambda m, s: apart(predicted(m, s), seen)),
-        stated_percent=each(
-            stated, lambda m, s: 100 * float(np.mean(np.abs(predicted(m, s) - seen) / seen))
-        ),
+        stated_percent=each(stated, lambda m, s: _percent(predicted(m, s), seen)),
         own=each(own, lambda m, s: apart(predicted(m, s), seen)),
         albedo_stated=each(stated, lambda m, s: apart(behind(m, s), albedo)),
         albedo_own=each(own, lambda m, s: apart(behind(m, s), albedo)),
     )
+
+
+def _percent(predicted: Array, seen: Array) -> float:
+    """Give what a prediction is off by, mean over the bands that are no darkness."""
+    kept = seen >= DARK
+    if not kept.any():
+        return math.nan
+    return 100 * float(np.mean(np.abs(predicted[kept] / seen[kept] - 1)))
 
 
 def _holds(model: str, sigma: float) -> bool:
@@ -149,6 +158,7 @@ def _inferred(surface: Surface, relative: float) -> Inferred:
         math.degrees(found.sigma),
         *(math.degrees(end) for end in found.interval),
         found.reason,
+        " ".join(found.notes),
         len(paired),
         int(told.size),
         *map(float, spread),

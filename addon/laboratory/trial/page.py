@@ -119,7 +119,8 @@ _WORDS = {
     "all other albedos.",
     "known": "ΔE00 (D65, 2°) between the reading and what the model predicts from the smooth "
     "reading and σ: mean and, in brackets, largest over the readings of a surface.",
-    "percent": "By how much the prediction is off, mean over bands and readings.",
+    "percent": "By how much the prediction is off, mean over readings and those of their bands "
+    "that read 1 % or more.",
     "own": "ΔE00 as before, with the σ that each model finds by itself from the *other* materials "
     "of the surface: what is left is the form of the model, and not what σ means in it.",
     "sigma": "Inferred from smooth and rough readings: by the model surface from all materials of "
@@ -148,7 +149,7 @@ def _page(found: Found, name: str) -> str:
         lines += [f"## {_TITLES[part]}", "", _WORDS[part], "", table]
         if part in _PICTURED and _PICTURED[part][0] in drawn:
             lines += _picture(name, part)
-    lines += [f"- {sentence}" for sentence in tables.untold(found.inferred)]
+    lines += [f"- {sentence}" for sentence in tables.remarks(found.inferred)]
     if not found.has_albedo:
         lines += ["", "No material has a smooth reading, so that nothing could be predicted."]
     return "\n".join(lines).rstrip() + "\n"

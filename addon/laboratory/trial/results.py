@@ -66,6 +66,8 @@ class Inferred:
         From all its materials, and what noise leaves open.
     reason
         What limits it, or why it can't be told.
+    notes
+        Sentences on what was left out, and what to doubt.
     materials, told, least, median, most
         How many there are with a smooth reading; of how many the pair alone tells σ; and these.
     by_model
@@ -78,6 +80,7 @@ class Inferred:
     low: float
     high: float
     reason: str
+    notes: str
     materials: int
     told: int
     least: float
@@ -129,7 +132,7 @@ def reads_from_csv(path: Path) -> list[Read]:
 
 
 _PLAIN = tuple(field.name for field in fields(Inferred) if field.name != "by_model")
-_WORDS, _COUNTS = ("surface", "reason"), ("materials", "told")
+_WORDS, _COUNTS = ("surface", "reason", "notes"), ("materials", "told")
 
 
 def inferred_csv(found: Sequence[Inferred]) -> bytes:

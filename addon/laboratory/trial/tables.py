@@ -69,7 +69,7 @@ def sigmas(found: Sequence[Inferred]) -> str:
         (
             of.surface,
             _degrees(of.stated),
-            f"{_degrees(of.sigma)} ({of.low:.1f} to {of.high:.1f})",
+            f"{_degrees(of.sigma)} ({of.low:.2f} to {of.high:.2f})",
             f"{_degrees(of.least)}, {_degrees(of.median)}, {_degrees(of.most)}",
             f"{of.told} of {of.materials}",
             *(_degrees(of.by_model[model]) for model in by),
@@ -80,9 +80,10 @@ def sigmas(found: Sequence[Inferred]) -> str:
     return _markdown((*head, *(f"all, {model}" for model in by)), lines)
 
 
-def untold(found: Sequence[Inferred]) -> list[str]:
-    """Give a sentence for each surface whose σ can't be told."""
-    return [f"{of.surface}: {of.reason}" for of in found if math.isnan(of.sigma)]
+def remarks(found: Sequence[Inferred]) -> list[str]:
+    """Give what to know of surfaces: whose σ can't be told, and what to doubt."""
+    untold = [f"{of.surface}: {of.reason}" for of in found if math.isnan(of.sigma)]
+    return untold + [f"{of.surface}: {of.notes}" for of in found if of.notes]
 
 
 def albedos(reads: Sequence[Read]) -> str:
