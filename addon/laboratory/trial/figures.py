@@ -100,8 +100,8 @@ def over_albedo(panels: Sequence[Panel]) -> Array:
     rows = math.ceil(len(panels) / columns)
     width, height = (round(side * _SCALE) for side in _PANEL)
     head = plot.legend_height(look) + round(8 * _SCALE)
-    canvas = _canvas(rows * height + head, columns * width)
-    keys = [Key("measured", look.text, 3.0), *_keys(models.NAMES, look)]
+    canvas = _canvas(rows * height + head, max(columns, 2) * width)  # the legend needs two
+    keys = [Key("measured: reading / albedo", look.text, 3.0), *_keys(models.NAMES, look)]
     plot.draw_legend(canvas, keys, 40 * _SCALE, look)
     shown = np.concatenate([of.read / of.albedo for of in panels])
     low = max(0.0, math.floor(10 * min(float(np.quantile(shown, 0.01)), 0.9)) / 10)
@@ -116,7 +116,7 @@ def over_albedo(panels: Sequence[Panel]) -> Array:
 
 def _panel(canvas: Array, panel: Panel, y: tuple[float, float], look: Look) -> None:
     size = canvas.shape[1], canvas.shape[0]
-    levels = [round(v, 1) for v in np.arange(y[0], y[1] + 0.01, 0.1)]
+    levels = [round(float(v), 1) for v in np.arange(y[0], y[1] + 0.01, 0.1)]
     above, below = (round(of * _SCALE) for of in (20, 20))
     left = plot.margin(levels, look) + round(4 * _SCALE)
     axes = Axes(left, above, size[0] - round(10 * _SCALE), size[1] - below, (0.0, 1.0), y)

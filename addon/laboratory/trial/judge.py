@@ -151,18 +151,24 @@ def _inferred(surface: Surface, relative: float) -> Inferred:
     alone = np.degrees([_estimate([material], relative, ()).sigma for material in paired])
     told = alone[np.isfinite(alone)]
     known = math.nan if surface.sigma is None else math.degrees(surface.sigma)
-    spread = (told.min(), np.median(told), told.max()) if told.size else (math.nan,) * 3
+    least, median, most = (
+        (float(of(told)) if told.size else math.nan) for of in (np.min, np.median, np.max)
+    )
+    low, high = (math.degrees(end) for end in found.interval)
     return Inferred(
-        surface.name,
-        known,
-        math.degrees(found.sigma),
-        *(math.degrees(end) for end in found.interval),
-        found.reason,
-        " ".join(found.notes),
-        len(paired),
-        int(told.size),
-        *map(float, spread),
-        {name: math.degrees(sigma) for name, sigma in found.by_model.items()},
+        surface=surface.name,
+        stated=known,
+        sigma=math.degrees(found.sigma),
+        low=low,
+        high=high,
+        reason=found.reason,
+        notes=" ".join(found.notes),
+        materials=len(paired),
+        told=int(told.size),
+        least=least,
+        median=median,
+        most=most,
+        by_model={name: math.degrees(sigma) for name, sigma in found.by_model.items()},
     )
 
 

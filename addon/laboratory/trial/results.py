@@ -8,7 +8,7 @@ import csv
 import io
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 from ....core import models
@@ -117,33 +117,49 @@ def reads_from_csv(path: Path) -> list[Read]:
     InputError
         If it is no such table.
     """
-    return [
-        Read(
-            *(from_cell(row[name]) for name in ("surface", "material", "sample")),
-            row["instrument"],
-            _value(row["raw"]),
-            *(
-                {model: _value(row[f"{field} {model}"]) for model in models.NAMES}
-                for field in _PER_MODEL
-            ),
+    found = []
+    for row in _rows(path, "raw"):
+        by_field = [
+            {model: _value(row[f"{field} {model}"]) for model in models.NAMES}
+            for field in _PER_MODEL
+        ]
+        stated, percent, own, albedo_stated, albedo_own = by_field
+        surface, material, sample = (
+            from_cell(row[name]) for name in ("surface", "material", "sample")
         )
-        for row in _rows(path, "raw")
-    ]
+        found.append(
+            Read(
+                *(surface, material, sample, row["instrument"], _value(row["raw"])),
+                stated=stated,
+                stated_percent=percent,
+                own=own,
+                albedo_stated=albedo_stated,
+                albedo_own=albedo_own,
+            )
+        )
+    return found
 
 
-_PLAIN = tuple(field.name for field in fields(Inferred) if field.name != "by_model")
-_WORDS, _COUNTS = ("surface", "reason", "notes"), ("materials", "told")
+_NUMBERS = ("stated", "sigma", "low", "high", "least", "median", "most")
+_COUNTS = ("materials", "told")
+_WORDS = ("reason", "notes")
 
 
 def inferred_csv(found: Sequence[Inferred]) -> bytes:
     """Give a table of surfaces, which `inferred_from_csv` reads."""
     by = list(found[0].by_model) if found else []
-    rows = []
-    for of in found:
-        plain = (getattr(of, name) for name in _PLAIN)
-        cells = [to_cell(v) if isinstance(v, str) else _number(v) for v in plain]
-        rows.append([*cells, *(_number(of.by_model[model]) for model in by)])
-    return _csv("sigma of surfaces, degrees", [*_PLAIN, *(f"by {m}" for m in by)], rows)
+    rows = [
+        [
+            to_cell(of.surface),
+            *(_number(getattr(of, name)) for name in _NUMBERS),
+            *(str(getattr(of, name)) for name in _COUNTS),
+            *(to_cell(getattr(of, name)) for name in _WORDS),
+            *(_number(of.by_model[model]) for model in by),
+        ]
+        for of in found
+    ]
+    header = ["surface", *_NUMBERS, *_COUNTS, *_WORDS, *(f"by {model}" for model in by)]
+    return _csv("sigma of surfaces, degrees", header, rows)
 
 
 def inferred_from_csv(path: Path) -> list[Inferred]:
@@ -156,16 +172,27 @@ def inferred_from_csv(path: Path) -> list[Inferred]:
     """
     found = []
     for row in _rows(path, "sigma"):
-        plain = {
-            name: from_cell(row[name])
-            if name in _WORDS
-            else int(row[name])
-            if name in _COUNTS
-            else _value(row[name])
-            for name in _PLAIN
-        }
+        stated, sigma, low, high, least, median, most = (_value(row[name]) for name in _NUMBERS)
+        materials, told = (int(row[name]) for name in _COUNTS)
+        reason, notes = (from_cell(row[name]) for name in _WORDS)
         by = {key[3:]: _value(cell) for key, cell in row.items() if key.startswith("by ")}
-        found.append(Inferred(**plain, by_model=by))
+        found.append(
+            Inferred(
+                surface=from_cell(row["surface"]),
+                stated=stated,
+                sigma=sigma,
+                low=low,
+                high=high,
+                reason=reason,
+                notes=notes,
+                materials=materials,
+                told=told,
+                least=least,
+                median=median,
+                most=most,
+                by_model=by,
+            )
+        )
     return found
 
 
@@ -188,8 +215,6 @@ def _rows(path: Path, needed: str) -> list[dict[str, str]]:
 
 
 def _number(value: float) -> str:
-    if isinstance(value, int):
-        return str(value)
     return f"{value:.4f}" if math.isfinite(value) else ""
 
 
