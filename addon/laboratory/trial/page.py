@@ -11,7 +11,7 @@ from pathlib import Path
 from ....core.numerics.arrays import Array
 from ...support import atomic_files, png
 from ...support.version import version
-from . import figures, results, tables
+from . import figures, meshes, results, tables
 from .figures import Panel
 from .meshes import Grays
 from .results import Inferred, Read
@@ -97,9 +97,7 @@ def write(found: Found, base: Path) -> list[Path]:
         files.write(named("csv"), results.reads_csv(found.reads))
         files.write(named("sigma.csv"), results.inferred_csv(found.inferred))
         if found.grays:
-            from .meshes import to_csv
-
-            files.write(named("measured.csv"), to_csv(found.grays))
+            files.write(named("measured.csv"), meshes.to_csv(found.grays))
         for name, draw in pictures(found).items():
             files.write(named(f"{name}.png"), png.encode(draw()))
     return written
