@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hold the models against goniometers: how much of a real matte material do they explain?
+"""Hold the models against goniometers: how much of real matte materials they explain.
 
     python -m tools.checks.check_goniometer FOLDER [--write]
 
