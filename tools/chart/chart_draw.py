@@ -16,6 +16,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
 from tools.chart import chart_labels, chart_tables
@@ -40,9 +41,11 @@ GROUPS = {"rung": "this project", "naive": "common shortcut", "peer": "other ren
 FLOOR = 0.02
 """Below this mean ΔE00 the axis ends: nobody sees it, and a truth is the zero of its own figure."""
 TOLERANCE = 1.0
+TICKS = (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)
 
-HARD_TO_SEE = "below 1: hard to see side by side"
-ON_THE_LINE = "broad line, bold: nothing here is cheaper and closer"
+HARD_TO_SEE = "shaded: below 1, hard to see side by side"
+ON_THE_LINE = "broad line, bold: nothing is cheaper and closer"
+SPREADS = "thin lines: up to 95 % of errors, up to the median cost"
 
 plt.rcParams.update(
     {
@@ -98,20 +101,21 @@ def cost_against_error(figure_of: Figure, rows: list[dict[str, Any]], noise: flo
     axes.text(0, 1.02, figure_of.truth, transform=axes.transAxes, color=GRAY, va="bottom")
     costs = [row["ratio"][cost][0] for row in rows]
     axes.set_xlim(min(costs) / 2.5, max(costs) * 4)
-    axes.set_ylim(FLOOR / 1.35, 18)
+    least, most = (limit(_shown(row, panel) for row in rows) for limit in (min, max))
+    floor = FLOOR / 1.35 if least < 10 * FLOOR else least / 3
+    axes.set_ylim(floor, 4.5 * most)
     axes.set_xlabel("cost of a spectrum in one geometry (copying its 31 bands = 1)")
     axes.set_ylabel("color error ΔE00")
-    axes.set_yticks([0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10])
+    axes.set_yticks([tick for tick in TICKS if floor < tick < 4.5 * most])
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_locator(mpl.ticker.NullLocator())
     axes.xaxis.set_major_formatter(lambda value, _: _count(value))
     axes.grid(axis="y", color="#ececec")
-    axes.axhspan(FLOOR / 1.35, TOLERANCE, color="#f3f7fa", zorder=0)
-    faint = axes.text(0.995, TOLERANCE / 1.06, HARD_TO_SEE, color=GRAY, ha="right", va="top")
-    faint.set(transform=axes.get_yaxis_transform(), fontsize=9)
+    axes.axhspan(floor, TOLERANCE, color="#f3f7fa", zorder=0)
     front = front_of(rows, panel)
     line = [(row["ratio"][cost][0], _shown(row, panel)) for row in front]
     axes.step(*zip(*line, strict=True), where="post", color=BLUE, alpha=0.22, linewidth=7, zorder=1)
+    _key(figure, rows)
     order = {row["key"]: place for place, row in enumerate(front)}
     figure.draw_without_rendering()
     labels, obstacles = [], []
@@ -132,10 +136,11 @@ def cost_against_error(figure_of: Figure, rows: list[dict[str, Any]], noise: flo
         (left, level), (right, down) = axes.transData.transform([(x0, y0), (x1, y1)])
         obstacles.append(Bbox.from_extents(left, level - 4, right, level + 4))
         obstacles.append(Bbox.from_extents(right - 4, down, right + 4, level))
-    texts = [faint.get_window_extent().padded(3)]
+    texts = []
     if panel == "traced" and noise > FLOOR / 1.3:
         texts.append(_noise(axes, noise))
-    _key(figure, rows)
+        (left, level), (right, _) = axes.transData.transform([(x, noise) for x in axes.get_xlim()])
+        obstacles.append(Bbox.from_extents(left, level - 1, right, level + 1))
     chart_labels.write(axes, labels, obstacles, texts)
     save(figure, f"chart-{figure_of.name}")
 
@@ -147,7 +152,7 @@ def _shown(row: dict[str, Any], panel: str) -> float:
 def _mark(axes: Axes, row: dict[str, Any], panel: str) -> list[Bbox]:
     """Draw one method with its spreads; returns what the lines cover, pixels."""
     style = STYLES[row["group"]]
-    x, _, slow = row["ratio"][PANELS[panel]]
+    x, slow, _ = row["ratio"][PANELS[panel]]
     y, high = _shown(row, panel), row["errors"][panel]["delta_e"][1]
     face = "white" if row["overhead"] else style["color"]
     axes.plot([x], [y], **style, markerfacecolor=face, markeredgewidth=1.8, zorder=4)
@@ -184,11 +189,12 @@ def _key(figure: Any, rows: list[dict[str, Any]]) -> None:
     opened = sorted({row["overhead"] for row in rows if row["overhead"]})
     if opened:
         style = {"color": GRAY, "marker": "D", "markersize": 7.5, "markerfacecolor": "white"}
-        handles.append(mark(style, f"open: the cost is mostly {' or '.join(opened)}"))
+        handles.append(mark(style, f"open: cost is mostly {' or '.join(opened)}"))
+    handles.append(Patch(color="#e4edf4", label=HARD_TO_SEE))
     handles.append(Line2D([], [], color=BLUE, alpha=0.3, linewidth=7, label=ON_THE_LINE))
     cross = {"color": GRAY, "marker": "+", "markersize": 13}
-    handles.append(mark(cross, "lines: error up to its 95 %, cost up to the slowest quarter"))
-    figure.legend(handles=handles, loc="outside lower left", ncols=2, frameon=False, fontsize=9.5)
+    handles.append(mark(cross, SPREADS))
+    figure.legend(handles=handles, loc="outside lower left", ncols=2, frameon=False, fontsize=9)
     figure.draw_without_rendering()
 
 
@@ -200,7 +206,7 @@ def _count(value: float) -> str:
 def blender(numbers: dict[str, Any]) -> None:
     """Render time against error: a line from Lambert to rough Diffuse for each roughness."""
     figure, axes = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
-    ratio, _, slow = numbers["rough"]["ratio"]
+    ratio, slow, _ = numbers["rough"]["ratio"]
     room = max(abs(ratio - 1), 0.05)
     axes.set(xlim=(1 - 0.75 * room, max(1, slow) + 0.75 * room), ylim=(0, None))
     axes.axhspan(0, TOLERANCE, color="#f3f7fa", zorder=0)
@@ -241,7 +247,7 @@ def blender(numbers: dict[str, Any]) -> None:
         color=BLUE,
         fontweight="bold",
     )
-    words = f"shaded, {HARD_TO_SEE}"
+    words = HARD_TO_SEE
     axes.text(0.99, 0.015, words, color=GRAY, ha="right", transform=axes.transAxes)
     title = "In Cycles: what does a rough material cost, and gain?"
     axes.set_title(title, fontweight="bold", pad=24)

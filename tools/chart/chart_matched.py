@@ -94,7 +94,7 @@ def about(key: str, found: dict[str, Answer], degrees: list[int]) -> dict[str, A
         return {"label": name, "group": RUNG, "about": words}
     if name == "lambert-as-read":
         words = "the reading, shown at every angle"
-        return {"label": "Lambert", "group": RUNG, "about": words}
+        return {"label": "Lambert, 45°/0° color", "group": RUNG, "about": words}
     of = chart_lobes.LOBES[name]
     pairs = zip(degrees, found[key].sliders, strict=True)
     words = f"{of.about}; slider {', '.join(f'{slider:.2f} at {s}°' for s, slider in pairs)}"

@@ -277,7 +277,7 @@ def _ladder() -> dict[str, Method]:
                 return albedo.copy()
             return reading.from_albedo(albedo, sigma, model)
 
-        label = "Lambert" if model == "lambert" else model
+        label = "Lambert, albedo" if model == "lambert" else model
         timed = 64 if model == "reference" else None
         return Method(
             label,

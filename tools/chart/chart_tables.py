@@ -217,8 +217,8 @@ def _machine(numbers: Numbers) -> str:
     lines = [
         f"Measured on one thread: {machine['processor']}, {machine['cores']} cores, "
         f"{machine['system']}, Python {machine['python']}, load up to {machine['load']:.1f}: "
-        f"{', '.join(versions)}, {numbers.blender['version']}. Took {machine['seconds']} s, of which "
-        f"{machine['processor_seconds']} s on the processor, before drawing."
+        f"{', '.join(versions)}, {numbers.blender['version']}. Took {machine['seconds']} s, "
+        f"{machine['processor_seconds']} s of a processor."
     ]
     lines += [f"{row['label']} is missing: {row['missing']}." for row in missing]
     return "\n\n".join(lines)
@@ -226,7 +226,7 @@ def _machine(numbers: Numbers) -> str:
 
 def _methods(rows: list[dict[str, Any]], panel: str, front: list[str]) -> str:
     head = (
-        "| method | cost (copy = 1) | to | ns | ΔE00 mean | 95 % | max "
+        "| method | cost (copy = 1) | median | ns | ΔE00 mean | 95 % | max "
         "| reflectance off by, mean | 95 % | max |\n|---|---|---|---|---|---|---|---|---|---|"
     )
     lines = []
@@ -240,7 +240,7 @@ def _methods(rows: list[dict[str, Any]], panel: str, front: list[str]) -> str:
 
 def _matched(rows: list[dict[str, Any]], front: list[str]) -> str:
     head = (
-        "| who | cost (copy = 1) | to | ns | traced: ΔE00 mean | 95 % | max "
+        "| who | cost (copy = 1) | median | ns | traced: ΔE00 mean | 95 % | max "
         "| V-cavity: mean | 95 % | max |\n|---|---|---|---|---|---|---|---|---|---|"
     )
     lines = []
@@ -253,9 +253,9 @@ def _matched(rows: list[dict[str, Any]], front: list[str]) -> str:
 def _named(row: dict[str, Any], kind: str, front: list[str]) -> list[str]:
     """Name and costs of a method."""
     name = f"**{row['label']}**" if row["key"] in front else row["label"]
-    best, _, slow = row["ratio"][kind]
+    best, middle, _ = row["ratio"][kind]
     mostly = f"; mostly {row['overhead']}" if row["overhead"] else ""
-    costs = map(_rounded, (best, slow, row["cost"][kind][0]))
+    costs = map(_rounded, (best, middle, row["cost"][kind][0]))
     return [f"{name}: {row['about']}{mostly}", *costs]
 
 
@@ -270,8 +270,8 @@ def _truths(truths: dict[str, Any]) -> str:
 
 def _blender(numbers: dict[str, Any]) -> str:
     lines = ["| material | render time | σ | ΔE00 mean | 95 % | max |", "|---|---|---|---|---|---|"]
-    for label, sigma, (best, _, slow), errors in _blender_rows(numbers):
-        time = f"{best:.2f} to {slow:.2f}"
+    for label, sigma, (best, middle, _), errors in _blender_rows(numbers):
+        time = f"{best:.2f}, median {middle:.2f}"
         degrees = sigma if sigma == "all" else f"{sigma}°"
         lines.append(_line([label, time, degrees, *map(_small, errors)]))
     return "\n".join(lines)
