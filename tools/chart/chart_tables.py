@@ -123,12 +123,12 @@ def methods_csv(rows: list[dict[str, Any]], name: str, panel: str, front: list[s
     for row in rows:
         kind, found = PANELS[panel], row["errors"][panel]
         line = [row["key"], row["label"], row["group"], int(row["key"] in front), row["overhead"]]
-        line += [f"{value:.4g}" for value in (row["cost"][kind][0], *row["ratio"][kind])]
-        line += [f"{value:.4g}" for value in found["delta_e"]]
+        line += [f"{value:.7g}" for value in (row["cost"][kind][0], *row["ratio"][kind])]
+        line += [f"{value:.7g}" for value in found["delta_e"]]
         line += [f"{value:.4g}" for value in found["relative"] or []] or [""] * 3
         line += [row["ends_in"], row["threads"], row["version"], row["about"]]
         if both:
-            line += [f"{value:.4g}" for value in row["errors"]["angles"]["delta_e"]]
+            line += [f"{value:.7g}" for value in row["errors"]["angles"]["delta_e"]]
         lines.append(line)
     return _csv(
         "Cost of one spectrum (31 bands) in one geometry, float32, against CIEDE2000 (D65, CIE "
@@ -144,7 +144,7 @@ def truths_csv(truths: dict[str, Any]) -> str:
     lines = []
     for key, pairs in {**truths["models"], "noise of the traces": truths["noise"]}.items():
         for (kind, degrees), (angles, ring) in zip(truths["surfaces"], pairs, strict=True):
-            lines.append([key, kind, degrees, f"{angles:.4g}", f"{ring:.4g}"])
+            lines.append([key, kind, degrees, f"{angles:.7g}", f"{ring:.7g}"])
     return _csv(
         "Mean CIEDE2000 (D65, CIE 1931 2 deg) of each model against each surface, 24 patches as "
         "the albedo; all geometries below 80 deg, and 45/0",
@@ -164,7 +164,7 @@ def blender_csv(numbers: dict[str, Any]) -> str:
         "Gaussian height fields whose 45/0 reading was assigned, D65, CIE 1931 2 deg; patches "
         "within Rec.709",
         [
-            "material", "sigma_degrees", "render_time_ratio", "ratio_median",
+            "material", "sigma_degrees", "ratio_lower_quartile", "ratio_median",
             "ratio_upper_quartile", "delta_e_mean", "delta_e_95", "delta_e_max",
         ],
         lines,
@@ -270,8 +270,8 @@ def _truths(truths: dict[str, Any]) -> str:
 
 def _blender(numbers: dict[str, Any]) -> str:
     lines = ["| material | render time | σ | ΔE00 mean | 95 % | max |", "|---|---|---|---|---|---|"]
-    for label, sigma, (best, middle, _), errors in _blender_rows(numbers):
-        time = f"{best:.2f}, median {middle:.2f}"
+    for label, sigma, (low, middle, high), errors in _blender_rows(numbers):
+        time = "1" if low == high else f"{middle:.2f} ({low:.2f} to {high:.2f})"
         degrees = sigma if sigma == "all" else f"{sigma}°"
         lines.append(_line([label, time, degrees, *map(_small, errors)]))
     return "\n".join(lines)
