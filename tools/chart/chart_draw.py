@@ -185,7 +185,7 @@ def _key(figure: Any, rows: list[dict[str, Any]]) -> None:
         return Line2D([], [], linestyle="none", markeredgewidth=1.8, label=words, **style)
 
     groups = [group for group in STYLES if any(row["group"] == group for row in rows)]
-    handles = [mark(STYLES[group], GROUPS[group]) for group in groups]
+    handles: list[Any] = [mark(STYLES[group], GROUPS[group]) for group in groups]
     opened = sorted({row["overhead"] for row in rows if row["overhead"]})
     if opened:
         style = {"color": GRAY, "marker": "D", "markersize": 7.5, "markerfacecolor": "white"}

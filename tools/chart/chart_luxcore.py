@@ -220,7 +220,8 @@ def silence() -> Iterator[None]:
 def main(folder: Path) -> None:
     """Answer, time and write both files."""
     work = Work.load(folder / "work.npz")
-    answers, chosen = {}, {}
+    answers: dict[str, Any] = {}
+    chosen: dict[str, list[float]] = {}
     with silence():
         luxcore = importlib.import_module("pyluxcore")
         luxcore.Init()

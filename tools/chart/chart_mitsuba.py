@@ -145,7 +145,8 @@ def main(kind: str, variant: str, folder: Path) -> None:
     mitsuba, drjit = load(variant)
     fast = variant == VECTORIZED
     evaluate = vectorized(mitsuba, drjit) if fast else one_by_one(mitsuba)
-    answers, chosen = {}, {}
+    answers: dict[str, Any] = {}
+    chosen: dict[str, list[float]] = {}
     for name in PEER_TRUTHS:
         truth = getattr(work, name)
         answers[name], chosen[name] = answer(mitsuba, evaluate, kind, work.albedo, truth)

@@ -86,6 +86,7 @@ def _shadow(cosine: Array, square: float) -> Array:
 def fit(material: Material, model: str, with_gloss: bool = False) -> Fit:
     """Find albedo, σ and the lobe with which a model comes closest."""
     formula = models.find(model).formulas.reflectance
+    light, view, azimuth = material.angles
     lobes = [(0.0, np.zeros_like(material.factor))]
     if with_gloss:
         lobes += [(float(width), gloss(material.angles, float(width))) for width in WIDTHS]
@@ -93,7 +94,7 @@ def fit(material: Material, model: str, with_gloss: bool = False) -> Fit:
     for degrees in DEGREES if model != "lambert" else DEGREES[:1]:
 
         def reflect(albedo: float, sigma: float = float(np.radians(degrees))) -> Array:
-            return formula([albedo], *material.angles, sigma)[:, 0]
+            return formula([albedo], light, view, azimuth, sigma)[:, 0]
 
         for width, lobe in lobes:
             error, weight = solve(reflect, lobe, material.factor)
