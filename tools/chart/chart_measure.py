@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from tools.chart import chart_matched, chart_truths
+from tools.chart import chart_lobes, chart_matched, chart_truths
 from tools.chart.chart_judge import Judge, all_at_once, integrated, one_by_one
 from tools.chart.chart_methods import Method, methods
 from tools.chart.chart_timing import in_turns, spread
@@ -184,7 +184,7 @@ def time_all(ours: dict[str, Method], work: Work) -> tuple[dict[str, dict[str, A
         if method.reading is not None:
             count = TIMED_GEOMETRIES if key == "reference" else count
             runs["reading"][key] = (count, functools.partial(method.reading, many[:count], sigma))
-    for key in chart_matched.chart_lobes.LOBES:
+    for key in chart_lobes.LOBES:
         evaluate = functools.partial(chart_matched.timed(key), albedo[TIMED_PATCH], angles, sigma)
         runs["angles"][f"{key}-matched"] = (TIMED_GEOMETRIES, evaluate)
     found: dict[str, dict[str, Any]] = {}
@@ -248,23 +248,24 @@ def matched_rows(
     rows = []
     for key in found["traced"]:
         degrees = [round(float(sigma)) for sigma in np.degrees(work.traced.sigmas)]
-        row = {"key": key, "overhead": "", "matched": True, "threads": 1}
+        row: dict[str, Any] = {"key": key, "overhead": "", "matched": True, "threads": 1}
         row |= {"version": f"numpy {np.__version__}", "ends_in": found["traced"][key].ends_in}
         row |= chart_matched.about(key, found["traced"], degrees)
-        row["cost"] = {"angles": costs.get(key, costs.get(key.removesuffix("-matched")))["angles"]}
+        timed = key if key in costs else key.removesuffix("-matched")
+        row["cost"] = {"angles": costs[timed]["angles"]}
         row["errors"] = {
             panel: judge.errors(of[key].factor, truths[panel].factor, of[key].ends_in)
             for panel, of in found.items()
         }
         rows.append(row)
-    for row in peers:
-        if "missing" not in row:
-            with np.load(row.pop("answers")) as stored:
-                row["errors"] = {
+    for peer in peers:
+        if "missing" not in peer:
+            with np.load(peer.pop("answers")) as stored:
+                peer["errors"] = {
                     panel: judge.errors(stored[name], truths[panel].factor)
                     for name, panel in PEER_TRUTHS.items()
                 }
-        rows.append(row)
+        rows.append(peer)
     return rows
 
 
@@ -273,7 +274,7 @@ def measure(folder: Path) -> None:
     work, judge = Work.load(folder / "work.npz"), Judge()
     ours = methods(judge.to_rgb, one_by_one)
     costs, copy = time_all(ours, work)
-    peers = []
+    peers: list[dict[str, Any]] = []
     for path in sorted(folder.glob("peer-*.json")):
         peers.append(read_json(path) | {"answers": path.with_suffix(".npz"), "matched": True})
     as_read = ours.pop("lambert-as-read")
