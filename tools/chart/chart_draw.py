@@ -19,7 +19,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
-from tools.chart import chart_labels, chart_tables
+from tools.chart import chart_csv, chart_labels, chart_tables
 from tools.chart.chart_figures import FIGURES, Figure
 from tools.chart.chart_work import COST_NOISE, PANELS, pareto_front, read_json
 from tools.run.run_command_line import ROOT
@@ -272,7 +272,7 @@ def _apart(values: list[float], least: float) -> list[float]:
 
 def main(folder: Path) -> None:
     """Draw all figures, then write all tables."""
-    numbers = chart_tables.Numbers(
+    numbers = chart_csv.Numbers(
         *(
             read_json(folder / f"{name}.json")
             for name in ("measured", "truths", "blender", "speed", "conversions", "machine")
@@ -284,8 +284,8 @@ def main(folder: Path) -> None:
         rows = [known[key] for key in figure.keys if key in known]
         cost_against_error(figure, rows, noise)
     blender(numbers.blender)
-    parts = {panel: chart_tables.of_panel(numbers, panel) for panel in PANELS}
-    parts["peers"] = chart_tables.matched(numbers)
+    parts = {panel: chart_csv.of_panel(numbers, panel) for panel in PANELS}
+    parts["peers"] = chart_csv.matched(numbers)
     chart_tables.write(
         numbers,
         {
