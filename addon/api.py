@@ -38,6 +38,7 @@ from ..core.errors import (
     RoughSpectraError,
 )
 from ..core.estimate import RELATIVE, Estimate
+from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
 from .blender import working_space
 from .instrument import bake as instrument_bake
@@ -374,6 +375,7 @@ def request(
     sdq: float | None = None,
     white: str | None = None,
     white_factor: float | str | None = None,
+    read_at: str = DEFAULT,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -403,6 +405,10 @@ def request(
         the instrument's white plaque, "45:0" or "8:d"; and the plaque's true reflectance factor at
         the instrument's geometry over the certificate's value, or "ptfe" for sintered PTFE. None
         takes what the sample says. The values stay as measured.
+    read_at
+        Virtual instrument that the material is to read right at, and is measured with: one of
+        `core.instruments.REGISTRY`, such as "45a:0" or "di:8". The sample says itself which real
+        instrument it was measured with.
 
     Raises
     ------
@@ -437,7 +443,13 @@ def request(
         sample = sample.taken_as(kind)
     sample = stated_white.given(sample, white, white_factor)
     return Request(
-        sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
+        sample,
+        sigma,
+        model,
+        illuminant=illuminant,
+        observer=observer,
+        tolerance=tolerance,
+        read_at=read_at,
     )
 
 
@@ -451,7 +463,7 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
 
     Returns
     -------
-    `measured` between what an instrument at 45°/0° reads, `albedos` between the albedos, and
+    `measured` between what the virtual instrument reads, `albedos` between the albedos, and
     `roughness`, for each of the two what its roughness does: from its albedo to its reading. Each
     has `delta_e_00`; `delta_l`, `delta_a` and `delta_b`, second less first; `delta_ab`; and
     `shift`, the distance in a*b* once both have the luminance of the first. `interreflection` is
@@ -460,7 +472,8 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
     Raises
     ------
     DomainError
-        Model, illuminant or observer differ, or a spectrum does not cover the visible range.
+        Model, illuminant, observer or virtual instrument differ, or a spectrum does not cover the
+        visible range.
 
     Examples
     --------
@@ -492,7 +505,8 @@ def assign(
     Returns
     -------
     What was matched, in the order of `pairs`: among others `color`, shape (3,); `roughness`;
-    `delta_e_instrument` and `delta_e_mean`, the ΔE00 that remain at 45°/0° and over all angles;
+    `delta_e_instrument` and `delta_e_mean`, the ΔE00 that remain at the virtual instrument and over
+    all angles;
     and `warnings`, sentences that should be read.
 
     Raises
@@ -665,7 +679,7 @@ def differences(material: bpy.types.Material) -> Differences:
 
     Returns
     -------
-    ΔE00 at 45°/0°, and its mean and 95th percentile over all angles.
+    ΔE00 at the virtual instrument, and its mean and 95th percentile over all angles.
 
     Raises
     ------
@@ -687,8 +701,9 @@ def bake(
     surfaces: Iterable[bpy.types.Material | tuple[str, bpy.types.Material]],
     measure: bool = True,
     progress: Callable[[int, int], None] | None = None,
+    read_at: str | Iterable[str] | None = None,
 ) -> Readings:
-    """Predict the readings of materials at 45°/0°, and measure them in Cycles.
+    """Predict the readings of materials at virtual instruments, and measure them in Cycles.
 
     Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
 
@@ -701,10 +716,13 @@ def bake(
         Whether to measure; predictions alone need no second Blender.
     progress
         Called with renders done and renders in all.
+    read_at
+        Instruments instead of each material's own, one or several.
 
     Returns
     -------
-    Its `entries` have one `Reading` for each surface, in this order: `predicted.values`, one a
+    Its `entries` have one `Reading` for each surface and instrument, in this order; each names its
+    `instrument`: `predicted.values`, one a
     band; `measured.rgb`; `delta_e_00` between the two; `warnings`; and `fault`, why a prediction
     or a measurement is missing, which does not stop the others. `largest_delta_e` is the largest.
 
@@ -712,6 +730,8 @@ def bake(
     ------
     MaterialError
         A surface is no material.
+    DomainError
+        An instrument is not known.
     OutputError
         The second Blender failed.
     CancelledError
@@ -729,7 +749,8 @@ def bake(
     """
     named = [surface if isinstance(surface, tuple) else ("", surface) for surface in surfaces]
     found = [(name, _checked(material)) for name, material in named]
-    return instrument_bake.bake(found, measure, progress)
+    at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
+    return instrument_bake.bake(found, measure, progress, at)
 
 
 def write(
