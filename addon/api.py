@@ -40,8 +40,10 @@ from ..core.errors import (
 from ..core.estimate import RELATIVE, Estimate
 from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
+from ..core.numerics.arrays import Array
 from .blender import working_space
 from .instrument import bake as instrument_bake
+from .instrument import gloss as instrument_gloss
 from .laboratory import experiment, kinds
 from .laboratory.experiment import Measured
 from .laboratory.kinds import RoughSample
@@ -95,6 +97,7 @@ __all__ = [
     "emissivity",
     "estimate",
     "find",
+    "gloss",
     "keep",
     "materials",
     "measure_rough",
@@ -751,6 +754,53 @@ def bake(
     found = [(name, _checked(material)) for name, material in named]
     at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
     return instrument_bake.bake(found, measure, progress, at)
+
+
+def gloss(
+    materials: Iterable[bpy.types.Material],
+    angles: Iterable[float] = (20, 60, 85),
+    progress: Callable[[int, int], None] | None = None,
+) -> Array:
+    """Measure the gloss of materials with the virtual gloss meter of ISO 2813, in Cycles.
+
+    Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
+
+    Parameters
+    ----------
+    materials
+        Any materials, with a spectrum or without.
+    angles
+        Degrees: 20, 60 and 85.
+    progress
+        Called with renders done and renders in all.
+
+    Returns
+    -------
+    Gloss units, shape (materials, angles): 100 is polished black glass of the index 1.567. Exact to
+    0.1 for mirrors, to some 2 % for rough surfaces.
+
+    Raises
+    ------
+    MaterialError
+        One is no material.
+    DomainError
+        There is no gloss meter of an angle.
+    OutputError
+        The second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> [[units]] = gloss([wall], [60])
+    >>> units < 2  # matte: what the window sees of the diffuse light
+    True
+    """
+    checked = [_checked(material) for material in materials]
+    space = working_space.current()
+    return instrument_gloss.measured(checked, space, tuple(angles), progress)
 
 
 def write(

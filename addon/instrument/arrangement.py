@@ -146,7 +146,7 @@ def _lights(beam: Beam) -> list[Direction]:
 
 
 def _views(beam: Beam) -> list[tuple[float, int, float]]:
-    """Give views of a detector: polar angle, quarter of a turn, and what the azimuth has besides."""
+    """Give a detector's views: polar angle, quarter of a turn, and the azimuth's rest."""
     if beam.all_around:
         return [(theta, quarter, 0.0) for theta in _tilts(beam) for quarter in range(_QUARTERS)]
     found = []

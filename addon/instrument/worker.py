@@ -40,8 +40,8 @@ PIXELS = 6
 PIXELS_PER_UNIT = 4
 """The ring lies around the sample's square of one unit; a pixel has to be a binary fraction."""
 COLUMNS = 32
-MAP_RESOLUTION = 2048
-"""Pixels around the horizon in which Cycles looks for a window that glows: a sixth of a degree."""
+MAP_RESOLUTION = 512
+"""Pixels around the horizon in which Cycles looks for a window that glows."""
 SAMPLES_PER_RENDER = COLUMNS**2
 FIRST_PIXEL = 256
 """Where the samples begin in the picture. They end before twice that: single precision then keeps
@@ -313,8 +313,13 @@ def glow(scene: Any, what: dict[str, Any]) -> None:
     """Make a world whose upper half glows, but for a trap, or in a window alone.
 
     An even one is best met by rays that go where the material sends most. To a small window they
-    are sent on purpose as well.
+    are sent on purpose as well. The world stays where it is the same as before: Cycles then has
+    nothing to look at again.
     """
+    told = json.dumps(what)
+    before = scene.world
+    if before is not None and before.get("told") == told:
+        return
     world = bpy.data.worlds.new("Hemisphere")
     if world.node_tree is None:
         world.use_nodes = True
@@ -337,7 +342,7 @@ def glow(scene: Any, what: dict[str, Any]) -> None:
     tree.links.new(background.outputs[0], output.inputs["Surface"])
     world.cycles.sampling_method = "NONE" if what["window"] is None else "MANUAL"
     world.cycles.sample_map_resolution = MAP_RESOLUTION
-    before = scene.world
+    world["told"] = told
     scene.world = world
     if before is not None:
         bpy.data.worlds.remove(before)
@@ -409,14 +414,14 @@ def measure(
     """Measure all samples in one geometry, shape (samples, 2, 3): mean and standard deviation."""
     (sun,) = (thing for thing in scene.objects if thing.type == "LIGHT")
     pictures, weights = [], []
-    renders = list(passes(shots, samples))
+    # Rays into a glowing hemisphere spread over the pixel by themselves.
+    renders = list(passes(shots, 1 if "glow" in shots[0] else samples))
     for number, (shot, x, y) in enumerate(renders):
         scene.cycles.seed = number
         # The first ray meets a pixel's middle, to 1/2048.
         scene.cycles.samples = max(1, rays // len(renders)) if "glow" in shot else 1
         aim(scene, stretch, shot["view"], shot["quarter"])
         light(scene, sun, shot)
-        # Several rays spread over the pixel by themselves.
         place(scene, shot, *((x, y) if "sun" in shot else (0.5, 0.5)))
         pictures.append(render(scene, path))
         weights.append(shot["weight"])

@@ -21,6 +21,7 @@ SIGNATURES = {
     "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
+    "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "keep": "(material)",
     "materials": "()",
     "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
