@@ -21,7 +21,8 @@ from ..blender import colors, shader_nodes, working_space
 from ..matching import color_search, solve
 from ..matching.color_search import MEASUREMENTS, Found
 from ..material import last_measurement, measured_match
-from .measure import RING_45_0, SAMPLES, Measurement
+from . import arrangement
+from .measure import SAMPLES, Measurement
 
 if TYPE_CHECKING:
     from ...core.numerics.arrays import Array
@@ -152,7 +153,10 @@ class Adjustment:
             for red, green, blue in tried
         ]
         self._job = Measurement(
-            [material] * len(wanted), (RING_45_0,), samples=self._samples, colors=wanted
+            [material] * len(wanted),
+            (arrangement.of(self.request.read_at),),
+            samples=self._samples,
+            colors=wanted,
         )
 
 

@@ -103,6 +103,7 @@ def settings(found: Inputs) -> dict[str, str]:
         "model": found.model,
         "shader": found.shader,
         "tolerance": f"{found.tolerance:g}",
+        "virtual instrument": found.read_at,
         **_scene_settings(found),
     }
 

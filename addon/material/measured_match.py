@@ -45,7 +45,11 @@ def write(material: Any, request: Request, place: Place, found: Found) -> None:
         material, solution, space.name, place.node, inputs, kept=kept, measured=place.name
     )
     last_measurement.note(
-        material, last_measurement.fingerprint(material), _rgb(found.reading), found.difference
+        material,
+        last_measurement.fingerprint(material),
+        _rgb(found.reading),
+        found.difference,
+        instrument=request.read_at,
     )
 
 

@@ -43,7 +43,10 @@ _DETAILS = (
 _SENTENCES = ("notes", "altered")
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
-_MENUS = ("kind", "instrument", "white", "plaque", "illuminant", "observer", "model", "shader")
+_MENUS = (
+    *("kind", "instrument", "white", "plaque", "illuminant", "observer", "read_at"),
+    *("model", "shader"),
+)
 
 _UNREADABLE = (
     *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
@@ -77,6 +80,7 @@ def store(material: Any, request: Request, shader: str) -> None:
         group.sigma_source = sample.sigma_source
         group.illuminant = request.illuminant
         group.observer = str(request.observer)
+        group.read_at = request.read_at
         group.model = request.model
         group.tolerance = request.tolerance
         group.shader = shader
@@ -131,6 +135,7 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         illuminant=group.illuminant,
         observer=int(group.observer),
         tolerance=tolerance(group),
+        read_at=group.read_at,
         scene=view,
         flat=view is not None and engine_is_flat(),
     )
