@@ -210,7 +210,8 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         fault, warnings = " ".join(filter(None, (fault, no_number))), (*warnings, no_number)
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
-        lab = scene_match.promised(promised.color, promised.roughness, scene, space)
+        shader = promised.color, promised.roughness
+        lab = scene_match.promised(*shader, scene, space, request and request.gloss)
         difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, solve.target_reading(request)

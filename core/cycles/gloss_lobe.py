@@ -25,7 +25,6 @@ from ..closure.packing import unpack
 from ..gloss import Gloss
 from ..instruments import quadrature
 from ..numerics.arrays import Array
-from ..numerics.memoized import memoized
 from . import gloss_data
 
 _MIRROR = 2e-10
@@ -129,7 +128,9 @@ def reading(diffuse: Array, gloss: Gloss | None, instrument: str) -> Array:
     return diffuse if gloss is None else at_instrument(gloss, instrument).over(diffuse)
 
 
-def largest(gloss: Gloss, wanted: npt.ArrayLike, instrument: str) -> Gloss | None:
+def largest(
+    gloss: Gloss, wanted: npt.ArrayLike, instrument: str, white: npt.ArrayLike = 1.0
+) -> Gloss | None:
     """Find how much gloss leaves a reading possible.
 
     Parameters
@@ -140,12 +141,14 @@ def largest(gloss: Gloss, wanted: npt.ArrayLike, instrument: str) -> Gloss | Non
         The whole reading in scene-linear RGB, shape (3,).
     instrument
         One of `core.instruments.REGISTRY`.
+    white
+        Reading of the diffuse lobe alone at color 1.
 
     Returns
     -------
-    The same gloss if it reads no more than that by itself. Else with the largest level that does,
-    or, where even level 0 reads more, level 0 with the largest weight of the coat. None where the
-    reading has a channel at 0 or below, which no gloss fits.
+    The same gloss if some color below it gives the reading: if the gloss alone reads no more, and
+    over a white no less. Else with the largest level that does, or, where even level 0 does not,
+    level 0 with the largest weight of the coat. None where the reading fits no gloss, nor none.
 
     Examples
     --------
@@ -154,11 +157,13 @@ def largest(gloss: Gloss, wanted: npt.ArrayLike, instrument: str) -> Gloss | Non
     0.45
     """
     goal = np.asarray(wanted, np.float64)
-    if not goal.min() > 0:
+    most = np.broadcast_to(np.asarray(white, np.float64), goal.shape)
+    if not ((goal > 0) & (goal <= most)).all():
         return None
 
     def fits(tried: Gloss) -> bool:
-        return bool((at_instrument(tried, instrument).shine <= goal).all())
+        found = at_instrument(tried, instrument)
+        return bool(((found.shine <= goal) & (goal <= found.over(most))).all())
 
     if fits(gloss):
         return gloss
@@ -281,7 +286,7 @@ def _place(index: float) -> float:
 
 def _from_table(name: str, *places: Array | float) -> Array:
     """Read a table linearly between its entries, as Cycles does; places run from 0 to 1."""
-    table = _table(name)
+    table = _TABLES[name]
     size = table.shape[0]
     # The axes are (refraction,) (view,) roughness; the weights of all corners are summed up.
     at = np.broadcast_arrays(*(np.asarray(place, np.float64) for place in places))
@@ -301,9 +306,10 @@ def _from_table(name: str, *places: Array | float) -> Array:
     return np.asarray(found)
 
 
-@memoized(maxsize=None)
-def _table(name: str) -> Array:
-    size, packed = gloss_data.TABLES[name]
+def _unpacked(size: int, packed: str) -> Array:
     values = unpack(packed, (gloss_data.STEP,))[:, 0]
     axes = round(math.log(values.size, size))
     return np.asarray(values.reshape((size,) * axes))
+
+
+_TABLES = {name: _unpacked(*table) for name, table in gloss_data.TABLES.items()}

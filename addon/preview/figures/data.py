@@ -13,7 +13,7 @@ from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb, tristimulus
 from ...colorimetry.rgb_space import WorkingSpace, matrix_of
-from ...matching import scene_match, surface_spectra
+from ...matching import glossy, scene_match, surface_spectra
 from ...matching.assess import in_directions, under_main_light
 from ...matching.request import VIRTUAL, Request
 from ..drawing.raster import Color
@@ -120,6 +120,7 @@ def of_request(
     luminance = tristimulus.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
     shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
+    shown = glossy.over(request.gloss, shown, _ALL_DIRECTIONS)
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument
     curve = space.to_xyz(shown, light)[:, 1]
@@ -128,6 +129,14 @@ def of_request(
         target, blender = under_main_light(request.scene, seen, bands, blender, space)
         luminance = main.weights(bands)[:, 1]
         curve = scene_match.to_xyz(shown, main, space)[:, 1]
+    targets = in_directions(request, rho, _DIRECTIONS)
+    target_curve = np.maximum(targets @ luminance, 0)
+    if request.gloss is not None:
+        rgb = glossy.target(request.gloss, seen @ weights, targets @ weights, _DIRECTIONS, VIRTUAL)
+        if request.scene is None:
+            target_curve = space.to_xyz(rgb, light)[:, 1]
+        else:
+            target_curve = scene_match.to_xyz(rgb, request.scene.lights[0], space)[:, 1]
     wanted, shown_there = patches(np.array((target, blender)), space)
     return Data(
         target=wanted,
@@ -137,7 +146,7 @@ def of_request(
         reading=seen,
         bars=rgb_bars(at_instrument, space, light),
         view=VIEW_ANGLES,
-        target_curve=np.maximum(in_directions(request, rho, _DIRECTIONS) @ luminance, 0),
+        target_curve=target_curve,
         blender_curve=curve,
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),
