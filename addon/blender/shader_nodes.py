@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import bpy
+
 from ...core.errors import MaterialError
 from ...core.gloss import Gloss
 from ...core.numerics.memoized import kept
@@ -41,6 +43,7 @@ __all__ = [
     "find",
     "gloss_at",
     "gloss_of",
+    "new_material",
     "remove_gloss",
     "roughness_socket",
     "shader_node",
@@ -134,6 +137,18 @@ def gloss_at(place: SocketTarget) -> Gloss | None:
     if not place.node_name:
         return None
     return gloss_of(place.material.node_tree.nodes[place.node_name])
+
+
+def new_material(name: str) -> Any:
+    """Make a material, without the gloss that Blender gives to a new one.
+
+    Gloss is kept because somebody set it; of what we make nobody did.
+    """
+    material = bpy.data.materials.new(name)
+    node = shader_node(material)
+    if node is not None:
+        _without_gloss(node)
+    return material
 
 
 def remove_gloss(place: SocketTarget) -> None:
