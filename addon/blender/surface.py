@@ -77,8 +77,8 @@ def surface(material: Any) -> Surface | None:
     color_at, roughness_at, normal_at, of_gloss, neutral = _places(node, shader)
     color, roughness = inputs[color_at], inputs[roughness_at]
     red, green, blue, _ = color.default_value
-    gloss = _gloss(node, of_gloss)
-    disturbing = tuple(_in_use(inputs, neutral, of_gloss))
+    gloss, used = _gloss(node, of_gloss)
+    disturbing = tuple(used + _in_use(inputs, neutral))
     return Surface(
         node.name,
         shader,
@@ -174,36 +174,59 @@ def _places_of_gloss(find: Any, sockets: Sockets) -> _OfGloss | None:
 
 def gloss_of(node: Any) -> Gloss | None:
     """Read the gloss of a target shader's node, or None where it has none."""
-    return _gloss(node, _places(node, node.bl_idname).gloss)
+    return _gloss(node, _places(node, node.bl_idname).gloss)[0]
 
 
-def _gloss(node: Any, places: _OfGloss | None) -> Gloss | None:
-    """Read the gloss; where there is no level or no coat, what goes with it does not count."""
+def _gloss(node: Any, places: _OfGloss | None) -> tuple[Gloss | None, list[str]]:
+    """Read the gloss, and name what of it comes from another node or is counted by no formula.
+
+    Where there is no level or no coat, what goes with it does not count.
+    """
     if places is None:
-        return None
+        return None, []
     inputs = node.inputs
-    level, coat = (
-        comparable(inputs[number].default_value) for _, number in (places.level, places.coat)
-    )
-    if level <= 0 and coat <= 0:
-        return None
-    roughness, ior, tint = 0.5, 1.5, WHITE
-    if not level <= 0:
-        roughness, ior, tint = _lobe(inputs, places.with_level)
-    coat_roughness, coat_ior, coat_tint = 0.03, 1.5, WHITE
-    if not coat <= 0:
-        coat_roughness, coat_ior, coat_tint = _lobe(inputs, places.with_coat)
-    multiscatter = level <= 0 or node.distribution == "MULTI_GGX"
-    return Gloss(
-        *(max(level, 0.0), roughness, ior, tint),
-        *(max(coat, 0.0), coat_roughness, coat_ior, coat_tint, multiscatter),
-    )
+    level, of_level, used = _layer(inputs, places.level, places.with_level, _NO_LEVEL)
+    coat, of_coat, used_by_coat = _layer(inputs, places.coat, places.with_coat, _NO_COAT)
+    if not (level or coat or used or used_by_coat):
+        return None, []
+    if level or used:
+        used += [name for name, at in places.uncounted_with_level if _is_set(inputs[at])]
+    if coat or used_by_coat:
+        used_by_coat += [name for name, at in places.uncounted_with_coat if _is_set(inputs[at])]
+    used += used_by_coat
+    if not (level or coat):
+        return None, used
+    multiscatter = not level or node.distribution == "MULTI_GGX"
+    return Gloss(level, *of_level, coat, *of_coat, multiscatter), used
 
 
-def _lobe(inputs: Any, places: tuple[tuple[str, int], ...]) -> tuple[float, float, Tint]:
-    roughness, ior, tint = (inputs[number].default_value for _, number in places)
+_Lobe = tuple[float, float, Tint]
+_NO_LEVEL: _Lobe = (0.5, 1.5, WHITE)
+_NO_COAT: _Lobe = (0.03, 1.5, WHITE)
+
+
+def _layer(
+    inputs: Any,
+    strength: tuple[str, int],
+    others: tuple[tuple[str, int], ...],
+    without: _Lobe,
+) -> tuple[float, _Lobe, list[str]]:
+    """Read level or coat with what goes with it, and name what of it is linked."""
+    name, number = strength
+    socket = inputs[number]
+    value, linked = comparable(socket.default_value), socket.is_linked
+    if value <= 0 and not linked:
+        return 0.0, without, []
+    used = [name] * linked + [other for other, at in others if inputs[at].is_linked]
+    roughness, ior, tint = (inputs[at].default_value for _, at in others)
     red, green, blue, _ = map(comparable, tint)
-    return comparable(roughness), comparable(ior), (red, green, blue)
+    return (
+        *(
+            0.0 if value <= 0 else value,
+            (comparable(roughness), comparable(ior), (red, green, blue)),
+        ),
+        used,
+    )
 
 
 def disturbing_sockets(node: Any) -> list[str]:
@@ -212,32 +235,14 @@ def disturbing_sockets(node: Any) -> list[str]:
     Always empty for a Diffuse BSDF.
     """
     found = _places(node, node.bl_idname)
-    return _in_use(node.inputs, found.neutral, found.gloss)
+    return _gloss(node, found.gloss)[1] + _in_use(node.inputs, found.neutral)
 
 
-def _in_use(
-    inputs: Any, neutral: tuple[tuple[str, int, float], ...], gloss: _OfGloss | None
-) -> list[str]:
+def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
     found = [(name, inputs[number], value) for name, number, value in neutral]
-    used = [
+    return [
         name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
-    return used if gloss is None else [*_of_gloss(inputs, gloss), *used]
-
-
-def _of_gloss(inputs: Any, places: _OfGloss) -> list[str]:
-    """Name what comes from another node of the gloss that there is, and what no formula counts."""
-    found = []
-    for (name, number), others, uncounted in (
-        (places.level, places.with_level, places.uncounted_with_level),
-        (places.coat, places.with_coat, places.uncounted_with_coat),
-    ):
-        linked = inputs[number].is_linked
-        found += [name] * linked
-        if linked or inputs[number].default_value > 0:
-            found += [other for other, at in others if inputs[at].is_linked]
-            found += [other for other, at in uncounted if _is_set(inputs[at])]
-    return found
 
 
 def _is_set(socket: Any) -> bool:

@@ -23,34 +23,32 @@ _ENOUGH = 1e-6
 _CHANNELS = "RGB"
 
 
-def body(gloss: Gloss, readings: Array, targets: Array, instrument: str) -> tuple[Array, Array]:
+def body(there: Layer, readings: Array, targets: Array) -> tuple[Array, Array]:
     """Give what the diffuse lobe alone has to read, at the instrument and elsewhere.
 
     Parameters
     ----------
-    gloss
-        What lies over it.
+    there
+        What lies over it at the instrument.
     readings
         Whole readings at the instrument in scene-linear RGB, shape (..., 3).
     targets
         Of the matte surface in other directions, shape (..., directions, 3).
-    instrument
-        One of `core.instruments.REGISTRY`.
 
     Returns
     -------
     Of the same shapes; negative at the instrument where the gloss alone reads more.
     """
-    below, share = share_below(gloss, readings, instrument)
+    below, share = share_below(there, readings)
     return below, np.asarray(targets * share[..., np.newaxis, :])
 
 
-def share_below(gloss: Gloss, readings: Array, instrument: str) -> tuple[Array, Array]:
+def share_below(there: Layer, readings: Array) -> tuple[Array, Array]:
     """Give what the diffuse lobe has to read for readings (..., 3), and its share in a matte one.
 
     A channel that is not above 0 has the whole share.
     """
-    below = gloss_lobe.at_instrument(gloss, instrument).below(readings)
+    below = there.below(readings)
     shown = readings > 0
     share = np.where(shown, np.maximum(below, 0) / np.where(shown, readings, 1), 1)
     return below, share
@@ -61,11 +59,11 @@ def target(
 ) -> Array:
     """Give the whole target in other directions, (directions, 3), of one matte surface there.
 
-    Parameters as in `body`; `angles` are θi, θr and Δφ of the directions.
+    `reading` and `targets` as in `body`; `angles` are θi, θr and Δφ of the directions.
     """
     if gloss is None:
         return targets
-    _, below = body(gloss, reading, targets, instrument)
+    _, below = body(gloss_lobe.at_instrument(gloss, instrument), reading, targets)
     return gloss_lobe.layer(gloss, *angles).over(below)
 
 
@@ -74,10 +72,15 @@ def over(gloss: Gloss | None, diffuse: Array, angles: tuple[Array, ...]) -> Arra
     return diffuse if gloss is None else gloss_lobe.layer(gloss, *angles).over(diffuse)
 
 
-def with_instrument(gloss: Gloss, angles: tuple[Array, ...], instrument: str) -> Layer:
-    """Give what lies over some directions and, last, over an instrument's: (directions + 1, 3)."""
+def with_instrument(
+    gloss: Gloss, angles: tuple[Array, ...], instrument: str
+) -> tuple[Layer, Layer]:
+    """Give what lies over some directions and, last, an instrument: (directions + 1, 3), and (3,).
+
+    The second is that of the instrument alone.
+    """
     elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, instrument)
-    return Layer(*(np.vstack(pair) for pair in zip(elsewhere, there, strict=True)))
+    return Layer(*(np.vstack(pair) for pair in zip(elsewhere, there, strict=True))), there
 
 
 def warning(

@@ -378,7 +378,8 @@ class _Under:
     def target(self, matte: Array, read: Array) -> Array:
         """Put it over matte targets, XYZ (ways, 3), with readings under each light, (lights, 3)."""
         light = np.maximum(self.light, _FAINT * self.light.max(axis=1, keepdims=True))
-        _, share = glossy.share_below(self.gloss, read @ self.from_xyz.T / light, VIRTUAL)
+        there = gloss_lobe.at_instrument(self.gloss, VIRTUAL)
+        _, share = glossy.share_below(there, read @ self.from_xyz.T / light)
         body = matte @ self.from_xyz.T * share[self.lights]
         seen = self.layer.passed * body + self.layer.shine * self.light[self.lights]
         return np.asarray(seen @ np.linalg.inv(self.from_xyz).T)

@@ -112,8 +112,8 @@ def _solve(
 
     below, layer = readings, None
     if gloss is not None:
-        below, targets = glossy.body(gloss, readings, targets, VIRTUAL)
-        layer = glossy.with_instrument(gloss, geometries, VIRTUAL)
+        layer, there = glossy.with_instrument(gloss, geometries, VIRTUAL)
+        below, targets = glossy.body(there, readings, targets)
 
     def perceive(rgb: Array) -> Array:
         """Of the diffuse lobe in the first directions of all: gloss lies over it."""

@@ -214,7 +214,7 @@ def _lobe(
     glancing = 1 - at_normal
     bent = _remapped(_fresnel(at.half, index), index)[..., np.newaxis]
     scale, dimming = _kept(roughness, index, at_normal, at.view) if multiscatter else (1.0, 1.0)
-    share = _from_table("share", _place(index), at.view, roughness)[..., np.newaxis]
+    share = _over_view("share", at.view, roughness, _place(index))[..., np.newaxis]
     albedo = (at_normal + glancing * share) * dimming
     if roughness**4 <= _MIRROR:
         return np.zeros_like(albedo), np.asarray(albedo)
@@ -227,8 +227,8 @@ def _lobe(
 
 def _kept(roughness: float, index: float, at_normal: Array, view: Array) -> tuple[Array, Array]:
     """Give what makes up for light that is lost between facets, and how much of it they absorb."""
-    kept = _from_table("kept", view, roughness)[..., np.newaxis]
-    mean_kept = float(_from_table("mean kept", roughness))
+    kept = _over_view("kept", view, roughness)[..., np.newaxis]
+    mean_kept = float(_between(_TABLES["mean kept"], roughness))
     missing = (1 - kept) / kept
     share = _remapped(np.asarray(_mean_fresnel(index)), index)
     single = at_normal + (1 - at_normal) * share
@@ -284,26 +284,24 @@ def _place(index: float) -> float:
     return math.sqrt(abs(index - 1) / (index + 1))
 
 
-def _from_table(name: str, *places: Array | float) -> Array:
-    """Read a table linearly between its entries, as Cycles does; places run from 0 to 1."""
-    table = _TABLES[name]
-    size = table.shape[0]
-    # The axes are (refraction,) (view,) roughness; the weights of all corners are summed up.
-    at = np.broadcast_arrays(*(np.asarray(place, np.float64) for place in places))
-    found = np.zeros(at[0].shape)
-    corners = [((), np.ones(at[0].shape))]
-    for place in at:
-        along = np.clip(place, 0, 1) * (size - 1)
-        low = np.minimum(along.astype(int), size - 2)
-        part = along - low
-        corners = [
-            corner
-            for index, weight in corners
-            for corner in (((*index, low), weight * (1 - part)), ((*index, low + 1), weight * part))
-        ]
-    for index, weight in corners:
-        found = found + weight * table[index]
-    return np.asarray(found)
+def _over_view(name: str, view: Array, *places: float) -> Array:
+    """Read a table linearly between its entries, as Cycles does, at the cosines of a view.
+
+    `places`, from 0 to 1, are those of roughness and, where the table has it, refraction: its last
+    axis and its first. They are one number each, so that a line over the view is left.
+    """
+    line = _TABLES[name]
+    line = _between(np.moveaxis(line, -1, 0), places[0])
+    if len(places) > 1:
+        line = _between(line, places[1])
+    return np.interp(view, np.linspace(0, 1, line.size), line)
+
+
+def _between(table: Array, place: float) -> Array:
+    """Read the first axis of a table at a place from 0 to 1."""
+    along = min(max(place, 0.0), 1.0) * (len(table) - 1)
+    low = min(int(along), len(table) - 2)
+    return np.asarray(table[low] * (1 - (along - low)) + table[low + 1] * (along - low))
 
 
 def _unpacked(size: int, packed: str) -> Array:
