@@ -497,7 +497,9 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
 
 
 def assign(
-    pairs: Iterable[tuple[bpy.types.Material, Sample | Request]], shader: str = "auto"
+    pairs: Iterable[tuple[bpy.types.Material, Sample | Request]],
+    shader: str = "auto",
+    gloss: str = "keep",
 ) -> list[Solution]:
     """Give materials measured spectra, all of them or none, and set their shader nodes.
 
@@ -508,6 +510,9 @@ def assign(
     shader
         "auto" sets the Diffuse or Principled BSDF that is in use, or a new Diffuse BSDF;
         "diffuse" and "principled" ask for that node.
+    gloss
+        "keep" leaves a Principled BSDF the gloss that it has, and solves the color below it;
+        "none" removes it. A node that is made has none.
 
     Returns
     -------
@@ -526,7 +531,8 @@ def assign(
     Examples
     --------
     >>> wall, door = (bpy.data.materials.new(name) for name in ("Wall", "Door"))
-    >>> solutions = assign([(wall, find("neutral 6.5")), (door, request(find("green"), 0.35))])
+    >>> pairs = [(wall, find("neutral 6.5")), (door, request(find("green"), 0.35))]
+    >>> solutions = assign(pairs, gloss="none")
     >>> [[round(value, 2) for value in solution.color.tolist()] for solution in solutions]
     [[0.36, 0.36, 0.36], [0.06, 0.3, 0.06]]
     >>> [round(solution.roughness, 2) for solution in solutions]
@@ -538,7 +544,9 @@ def assign(
         (_checked(material), request(what) if isinstance(what, Sample) else what)
         for material, what in pairs
     ]
-    return derive.assign(wanted, _node(shader))
+    if gloss not in ("keep", "none"):
+        raise DomainError(f"gloss is {gloss!r}; make it 'keep' or 'none'.")
+    return derive.assign(wanted, _node(shader), gloss == "keep")
 
 
 def match_by_measuring(
@@ -600,7 +608,7 @@ def materials() -> list[bpy.types.Material]:
     Examples
     --------
     >>> plain, wall = (bpy.data.materials.new(name) for name in ("Plain", "Wall"))
-    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> [material.name for material in materials()]
     ['Wall']
     """
@@ -627,7 +635,7 @@ def renew(materials: Iterable[bpy.types.Material]) -> list[Solution]:
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> with paused():
     ...     wall.rough_spectra.sigma = radians(40)
     >>> [solution] = renew([wall])
@@ -646,7 +654,7 @@ def paused() -> AbstractContextManager[None]:
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> with paused():
     ...     wall.rough_spectra.sigma = radians(30)
     ...     wall.rough_spectra.illuminant = "A"
@@ -726,7 +734,7 @@ def settle(material: bpy.types.Material) -> Settled:
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))], gloss="none")
     >>> wanted = settle(wall).request
     >>> wanted.sample.name, wanted.model, round(wanted.sigma, 4)
     ('ColorChecker 21 Neutral 6.5 (.44 D)', 'surface', 0.5236)
@@ -749,7 +757,7 @@ def differences(material: bpy.types.Material) -> Differences:
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))], gloss="none")
     >>> instrument, mean, _ = differences(wall)
     >>> round(instrument, 2), round(mean, 1)
     (0.0, 0.8)
@@ -800,7 +808,7 @@ def bake(
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))])
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))], gloss="none")
     >>> [entry] = bake([wall]).entries
     >>> [round(value, 3) for value in entry.measured.rgb]
     [0.311, 0.31, 0.311]
@@ -850,7 +858,7 @@ def gloss(
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> [[units]] = gloss([wall], [60])
     >>> bool(units < 2)  # matte: what the window sees of the diffuse light
     True
@@ -891,7 +899,7 @@ def write(
     Examples
     --------
     >>> wall = bpy.data.materials.new("Wall")
-    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> [path.name for path in write(bake([wall], measure=False), "out/chart", ["csv"])]
     ['chart.predicted.csv', 'chart.json']
     """

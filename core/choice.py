@@ -46,6 +46,7 @@ def choose_shader(
     errors_lambert: npt.ArrayLike,
     errors_rough: npt.ArrayLike,
     tolerance: float = TOLERANCE,
+    gloss: bool = False,
 ) -> Choice:
     """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
 
@@ -55,6 +56,8 @@ def choose_shader(
         ΔE00 of the two from the target, over the directions and lights that occur, any shape.
     tolerance
         Largest ΔE00 allowed.
+    gloss
+        Whether both lie under a gloss, which was set by hand and is kept: the reason says so.
 
     Returns
     -------
@@ -74,13 +77,14 @@ def choose_shader(
     )
     errors = dict(zip(SHADERS, (lambert, rough), strict=True))
     limit = f"the {tolerance:g} allowed"
+    kept = " with gloss, which is kept as it is set" if gloss else ""
     if lambert <= tolerance:
-        reason = f"lambert: at worst ΔE00 {_number(lambert, tolerance)} off, within {limit}."
+        reason = f"lambert{kept}: at worst ΔE00 {_number(lambert, tolerance)} off, within {limit}."
         return Choice("lambert", lambert, errors, reason)
     model = "rough" if rough <= tolerance or rough < lambert else "lambert"
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
-        f"{model}: at worst ΔE00 {_number(errors[model], tolerance)} off, "
+        f"{model}{kept}: at worst ΔE00 {_number(errors[model], tolerance)} off, "
         f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
         f"{'without' if model == 'rough' else 'with'} roughness it would be "
         f"{_number(errors[other], tolerance)}."

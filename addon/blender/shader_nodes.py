@@ -12,7 +12,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import bpy
+
 from ...core.errors import MaterialError
+from ...core.gloss import Gloss
 from ...core.numerics.memoized import kept
 from ..matching import shaders
 from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
@@ -20,6 +23,7 @@ from .surface import (
     Surface,
     comparable,
     disturbing_sockets,
+    gloss_of,
     link_to,
     output_node,
     shader_node,
@@ -37,6 +41,10 @@ __all__ = [
     "curves",
     "disturbing_sockets",
     "find",
+    "gloss_at",
+    "gloss_of",
+    "new_material",
+    "remove_gloss",
     "roughness_socket",
     "shader_node",
     "surface",
@@ -70,7 +78,7 @@ class SocketTarget:
     make: str
 
 
-def find(material: Any, shader: str = shaders.AUTO) -> SocketTarget:
+def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> SocketTarget:
     """Find where the color of a material's surface is set, changing nothing.
 
     Parameters
@@ -82,6 +90,8 @@ def find(material: Any, shader: str = shaders.AUTO) -> SocketTarget:
         The name of one, such as "PRINCIPLED", asks for that node; where another one is in use it
         takes its place, and the other one stays in the tree. It is the node that an earlier
         change has set aside, if nobody uses that, else a new one.
+    keep_gloss
+        False where the gloss is to be removed: what decides it then does not count.
 
     Raises
     ------
@@ -107,7 +117,7 @@ def find(material: Any, shader: str = shaders.AUTO) -> SocketTarget:
         raise MaterialError(msg)
     if shader != shaders.AUTO and node.bl_idname != wanted:
         return _place_for(material, wanted)
-    _refuse_unpredictable(material, node)
+    _refuse_unpredictable(material, node, keep_gloss)
     return SocketTarget(material, node.name, "")
 
 
@@ -115,12 +125,42 @@ def write(place: SocketTarget, color: tuple[float, float, float], roughness: flo
     """Set color and roughness at a place that `find` gave; returns the node's name."""
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
     sockets = OF_NODE[node.bl_idname]
-    zeros = dict.fromkeys(sockets.zeroed, (0.0,))
-    _set_sockets(node, {sockets.color: color, sockets.roughness: (roughness,), **zeros})
+    _set_sockets(node, {sockets.color: color, sockets.roughness: (roughness,)})
     # What setting a socket would have done, but for looking through all trees of the file.
     place.material.node_tree.update_tag()
     place.material.update_tag()
     return str(node.name)
+
+
+def gloss_at(place: SocketTarget) -> Gloss | None:
+    """Give the gloss of the node at a place that `find` gave; a node to be made has none."""
+    if not place.node_name:
+        return None
+    return gloss_of(place.material.node_tree.nodes[place.node_name])
+
+
+def new_material(name: str) -> Any:
+    """Make a material, without the gloss that Blender gives to a new one.
+
+    Gloss is kept because somebody set it; of what we make nobody did.
+    """
+    material = bpy.data.materials.new(name)
+    node = shader_node(material)
+    if node is not None:
+        _without_gloss(node)
+    return material
+
+
+def remove_gloss(place: SocketTarget) -> None:
+    """Set the gloss to 0 of the node at a place that `find` gave, if it is there."""
+    if place.node_name:
+        _without_gloss(place.material.node_tree.nodes[place.node_name])
+        place.material.node_tree.update_tag()
+        place.material.update_tag()
+
+
+def _without_gloss(node: Any) -> None:
+    _set_sockets(node, dict.fromkeys(OF_NODE[node.bl_idname].zeroed, (0.0,)))
 
 
 def _set_sockets(node: Any, values: Mapping[str, Sequence[float]]) -> None:
@@ -180,27 +220,41 @@ def refuse_read_only(material: Any) -> None:
         raise MaterialError(msg)
 
 
-def _refuse_unpredictable(material: Any, node: Any) -> None:
+def _refuse_unpredictable(material: Any, node: Any, keep_gloss: bool = True) -> None:
     where = f"Material {material.name!r}, node {node.name!r}"
     if node.mute:
         msg = f"{where} is muted; unmute it first."
         raise MaterialError(msg)
     sockets = OF_NODE[node.bl_idname]
-    for name in (sockets.color, sockets.roughness, *sockets.zeroed):
+    for name in (sockets.color, sockets.roughness):
         if node.inputs[name].is_linked:
             msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
             raise MaterialError(msg)
         if _is_animated(material.node_tree, node.inputs[name]):
             msg = f"{where}: {name} is animated or driven; clear that, so that it can be set."
             raise MaterialError(msg)
+    counts = keep_gloss and gloss_of(node) is not None
     for name in disturbing_sockets(node):
-        if name in sockets.neutral:
+        if not keep_gloss and name not in (*sockets.neutral, *sockets.zeroed):
+            continue
+        if name in sockets.gloss.values():
             msg = (
-                f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-                f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
+                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, or "
+                "choose Diffuse as the shader."
             )
             raise MaterialError(msg)
-    for name in sockets.neutral:
+        if name not in sockets.neutral:
+            msg = (
+                f"{where}: {name} is in use, which turns its gloss in a way that no formula here "
+                "counts; set it to 0 or unlink it, or remove the gloss."
+            )
+            raise MaterialError(msg)
+        msg = (
+            f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
+            f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
+        )
+        raise MaterialError(msg)
+    for name in (*sockets.neutral, *(sockets.gloss.values() if counts else sockets.zeroed)):
         if _is_animated(material.node_tree, node.inputs[name]):
             msg = f"{where}: {name} is animated or driven; clear that, or choose Diffuse."
             raise MaterialError(msg)
@@ -269,6 +323,7 @@ def _make(place: SocketTarget) -> Any:
         del node[_SET_ASIDE]
     else:
         node = tree.nodes.new(place.make)
+        _without_gloss(node)
         x, y = output.location
         at = (x - _NODE_DISTANCE, y - (_NODE_DISTANCE if before else 0))
         locations = array("f", bytes(8 * len(tree.nodes)))

@@ -20,8 +20,14 @@ class Sockets(NamedTuple):
         Type of the node.
     color, roughness, normal
         What all shader nodes have; roughness is that of the diffuse closure.
+    gloss
+        What decides the gloss, by the fields of `core.gloss.Gloss`: kept as it is set, and counted.
+        Empty where the shader has none.
     zeroed
-        What is set to 0 besides.
+        What is set to 0 in a node that is made, and where gloss is removed.
+    uncounted
+        What has to be 0 and unlinked where there is gloss, because no formula here counts it: by
+        the field of the gloss that it goes with.
     neutral
         What has to keep these values, and is never set: else the surface is more than the shader's
         lobe.
@@ -31,7 +37,9 @@ class Sockets(NamedTuple):
     color: str
     roughness: str
     normal: str
+    gloss: Mapping[str, str] = {}
     zeroed: tuple[str, ...] = ()
+    uncounted: Mapping[str, tuple[str, ...]] = {}
     neutral: Mapping[str, float] = {}
 
 
@@ -39,13 +47,23 @@ OF_SHADER: Mapping[str, Sockets] = {
     "DIFFUSE": Sockets("ShaderNodeBsdfDiffuse", "Color", "Roughness", "Normal"),
     "PRINCIPLED": Sockets(
         *("ShaderNodeBsdfPrincipled", "Base Color", "Diffuse Roughness", "Normal"),
-        zeroed=("Specular IOR Level",),
+        gloss={
+            "level": "Specular IOR Level",
+            "roughness": "Roughness",
+            "ior": "IOR",
+            "tint": "Specular Tint",
+            "coat": "Coat Weight",
+            "coat_roughness": "Coat Roughness",
+            "coat_ior": "Coat IOR",
+            "coat_tint": "Coat Tint",
+        },
+        zeroed=("Specular IOR Level", "Coat Weight"),
+        uncounted={"level": ("Anisotropic",), "coat": ("Coat Normal",)},
         neutral={
             "Metallic": 0.0,
             "Alpha": 1.0,
             "Subsurface Weight": 0.0,
             "Transmission Weight": 0.0,
-            "Coat Weight": 0.0,
             "Sheen Weight": 0.0,
             "Emission Strength": 0.0,
             "Thin Film Thickness": 0.0,

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...core.gloss import WHITE, Gloss, Tint
 from ...core.numerics.memoized import kept
-from .sockets import OF_NODE
+from .sockets import OF_NODE, Sockets
 
 _DISPLACEMENT = "Displacement"
 
@@ -38,6 +39,8 @@ class Surface(NamedTuple):
     bumped
         Whether the surface is turned point by point: by its Normal, or by the output's
         displacement.
+    gloss
+        What of gloss lies over the diffuse lobe, or None.
     """
 
     node: str
@@ -50,6 +53,7 @@ class Surface(NamedTuple):
     disturbing: tuple[str, ...]
     values: tuple[float, ...]
     bumped: bool
+    gloss: Gloss | None = None
 
     @property
     def linked(self) -> list[str]:
@@ -70,10 +74,11 @@ def surface(material: Any) -> Surface | None:
     if output is None or node is None:
         return None
     shader, inputs = node.bl_idname, node.inputs
-    color_at, roughness_at, normal_at, neutral = _places(node, shader)
+    color_at, roughness_at, normal_at, of_gloss, neutral = _places(node, shader)
     color, roughness = inputs[color_at], inputs[roughness_at]
     red, green, blue, _ = color.default_value
-    disturbing = tuple(_in_use(inputs, neutral))
+    gloss, used = _gloss(node, of_gloss)
+    disturbing = tuple(used + _in_use(inputs, neutral))
     return Surface(
         node.name,
         shader,
@@ -85,6 +90,7 @@ def surface(material: Any) -> Surface | None:
         disturbing,
         tuple(_values(inputs)) if disturbing else (),
         inputs[normal_at].is_linked or output.inputs[_DISPLACEMENT].is_linked,
+        gloss,
     )
 
 
@@ -109,33 +115,127 @@ def _shader_of(output: Any | None) -> Any | None:
     return link.from_node
 
 
-def _places(node: Any, shader: str) -> tuple[int, int, int, tuple[tuple[str, int, float], ...]]:
-    """Give the numbers of the sockets for color, roughness, normal, and what has to be neutral.
+class _OfGloss(NamedTuple):
+    """The sockets that decide the gloss: by the fields of `Gloss`, name and number.
+
+    What goes with the level and what with the coat stand apart: where there is no coat, nothing of
+    it shows. `uncounted` are those that no formula counts.
+    """
+
+    level: tuple[str, int]
+    with_level: tuple[tuple[str, int], ...]
+    coat: tuple[str, int]
+    with_coat: tuple[tuple[str, int], ...]
+    uncounted_with_level: tuple[tuple[str, int], ...]
+    uncounted_with_coat: tuple[tuple[str, int], ...]
+
+
+class _Numbers(NamedTuple):
+    """Numbers of the sockets for color, roughness, normal, gloss, and what has to be neutral."""
+
+    color: int
+    roughness: int
+    normal: int
+    gloss: _OfGloss | None
+    neutral: tuple[tuple[str, int, float], ...]
+
+
+def _places(node: Any, shader: str) -> _Numbers:
+    """Give the numbers of the sockets that count.
 
     All nodes of a type have the same sockets. A panel reads eleven at every redraw: found by number
     that takes two thirds of the time (10 µs for nine, where by name it was 15).
     """
     if shader not in _numbers:
         find, sockets = node.inputs.find, OF_NODE[shader]
-        neutral = dict.fromkeys(sockets.zeroed, 0.0) | dict(sockets.neutral)
-        rest = tuple((name, find(name), value) for name, value in neutral.items())
+        rest = tuple((name, find(name), value) for name, value in sockets.neutral.items())
         own = find(sockets.color), find(sockets.roughness), find(sockets.normal)
-        _numbers[shader] = (*own, rest)
+        _numbers[shader] = _Numbers(*own, _places_of_gloss(find, sockets), rest)
     return _numbers[shader]
 
 
-_numbers: dict[str, tuple[int, int, int, tuple[tuple[str, int, float], ...]]] = kept(
-    __name__, "_numbers"
-)
+_numbers: dict[str, _Numbers] = kept(__name__, "_numbers")
+
+
+def _places_of_gloss(find: Any, sockets: Sockets) -> _OfGloss | None:
+    if not sockets.gloss:
+        return None
+
+    def named(*names: str) -> tuple[tuple[str, int], ...]:
+        return tuple((name, find(name)) for name in names)
+
+    level, *with_level, coat, coat_roughness, coat_ior, coat_tint = sockets.gloss.values()
+    [of_level], [of_coat] = named(level), named(coat)
+    return _OfGloss(
+        *(of_level, named(*with_level), of_coat, named(coat_roughness, coat_ior, coat_tint)),
+        *(named(*sockets.uncounted["level"]), named(*sockets.uncounted["coat"])),
+    )
+
+
+def gloss_of(node: Any) -> Gloss | None:
+    """Read the gloss of a target shader's node, or None where it has none."""
+    return _gloss(node, _places(node, node.bl_idname).gloss)[0]
+
+
+def _gloss(node: Any, places: _OfGloss | None) -> tuple[Gloss | None, list[str]]:
+    """Read the gloss, and name what of it comes from another node or is counted by no formula.
+
+    Where there is no level or no coat, what goes with it does not count.
+    """
+    if places is None:
+        return None, []
+    inputs = node.inputs
+    level, of_level, used = _layer(inputs, places.level, places.with_level, _NO_LEVEL)
+    coat, of_coat, used_by_coat = _layer(inputs, places.coat, places.with_coat, _NO_COAT)
+    if not (level or coat or used or used_by_coat):
+        return None, []
+    if level or used:
+        used += [name for name, at in places.uncounted_with_level if _is_set(inputs[at])]
+    if coat or used_by_coat:
+        used_by_coat += [name for name, at in places.uncounted_with_coat if _is_set(inputs[at])]
+    used += used_by_coat
+    if not (level or coat):
+        return None, used
+    multiscatter = not level or node.distribution == "MULTI_GGX"
+    return Gloss(level, *of_level, coat, *of_coat, multiscatter), used
+
+
+_Lobe = tuple[float, float, Tint]
+_NO_LEVEL: _Lobe = (0.5, 1.5, WHITE)
+_NO_COAT: _Lobe = (0.03, 1.5, WHITE)
+
+
+def _layer(
+    inputs: Any,
+    strength: tuple[str, int],
+    others: tuple[tuple[str, int], ...],
+    without: _Lobe,
+) -> tuple[float, _Lobe, list[str]]:
+    """Read level or coat with what goes with it, and name what of it is linked."""
+    name, number = strength
+    socket = inputs[number]
+    value, linked = comparable(socket.default_value), socket.is_linked
+    if value <= 0 and not linked:
+        return 0.0, without, []
+    used = [name] * linked + [other for other, at in others if inputs[at].is_linked]
+    roughness, ior, tint = (inputs[at].default_value for _, at in others)
+    red, green, blue, _ = map(comparable, tint)
+    return (
+        *(
+            0.0 if value <= 0 else value,
+            (comparable(roughness), comparable(ior), (red, green, blue)),
+        ),
+        used,
+    )
 
 
 def disturbing_sockets(node: Any) -> list[str]:
-    """Name the sockets in use that make a node more than the lobe of its shader.
+    """Name the sockets in use that make a node more than diffuse lobe and gloss of its shader.
 
-    Always empty for a Diffuse BSDF. A Principled BSDF's specular level counts, which `write` sets
-    to 0.
+    Always empty for a Diffuse BSDF.
     """
-    return _in_use(node.inputs, _places(node, node.bl_idname)[-1])
+    found = _places(node, node.bl_idname)
+    return _gloss(node, found.gloss)[1] + _in_use(node.inputs, found.neutral)
 
 
 def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[str]:
@@ -143,6 +243,12 @@ def _in_use(inputs: Any, neutral: tuple[tuple[str, int, float], ...]) -> list[st
     return [
         name for name, socket, value in found if socket.default_value != value or socket.is_linked
     ]
+
+
+def _is_set(socket: Any) -> bool:
+    """Whether a socket is linked or holds a number besides 0; a direction counts where linked."""
+    value: Any = socket.default_value
+    return socket.is_linked or (not hasattr(value, "__len__") and value != 0)
 
 
 def _values(inputs: Any) -> Iterator[float]:

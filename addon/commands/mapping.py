@@ -19,6 +19,7 @@ import bpy
 from ...core import instruments, limits
 from ...core.errors import InputError, MaterialError
 from .. import api
+from ..blender import shader_nodes
 from ..material import preferences, selection
 from ..samples import library, readers, stated_white
 from ..samples.sample import COLORED, Kind, Sample
@@ -106,7 +107,7 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.
         )
         raise MaterialError(msg)
     for name in dict.fromkeys(missing):
-        known[name] = bpy.data.materials.new(name)
+        known[name] = shader_nodes.new_material(name)
         known[name].use_fake_user = True
     return [(known[row.material], request) for row, request in zip(chosen, requests, strict=True)]
 

@@ -275,7 +275,7 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
         shader = promised.color, promised.roughness
-        lab = scene_match.promised(*shader, scene, space, item.read_at)
+        lab = scene_match.promised(*shader, scene, space, item.read_at, request and request.gloss)
         difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, solve.target_reading(request)

@@ -8,11 +8,11 @@ import numpy as np
 
 from ...core import cycles, ladder
 from ...core.color import color_difference
-from ...core.cycles import instrument_lobe
+from ...core.cycles import gloss_lobe, instrument_lobe
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry.rgb_space import WorkingSpace
-from . import scene_match, solve
+from . import glossy, scene_match, solve
 from .scene_view import SceneView
 from .solve import MATCH_GEOMETRIES, Request
 
@@ -38,7 +38,9 @@ def differences(
     """
     (seen, albedo), (color, roughness) = spectra, shader
     bands = request.sample.wavelengths
-    at_instrument = instrument_lobe.reflectance(color, roughness, request.read_at)
+    gloss = request.gloss
+    diffuse = instrument_lobe.reflectance(color, roughness, request.read_at)
+    at_instrument = gloss_lobe.reading(diffuse, gloss, request.read_at)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
         wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)
@@ -48,9 +50,11 @@ def differences(
         return float(apart), float(np.average(over, weights=view.place_weights)), high
     angles = direction_grid.hemisphere(MATCH_GEOMETRIES)
     reflected = np.vstack((in_directions(request, albedo, angles), seen))
-    rgb = space.rgb_weights(bands, request.illuminant)
-    wanted = space.to_lab(reflected @ rgb, request.illuminant)
+    *targets, read = reflected @ space.rgb_weights(bands, request.illuminant)
+    targets = glossy.target(gloss, read, np.array(targets), angles, request.read_at)
+    wanted = space.to_lab(np.vstack((targets, read)), request.illuminant)
     shown = cycles.reflectance(color, np.full(MATCH_GEOMETRIES, roughness), *angles)
+    shown = glossy.over(gloss, shown, angles)
     found = space.to_lab(np.vstack((shown, at_instrument)), request.illuminant)
     *over_angles, apart = color_difference.delta_e(found, wanted)
     return float(apart), float(np.mean(over_angles)), float(np.percentile(over_angles, 95))

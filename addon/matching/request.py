@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from ...core import instruments, limits
 from ...core.errors import DomainError
+from ...core.gloss import Gloss
 from ...core.models import NAMES
 from ..colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 from ..samples.sample import Sample
@@ -47,6 +48,8 @@ class Request:
         Virtual instrument that the material is to read right at, one of
         `core.instruments.REGISTRY`. `sample.instrument` is the real one that the sample was
         measured with.
+    gloss
+        What lies over the color and is counted with it; None for a matte shader.
 
     Raises
     ------
@@ -64,6 +67,7 @@ class Request:
     flat: bool = False
     tolerance: float = limits.TOLERANCE
     read_at: str = instruments.DEFAULT
+    gloss: Gloss | None = None
 
     def __post_init__(self) -> None:
         """Refuse what would spread through every color, or stop the writing of many materials."""
@@ -82,6 +86,9 @@ class Request:
             if not math.isfinite(value):
                 msg = f"{label} is not a number; set it again, or mend its driver."
                 raise DomainError(msg)
+        if self.gloss is not None and not all(map(math.isfinite, self.gloss.numbers())):
+            msg = "A number of the gloss is none; set it again, or mend its driver."
+            raise DomainError(msg)
         if not 0 <= self.sigma <= limits.MATCHED_SIGMA:
             msg = f"σ is {self.sigma:g} radians; give 0 to π/3, as math.radians(30) is."
             if limits.MATCHED_SIGMA < self.sigma <= limits.LARGEST_SIGMA:

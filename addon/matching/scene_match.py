@@ -17,15 +17,18 @@ from ...core import cycles, instruments, ladder
 from ...core.color import color_difference
 from ...core.cycles import (
     derivatives,
+    gloss_lobe,
     instrument_lobe,
     least_mean_fit,
     matching,
 )
+from ...core.gloss import Gloss
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..colorimetry.perceptibility import SIDE_BY_SIDE
 from ..colorimetry.rgb_space import WorkingSpace, matrix_of
+from . import glossy
 from .scene_view import SceneLight, SceneView
 
 _ELSEWHERE = 12
@@ -75,6 +78,7 @@ def match(
     bands: Array,
     space: WorkingSpace,
     read_at: str = instruments.DEFAULT,
+    gloss: Gloss | None = None,
 ) -> tuple[Match, Match, Array]:
     """Match one material, with roughness and without.
 
@@ -94,6 +98,8 @@ def match(
         The working space.
     read_at
         The virtual instrument.
+    gloss
+        What lies over the diffuse lobe, or None.
 
     Returns
     -------
@@ -101,7 +107,7 @@ def match(
         The two materials, and the reading at the instrument as RGB, unclipped: the mean over the
         lights.
     """
-    places = _places(view, bands.tobytes(), space.key, read_at)
+    places = _places(view, bands.tobytes(), space.key, read_at, gloss)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
     roots, _ = color_difference.roots(wanted)
@@ -130,38 +136,46 @@ def differences(
     bands: Array,
     space: WorkingSpace,
     read_at: str = instruments.DEFAULT,
+    gloss: tuple[Gloss, Array] | None = None,
 ) -> Array:
-    """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
+    """ΔE00 of a given color and roughness in each of the view's places; see `match`.
+
+    `gloss` is what lies over them, and r(λ) at the virtual instrument, shape (bands,).
+    """
     cycles.check_roughness(np.asarray(shader[1]))
-    places = _places(view, bands.tobytes(), space.key, read_at)
-    wanted = places.relative(_reflected(albedo, model, sigma, places))
+    over, read = gloss or (None, None)
+    places = _places(view, bands.tobytes(), space.key, read_at, over)
+    wanted = places.relative(_reflected(albedo, model, sigma, places), read)
+    wanted = wanted[: len(places.weights)]
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])
     lab = color_difference.roots_to_lab(color_difference.roots(wanted)[0])
     return color_difference.delta_e(seen[0, : len(wanted)], lab)[: len(view.place_weights)]
 
 
 def choose_shader(
-    view: SceneView, lambert: Match, rough: Match, tolerance: float
+    view: SceneView, lambert: Match, rough: Match, tolerance: float, gloss: bool = False
 ) -> tuple[Match, str]:
     """Choose the material without roughness where that is good enough, else the closer one.
 
     Closer on average: where several lights contradict each other, they and not the roughness make
-    up the largest error.
+    up the largest error. With `gloss` both lie under one, which is kept.
 
     Returns
     -------
     The material, and one sentence for a person.
     """
     worst = float(lambert.over_scene.max())
+    kept = " with gloss, which is kept as it is set" if gloss else ""
     if worst <= tolerance:
-        return lambert, f"lambert: at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
+        words = f"at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
+        return lambert, f"lambert{kept}: {words}"
     weights = view.place_weights / view.place_weights.sum()
     flat, bent = (float(each.over_scene @ weights) for each in (lambert, rough))
     if bent <= flat:
-        words = "rough: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
-        return rough, words.format(bent, flat)
-    words = "lambert: ΔE00 {:.2f} off on average in its scene; rough would be off by {:.2f}."
-    return lambert, words.format(flat, bent)
+        words = "rough{}: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
+        return rough, words.format(kept, bent, flat)
+    words = "lambert{}: ΔE00 {:.2f} off on average in its scene; rough would be off by {:.2f}."
+    return lambert, words.format(kept, flat, bent)
 
 
 def mean_of_lights(view: SceneView, apart: Array) -> tuple[tuple[str, float], ...]:
@@ -215,10 +229,16 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
 
 
 def promised(
-    color: Array, roughness: float, view: SceneView, space: WorkingSpace, read_at: str
+    color: Array,
+    roughness: float,
+    view: SceneView,
+    space: WorkingSpace,
+    read_at: str,
+    gloss: Gloss | None = None,
 ) -> Array:
-    """Lab at an instrument of a shader under the view's main light, shape (3,)."""
-    seen = instrument_lobe.reflectance(color, roughness, read_at)
+    """Lab at the instrument of a shader under the view's main light, shape (3,)."""
+    diffuse = instrument_lobe.reflectance(color, roughness, read_at)
+    seen = gloss_lobe.reading(diffuse, gloss, read_at)
     return to_lab(seen, view.lights[0], space)
 
 
@@ -270,6 +290,8 @@ class _ShadingPoints:
     to_means
         From XYZ relative to white to two means of RGB, by mean and channel: over what is searched,
         and over the lights at the instrument. Shape (6, 3 places).
+    under
+        What gloss adds and lets pass; None without.
     """
 
     angles: Array
@@ -280,15 +302,20 @@ class _ShadingPoints:
     whites: Array
     to_relative: Array
     to_means: Array
+    under: _Under | None
 
     def relative(self, reflected: Array, read: Array | None = None) -> Array:
         """XYZ relative to white of spectra (ways, bands) and a reading (bands,): (places, 3).
 
-        Without a reading, only of what is searched.
+        Without a reading, only of what is searched. Under gloss there has to be one.
         """
-        xyz = self.mixing @ (reflected @ self.colors).reshape(-1, 3).take(self.own, axis=0)
-        if read is not None:
-            xyz = np.concatenate((xyz, (read @ self.colors).reshape(-1, 3)))
+        ways = (reflected @ self.colors).reshape(-1, 3).take(self.own, axis=0)
+        at_instrument = None if read is None else (read @ self.colors).reshape(-1, 3)
+        if self.under is not None and at_instrument is not None:
+            ways = self.under.target(ways, at_instrument)
+        xyz = self.mixing @ ways
+        if at_instrument is not None:
+            xyz = np.concatenate((xyz, at_instrument))
         return np.asarray(xyz / self.whites[: len(xyz)])
 
     def perceive(self, parameters: list[least_mean_fit.Numbers]) -> Array:
@@ -296,6 +323,8 @@ class _ShadingPoints:
         parts = derivatives.coefficients(parameters)
         relative = parts[:, 0].reshape(-1, 9) @ self.to_relative.T
         relative = relative.reshape(len(parameters), -1, 3)
+        if self.under is not None:
+            relative = relative + self.under.added
         return color_difference.roots_to_lab(color_difference.roots(relative)[0])
 
     def distance_to(self, roots: Array, lab: Array) -> least_mean_fit.Distance:
@@ -308,11 +337,14 @@ class _ShadingPoints:
         """
         count = len(self.weights)
         wanted, to_relative = roots[:count, :, np.newaxis], self.to_relative[: 3 * count]
+        added = None if self.under is None else self.under.added[:count, :, np.newaxis]
         metric = least_mean_fit.whitener(lab[:count]) @ color_difference.LAB_FROM_ROOTS
 
         def distance(parameters: list[least_mean_fit.Numbers]) -> Array:
             parts = derivatives.coefficients(parameters)
             found = (to_relative @ parts.reshape(-1, 9).T).reshape(count, 3, len(parameters), -1)
+            if added is not None:
+                found[..., 0] += added
             bent, slope = color_difference.roots(found[..., 0])
             np.subtract(bent, wanted, out=found[..., 0])
             found[..., 1:] *= slope[..., np.newaxis]
@@ -321,19 +353,59 @@ class _ShadingPoints:
         return distance
 
 
+@dataclass(frozen=True, eq=False)
+class _Under:
+    """A gloss over all ways of light of `_ShadingPoints`.
+
+    Parameters
+    ----------
+    there
+        What it adds and lets pass at the instrument, each of shape (3,).
+    layer
+        What it adds and lets pass on the ways to what is searched, each of shape (ways, 3).
+    added
+        XYZ relative to white that it adds in all places, shape (places, 3).
+    light
+        Scene-linear RGB of each light, shape (lights, 3).
+    lights
+        Index of each way's light, shape (ways,).
+    from_xyz
+        Matrix from XYZ to scene-linear RGB.
+    """
+
+    there: gloss_lobe.Layer
+    layer: gloss_lobe.Layer
+    added: Array
+    light: Array
+    lights: Array
+    from_xyz: Array
+
+    def target(self, matte: Array, read: Array) -> Array:
+        """Put it over matte targets, XYZ (ways, 3), with readings under each light, (lights, 3)."""
+        light = np.maximum(self.light, _FAINT * self.light.max(axis=1, keepdims=True))
+        _, share = glossy.share_below(self.there, read @ self.from_xyz.T / light)
+        body = matte @ self.from_xyz.T * share[self.lights]
+        seen = self.layer.passed * body + self.layer.shine * self.light[self.lights]
+        return np.asarray(seen @ np.linalg.inv(self.from_xyz).T)
+
+
 @memoized(maxsize=_KEPT)
-def _places(view: SceneView, bands: bytes, key: bytes, read_at: str) -> _ShadingPoints:
-    """Make them, for the bytes of wavelengths, a working space's key and an instrument."""
+def _places(
+    view: SceneView, bands: bytes, key: bytes, read_at: str, gloss: Gloss | None
+) -> _ShadingPoints:
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
     white = np.stack([light.white for light in view.lights])[lights]
     rgb = light_rgb(white, matrix)
     whites = mixing @ white
+    count = len(view.lights)
     at = instrument_lobe.mean_direction(read_at, angles.dtype)
-    instrument = derivatives.of_directions(*(np.full(len(view.lights), each) for each in at))
+    instrument = derivatives.of_directions(*(np.full(count, each) for each in at))
     functions = np.concatenate((derivatives.functions(*angles), instrument), axis=1).T
-    mixed = mixing @ (rgb[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
     to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
+    layer = None if gloss is None else _layer(gloss, angles, read_at, count)
+    below = rgb if layer is None else rgb * layer.passed
+    mixed = mixing @ (below[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
 
     scene = view.place_weights / view.place_weights.sum() * (1 - _WEIGHT_ELSEWHERE)
     weights = np.append(scene, np.full(_ELSEWHERE, _WEIGHT_ELSEWHERE / _ELSEWHERE))
@@ -342,6 +414,16 @@ def _places(view: SceneView, bands: bytes, key: bytes, read_at: str) -> _Shading
     means = np.zeros((2, len(mixing)))
     means[0, :searched], means[1, searched:] = weights, share / share.sum()
     to_ratio = _to_ratio(matrix, mixing @ rgb) * whites[:, np.newaxis]
+    under = None
+    if gloss is not None and layer is not None:
+        under = _Under(
+            gloss_lobe.at_instrument(gloss, read_at),
+            gloss_lobe.Layer(layer.shine[:ways], layer.passed[:ways]),
+            np.einsum("pc,pcx->px", mixing @ (rgb * layer.shine), to_xyz),
+            light_rgb(np.stack([light.white for light in view.lights]), matrix),
+            lights[:ways],
+            matrix,
+        )
     return _ShadingPoints(
         angles=angles,
         weights=weights,
@@ -351,7 +433,18 @@ def _places(view: SceneView, bands: bytes, key: bytes, read_at: str) -> _Shading
         whites=whites,
         to_relative=np.einsum("pcx,pcf->pxcf", to_xyz, mixed.reshape(-1, 3, 3)).reshape(-1, 9),
         to_means=np.einsum("mp,pcx->mcpx", means, to_ratio).reshape(6, -1),
+        under=under,
     )
+
+
+def _layer(gloss: Gloss, angles: Array, read_at: str, count: int) -> gloss_lobe.Layer:
+    """Give what gloss does in single directions and, as often as there are lights, at the end."""
+    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, read_at)
+    shine, passed = (
+        np.vstack((single, np.tile(mean, (count, 1))))
+        for single, mean in zip(elsewhere, there, strict=True)
+    )
+    return gloss_lobe.Layer(shine, passed)
 
 
 def _ways(view: SceneView) -> tuple[Array, Array, Array]:

@@ -16,13 +16,14 @@ from ...core import cycles, instruments, ladder, reading
 from ...core.choice import choose_shader
 from ...core.color import color_difference
 from ...core.cycles import instrument_lobe, matching
+from ...core.gloss import Gloss
 from ...core.models import TARGET
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
 from ..samples import quality
-from . import scene_match, surface_spectra
+from . import glossy, scene_match, surface_spectra
 from .request import AUTO, Request
 from .scene_view import SceneView
 from .solution import Solution
@@ -50,7 +51,7 @@ ASKED_FOR = "asked for"
 BY_DEFAULT = f"{TARGET}: random rough geometry, all bounces"
 """Reason of a model that was not."""
 
-_ROUGH = "rough: matched to the model asked for"
+_ROUGH = "rough{}: matched to the model asked for"
 
 _CHUNK = 64
 """Materials whose spectra in all directions are held at once: about 2 MB."""
@@ -89,7 +90,7 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
         if request.scene is not None:
             solutions[i] = _solve_in_scene(request, reason, request.scene, space)
     open_ones = [i for i, solution in enumerate(solutions) if solution is None]
-    for under in sorted({_under(requests[i]) for i in open_ones}):
+    for under in dict.fromkeys(_under(requests[i]) for i in open_ones):
         members = [i for i in open_ones if _under(requests[i]) == under]
         alike = _solve([settled[i] for i in members], space, *under)
         for i, solution in zip(members, alike, strict=True):
@@ -97,33 +98,46 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
     return [solution for solution in solutions if solution is not None]
 
 
-def _under(request: Request) -> tuple[str, str]:
+def _under(request: Request) -> tuple[str, str, Gloss | None]:
     """Give what has to be the same of all materials that are matched in one go."""
-    return request.illuminant, request.read_at
+    return request.illuminant, request.read_at, request.gloss
 
 
 def _solve(
-    settled: list[tuple[Request, str]], space: WorkingSpace, illuminant: str, read_at: str
+    settled: list[tuple[Request, str]],
+    space: WorkingSpace,
+    illuminant: str,
+    read_at: str,
+    gloss: Gloss | None,
 ) -> list[Solution]:
     requests = [request for request, _ in settled]
     geometries = direction_grid.hemisphere(MATCH_GEOMETRIES)
     readings, targets = _colors(requests, geometries, space)
 
+    below, layer = readings, None
+    if gloss is not None:
+        layer, there = glossy.with_instrument(gloss, geometries, read_at)
+        below, targets = glossy.body(there, readings, targets)
+
     def perceive(rgb: Array) -> Array:
+        """Of the diffuse lobe in the first directions of all: gloss lies over it."""
+        if layer is not None:
+            shine, passed = (each[: rgb.shape[-2]] for each in layer)
+            rgb = shine + passed * rgb
         return space.to_lab(rgb, illuminant)
 
-    matched, roughness = matching.match(readings, targets, geometries, perceive, read_at)
-    color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
+    matched, roughness = matching.match(below, targets, geometries, perceive, read_at)
+    color, smooth = np.clip(matched, 0.0, 1.0), np.clip(below, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
     everywhere = instrument_lobe.with_directions(geometries, read_at)
-    wanted = perceive(np.concatenate((targets, readings[:, np.newaxis]), axis=1))
+    wanted = perceive(np.concatenate((targets, below[:, np.newaxis]), axis=1))
     terms = cycles.lobe(roughness[:, np.newaxis], *everywhere)
     rough = cycles.reflected(color[:, np.newaxis], terms)
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
     apart = color_difference.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
     shaders = [
-        choose_shader(lambert[i], over_hemisphere[i], request.tolerance)
+        choose_shader(lambert[i], over_hemisphere[i], request.tolerance, gloss is not None)
         if reason != ASKED_FOR
         else None
         for i, (request, reason) in enumerate(settled)
@@ -144,12 +158,12 @@ def _solve(
             delta_e_mean=float(over_hemisphere[i].mean()),
             delta_e_95=float(high[i]),
             delta_e_lambert=float(lambert[i].mean()),
-            shader_reason=_ROUGH if (found := shaders[i]) is None else found.reason,
+            shader_reason=_rough(gloss) if (found := shaders[i]) is None else found.reason,
             sigma_max=surface_spectra.sigma_max(request),
             warnings=(
                 *request.sample.altered,
                 *judged[i],
-                *_warnings(request, space, matched[i], float(met[i])),
+                *_warnings(request, space, matched[i], float(met[i]), readings[i], roughness[i]),
             ),
         )
         for i, (request, reason) in enumerate(settled)
@@ -162,8 +176,12 @@ def differences(
     """ΔE00 of a shader's color and roughness in each of a scene's places."""
     [(settled, _)] = settle([replace(request, scene=view)])
     [albedo] = surface_spectra.albedos([settled], settled.model)
+    gloss = None
+    if settled.gloss is not None:
+        gloss = settled.gloss, surface_spectra.readings_and_albedos([settled])[0][0]
     what = (albedo, settled.model, settled.sigma, settled.sample.wavelengths)
-    return scene_match.differences(view, (color, roughness), *what, space, settled.read_at)
+    shader = (color, roughness)
+    return scene_match.differences(view, shader, *what, space, settled.read_at, gloss)
 
 
 def remarks(request: Request) -> tuple[str, ...]:
@@ -192,15 +210,23 @@ def _solve_in_scene(
         sample.wavelengths,
         space,
         request.read_at,
+        request.gloss,
     )
-    taken, shader_reason = rough, _ROUGH
+    taken, shader_reason = rough, _rough(request.gloss)
     if request.flat:
         taken, shader_reason = lambert, scene_match.FLAT
     elif reason != ASKED_FOR:
-        taken, shader_reason = scene_match.choose_shader(view, lambert, rough, request.tolerance)
+        taken, shader_reason = scene_match.choose_shader(
+            view, lambert, rough, request.tolerance, request.gloss is not None
+        )
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
     [judged] = quality.check_each([sample])
-    found = (space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space))
+    found = (
+        *(space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space)),
+        ""
+        if request.gloss is None
+        else glossy.too_much(sample.name, request.gloss, target, request.read_at),
+    )
     return Solution(
         color=taken.color,
         roughness=taken.roughness,
@@ -217,6 +243,10 @@ def _solve_in_scene(
         delta_e_lights=per_light,
         scene_reason=scene_match.explain(view, per_light),
     )
+
+
+def _rough(gloss: Gloss | None) -> str:
+    return _ROUGH.format("" if gloss is None else " with gloss")
 
 
 def _colors(
@@ -256,9 +286,20 @@ def _percentile(values: Array, share: float) -> Array:
 
 
 def _warnings(
-    request: Request, space: WorkingSpace, color: Array, missed: float
+    request: Request,
+    space: WorkingSpace,
+    color: Array,
+    missed: float,
+    read: Array,
+    roughness: float,
 ) -> tuple[str, ...]:
     found = [space.warning, _infeasible(request)]
+    if request.gloss is not None:
+        shown = (request.gloss, read, color, roughness, request.read_at)
+        too_much = glossy.warning(request.sample.name, *shown)
+        if too_much:
+            nearest = f"The nearest color misses the reading by ΔE00 {missed:.2f}."
+            return tuple(sentence for sentence in (*found, f"{too_much} {nearest}") if sentence)
     outside = np.maximum(-color, color - 1)
     channel = int(np.argmax(outside))
     if outside[channel] > _ENOUGH:

@@ -62,6 +62,9 @@ class Stamp(NamedTuple):
         Largest σ, degrees, that the reading allows; None where every σ fits.
     measured
         Where the color is that was found by measuring, else an empty string; it is kept then.
+    gloss
+        `Gloss.numbers` of what lay over the color, empty without; None in older files, whose
+        colors were matched without gloss.
     """
 
     inputs: str
@@ -84,6 +87,7 @@ class Stamp(NamedTuple):
     kept: str = ""
     sigma_max: float | None = None
     measured: str = ""
+    gloss: tuple[float, ...] | None = None
 
 
 def get_stamp(material: Any) -> Stamp | None:
@@ -165,6 +169,7 @@ enlist(__name__, "_known", _known.__len__, _known.clear)
 def _numbers(stamp: Stamp) -> list[float]:
     found = [*stamp.color, *(getattr(stamp, name) for name in _NUMBERS)]
     found += [apart for _, apart in stamp.delta_e_lights]
+    found += stamp.gloss or ()
     return found if stamp.sigma_max is None else [*found, stamp.sigma_max]
 
 
@@ -186,6 +191,8 @@ def _read(text: str) -> Stamp | None:
         data |= {key: _text(data.get(key, "")) for key in _TEXTS}
         if data.get("sigma_max") is not None:
             data["sigma_max"] = _number(data["sigma_max"])
+        if data.get("gloss") is not None:
+            data["gloss"] = tuple(map(_number, data["gloss"]))
         data["derivation"] = int(_number(data.get("derivation", 1)))
         lights = data.get("delta_e_lights", ())
         data["delta_e_lights"] = tuple((_text(name), _number(apart)) for name, apart in lights)

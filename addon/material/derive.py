@@ -20,7 +20,9 @@ from .changes import Derived, Solved
 from .snapshot import Snapshot
 
 
-def assign(pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO) -> list[Solution]:
+def assign(
+    pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO, keep_gloss: bool = True
+) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
     Parameters
@@ -29,6 +31,9 @@ def assign(pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO) -> 
         Each a `bpy.types.Material` and what it is to become.
     shader
         Which node to set; see `shader_nodes.find`.
+    keep_gloss
+        Whether a node that is there keeps the gloss that it has, which is then counted; else it is
+        set to 0. What a request says of gloss is not looked at.
 
     Returns
     -------
@@ -42,16 +47,33 @@ def assign(pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO) -> 
         If a spectrum, a setting or the shader cannot be used; nothing was changed then.
     """
     work = [
-        (shader_nodes.find(material, shader), storage.in_scene(material, request))
+        _under_gloss(
+            shader_nodes.find(material, shader, keep_gloss),
+            storage.in_scene(material, request),
+            keep_gloss,
+        )
         for material, request in pairs
     ]
     space, solutions = _solve(work)
     for (place, request), solution in zip(work, solutions, strict=True):
+        if not keep_gloss:
+            shader_nodes.remove_gloss(place)
         node = _write(place, solution)
         storage.store(place.material, request, shader)
         inputs = snapshot.inputs(place.material.rough_spectra)
-        storage.set_stamp(place.material, solution, space.name, node, inputs)
+        storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
+
+
+def remove_gloss(materials: Iterable[Any]) -> list[Solution]:
+    """Set the gloss of materials with a spectrum to 0, and derive their colors without it.
+
+    Raises
+    ------
+    MaterialError, DomainError
+        As in `renew`; nothing was changed then.
+    """
+    return _renew([(material, material) for material in materials], keep_gloss=False)
 
 
 def renew(materials: Iterable[Any]) -> list[Solution]:
@@ -81,7 +103,7 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
         node = _write(place, solution)
         storage.store(place.material, request, place.material.rough_spectra.shader)
         inputs = snapshot.inputs(place.material.rough_spectra)
-        storage.set_stamp(place.material, solution, space.name, node, inputs)
+        storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
 
 
@@ -140,7 +162,7 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
         material.rough_spectra.error = str(error)
         return Derived(material, snapshot.of(material), None)
     node = _write(place, solution)
-    text = storage.set_stamp(material, solution, space.name, node, known.inputs)
+    text = storage.set_stamp(material, solution, space.name, node, known.inputs, request.gloss)
     if place.make or known.surface is None:
         known = snapshot.of(material)
     else:
@@ -150,20 +172,31 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     return Derived(material, known, Solved(request, solution, space))
 
 
-def _renew(pairs: Sequence[tuple[Any, Any]]) -> list[Solution]:
-    work = [_stored(material, source) for material, source in pairs]
+def _renew(pairs: Sequence[tuple[Any, Any]], keep_gloss: bool = True) -> list[Solution]:
+    work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
     space, solutions = _solve(work)
-    for (place, _), solution, (_, source) in zip(work, solutions, pairs, strict=True):
-        inputs = snapshot.inputs(source.rough_spectra)
-        storage.set_stamp(place.material, solution, space.name, _write(place, solution), inputs)
+    for (place, request), solution, (_, source) in zip(work, solutions, pairs, strict=True):
+        if not keep_gloss:
+            shader_nodes.remove_gloss(place)
+        node, inputs = _write(place, solution), snapshot.inputs(source.rough_spectra)
+        storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
 
 
 def _stored(
-    material: Any, source: Any, view: SceneView | None = None
+    material: Any, source: Any, view: SceneView | None = None, keep_gloss: bool = True
 ) -> tuple[shader_nodes.SocketTarget, Request]:
     request = storage.load(source, view)  # first: it refuses a shader that is none
-    return shader_nodes.find(material, source.rough_spectra.shader), request
+    place = shader_nodes.find(material, source.rough_spectra.shader, keep_gloss)
+    return _under_gloss(place, request, keep_gloss)
+
+
+def _under_gloss(
+    place: shader_nodes.SocketTarget, request: Request, keep: bool
+) -> tuple[shader_nodes.SocketTarget, Request]:
+    """Put the gloss of the node that is to be set, which may be another than is shown."""
+    gloss = shader_nodes.gloss_at(place) if keep else None
+    return place, request if gloss == request.gloss else replace(request, gloss=gloss)
 
 
 def _solve(

@@ -3,7 +3,8 @@
 """Let color and roughness follow at once: while a slider is dragged, and when σ is animated.
 
 A material follows only as long as its shader node shows what was derived from its spectrum: an edit
-by hand is never overwritten unasked. What goes wrong is kept with the material, for the panel.
+of color or roughness by hand is never overwritten unasked. Gloss is set by hand, and the color
+below follows. What goes wrong is kept with the material, for the panel.
 Cheap to import; what computes is imported on the first change.
 """
 
@@ -26,11 +27,29 @@ def _on_setting(material: Any) -> None:
 
     known = snapshot.of(material)
     if state.follows(known):
-        from . import derive
+        _derive(material, known)
 
-        with changes.paused():
-            done = derive.follow_setting(material, known)
-        changes.derived.announce(done)
+
+def _derive(material: Any, known: Any) -> None:
+    from . import derive
+
+    with changes.paused():
+        done = derive.follow_setting(material, known)
+    changes.derived.announce(done)
+
+
+def _on_nodes(depsgraph: Any) -> None:
+    """Derive colors again below gloss that was set by hand, in those materials that changed."""
+    from . import snapshot, state
+
+    for update in depsgraph.updates:
+        if not isinstance(update.id, bpy.types.Material):
+            continue
+        material = update.id.original
+        if snapshot.has_spectrum(material):
+            known = snapshot.of(material)
+            if state.gloss_changed(known):
+                _derive(material, known)
 
 
 def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
@@ -72,9 +91,10 @@ def _on_frame(_scene: Any, depsgraph: Any) -> None:
 
 @persistent
 def _on_update(scene: Any, depsgraph: Any) -> None:
-    """Follow drivers, which also change between frames."""
+    """Follow drivers, which also change between frames, and gloss."""
     if depsgraph.id_type_updated("MATERIAL"):
         _on_frame(scene, depsgraph)
+        _on_nodes(depsgraph)
 
 
 def register() -> None:

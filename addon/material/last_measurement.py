@@ -69,6 +69,8 @@ def _besides(surface: shader_nodes.Surface | None) -> list[str]:
     if surface is None:
         return []
     told = [*surface.linked, *surface.disturbing, *(f"{value:.7f}" for value in surface.values)]
+    if surface.gloss is not None:
+        told += [f"{value:.7f}" for value in surface.gloss.numbers()]
     return told + ["muted"] * surface.muted + ["bumped"] * surface.bumped
 
 

@@ -31,7 +31,7 @@ def write(material: Any, request: Request, place: Place, found: Found) -> None:
     """
     shader_nodes.refuse_read_only(material)
     space = working_space.current()
-    [solution] = solve.solve([replace(request, scene=None)], space)
+    [solution] = solve.solve([replace(request, scene=None, gloss=None)], space)
     red, green, blue = (float(value) for value in found.color)
     colors.put(material, place, (red, green, blue))
     shader = material.rough_spectra.shader if snapshot.has_spectrum(material) else "AUTO"
@@ -42,7 +42,14 @@ def write(material: Any, request: Request, place: Place, found: Found) -> None:
     )
     kept = state.fingerprint(shader_nodes.surface(material))
     storage.set_stamp(
-        material, solution, space.name, place.node, inputs, kept=kept, measured=place.name
+        material,
+        solution,
+        space.name,
+        place.node,
+        inputs,
+        None,
+        kept=kept,
+        measured=place.name,
     )
     last_measurement.note(
         material,

@@ -5,7 +5,7 @@
 The one answer for panel, pictures, bake, check, measurement and scene: the target is that of the
 spectrum and of the settings as they are, whatever the shader node was derived from. `derived` and
 `numbers` only look up what the stamp says of them, for a panel that draws; the others compute.
-Where a surface shows what nobody predicts, such as gloss, there is no number: `obstacle` says so.
+Where a surface shows what nobody predicts, such as sheen, there is no number: `obstacle` says so.
 """
 
 from __future__ import annotations
@@ -85,7 +85,8 @@ def obstacle(surface: shader_nodes.Surface | None) -> Obstacle | None:
         return LINKED
     if surface.disturbing:
         return Obstacle(_IN_USE, ", ".join(surface.disturbing))
-    if not all(map(math.isfinite, (*surface.color, surface.roughness))):
+    of_gloss = () if surface.gloss is None else surface.gloss.numbers()
+    if not all(map(math.isfinite, (*surface.color, surface.roughness, *of_gloss))):
         return _NO_NUMBER
     # Cycles limits what such a surface sends on, in a way of its own.
     return _ABOVE if max(surface.color) > 1 + _ROUNDING else None

@@ -28,6 +28,7 @@ from .derivation import (
 from .properties import SCHEMA, title
 from .snapshot import Inputs, Snapshot, has_spectrum
 
+_LEVEL, _COAT = "Specular IOR Level", "Coat Weight"
 _SOCKET_TOLERANCE = 1e-6
 """Sockets are single precision; a difference below this is not an edit by hand."""
 
@@ -108,6 +109,17 @@ def follows(found: Snapshot) -> bool:
     )
 
 
+def gloss_changed(found: Snapshot) -> bool:
+    """Whether all that changed is the gloss, set by hand: the color below is then to follow.
+
+    Never of files of earlier versions, which keep what they show until something else changes.
+    """
+    stamp = parse(found.stamp)
+    if stamp is None or stamp.gloss is None or found.surface is None:
+        return False
+    return _gloss(found.surface) != stamp.gloss and follows(found)
+
+
 def edited_by_hand(material: Any) -> bool:
     """Whether renewing would overwrite what the user set in the shader node, kept or not."""
     found = snapshot.of(material)
@@ -127,7 +139,11 @@ def fingerprint(surface: shader_nodes.Surface | None) -> str:
         return "no Diffuse or Principled BSDF"  # stored with what was kept: never another text
     linked = (surface.color_linked, surface.roughness_linked, surface.muted)
     values = (*surface.color, surface.roughness)
-    return repr((surface.node, values, linked, list(surface.disturbing)))
+    # Gloss was told by the sockets in use before it was counted.
+    shown = surface.gloss
+    used = [] if shown is None else [_LEVEL] * (shown.level > 0) + [_COAT] * (shown.coat > 0)
+    used += [name for name in surface.disturbing if name not in used]
+    return repr((surface.node, values, linked, used))
 
 
 def beyond(sigma_degrees: float) -> str:
@@ -153,6 +169,8 @@ def _stale_reasons(found: Snapshot) -> list[str]:
     if stamp is None:
         return ["nothing was derived from the spectrum yet"]
     changed = [*_changed_inputs(found.inputs, stamp), *_changed_surface(found, stamp)]
+    if not stamp.kept and found.surface is not None:
+        changed += ["its gloss was changed"] * (_gloss(found.surface) != (stamp.gloss or ()))
     too_large = "" if stamp.kept else beyond(found.inputs.sigma_degrees)
     return [too_large, *changed] if too_large else changed
 
@@ -219,6 +237,10 @@ def _changed_surface(found: Snapshot, stamp: Stamp) -> list[str]:
             reasons.append(f"{surface.node!r} is muted")
         reasons += [f"{name} is in use" for name in surface.disturbing]
     return reasons
+
+
+def _gloss(surface: shader_nodes.Surface) -> tuple[float, ...]:
+    return () if surface.gloss is None else surface.gloss.numbers()
 
 
 def _edited(surface: shader_nodes.Surface, stamp: Stamp) -> bool:

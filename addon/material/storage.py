@@ -15,6 +15,7 @@ from typing import Any
 
 from ...core import limits, white_scale
 from ...core.errors import InputError, MaterialError, RoughSpectraError
+from ...core.gloss import Gloss
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes, working_space
 from ..colorimetry import tristimulus
@@ -138,8 +139,17 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         read_at=group.read_at,
         scene=view,
         flat=view is not None and engine_is_flat(),
+        gloss=shown_gloss(material),
     )
     return in_scene(material, request)
+
+
+def shown_gloss(material: Any) -> Gloss | None:
+    """Give the gloss of what the surface shows; None where it has none, or no number of it."""
+    surface = shader_nodes.surface(material)
+    if surface is None or surface.gloss is None:
+        return None
+    return surface.gloss if all(map(math.isfinite, surface.gloss.numbers())) else None
 
 
 def fault(material: Any, view: SceneView | None = None) -> str:
@@ -283,11 +293,15 @@ def set_stamp(
     working_space: str,
     node: str,
     inputs: Inputs,
+    gloss: Gloss | None,
     *,
     kept: str = "",
     measured: str = "",
 ) -> str:
-    """Note what was derived and from which spectrum and settings; gives the text of the stamp."""
+    """Note what was derived and from which spectrum and settings; gives the text of the stamp.
+
+    `gloss` is what lies over the color.
+    """
     red, green, blue = solution.color.tolist()
     text = to_text(
         Stamp(
@@ -307,6 +321,7 @@ def set_stamp(
             warnings=solution.warnings,
             delta_e_lights=solution.delta_e_lights,
             scene_reason=solution.scene_reason,
+            gloss=() if gloss is None else gloss.numbers(),
             version=version(),
             derivation=DERIVATION,
             kept=kept,

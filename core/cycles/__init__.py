@@ -3,6 +3,7 @@
 """What Cycles makes of a color and a diffuse roughness, and the two that meet a target.
 
 lobe             the Diffuse BSDF, and the Principled BSDF without gloss
+gloss_lobe       what the gloss of a Principled BSDF adds to that, and what it takes
 derivatives      its slopes over color and roughness
 matching         color and roughness for a reading and other directions
 least_mean_fit   the same where several lights and directions contradict each other

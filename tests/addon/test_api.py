@@ -13,7 +13,7 @@ import pytest
 from rough_spectra.addon import api
 
 SIGNATURES = {
-    "assign": "(pairs, shader='auto')",
+    "assign": "(pairs, shader='auto', gloss='keep')",
     "bake": "(surfaces, measure=True, progress=None, read_at=None)",
     "compare": "(first, second)",
     "differences": "(material)",
@@ -46,7 +46,7 @@ FIELDS = {
     "Sample": "name wavelengths values kind quantity instrument geometry aperture specular "
     "sigma_degrees sigma_source source license position device condition illuminant observer lab "
     "xyz notes altered white white_factor plaque",
-    "Request": "sample sigma model illuminant observer scene flat tolerance read_at",
+    "Request": "sample sigma model illuminant observer scene flat tolerance read_at gloss",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
     "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "

@@ -234,7 +234,7 @@ def change(material, what):
         tree = material.node_tree
         tree.links.new(tree.nodes.new("ShaderNodeRGB").outputs[0], node.inputs[0])
     elif what == "specular":
-        node.inputs["Specular IOR Level"].default_value = 0.5
+        node.inputs["Specular IOR Level"].default_value = 0.6
     elif what == "metallic":
         node.inputs["Metallic"].default_value = 0.5
     elif what == "mute":
@@ -257,7 +257,7 @@ def change(material, what):
         ("color", "color or roughness was edited by hand"),
         ("roughness", "color or roughness was edited by hand"),
         ("color linked", "Base Color comes from another node"),
-        ("specular", "Specular IOR Level is in use"),
+        ("specular", "its gloss was changed"),
         ("metallic", "Metallic is in use"),
         ("mute", "'Principled BSDF' is muted"),
         ("unlinked", "the surface no longer comes from 'Principled BSDF'"),
@@ -282,7 +282,7 @@ def test_each_change_that_matters_is_told(make_material, colorchecker, request_f
 
 
 def test_changes_that_do_not_matter_are_not_told(make_material, colorchecker, request_for):
-    material = make_material(node="ShaderNodeBsdfPrincipled")
+    material = make_material(node="ShaderNodeBsdfPrincipled", Specular_IOR_Level=0)
     derive.assign([(material, request_for(colorchecker[6]))])
     material.rough_spectra.observer = "10"  # of reports only
     material.rough_spectra.sigma_source = "measured with a profilometer"

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Color and roughness follow the settings: at once, over undo, and through an animation."""
 
+import dataclasses
 import math
 
 import bpy
@@ -11,6 +12,7 @@ from rough_spectra.addon.blender import shader_nodes, working_space
 from rough_spectra.addon.matching import solve
 from rough_spectra.addon.material import (
     changes,
+    derivation,
     derive,
     follow,
     snapshot,
@@ -19,6 +21,7 @@ from rough_spectra.addon.material import (
 )
 from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.core import cycles
+from rough_spectra.core.cycles import gloss_lobe
 
 
 def sockets(material):
@@ -251,8 +254,11 @@ def test_renders_follow_an_animated_sigma(wall, request_for, colorchecker, tmp_p
         pixels = oiio.ImageBuf(str(tmp_path / f"frame-{frame:04d}.exr")).get_pixels()
         bpy.context.scene.frame_set(frame)
         sigma = snapshot.sigma_degrees(wall.rough_spectra)
-        *color, roughness = derived(request_for(colorchecker[6], sigma))
-        expected = cycles.reflectance(color, roughness, 0.0, 0.0, 0.0)
+        gloss = shader_nodes.surface(wall).gloss
+        wanted = dataclasses.replace(request_for(colorchecker[6], sigma), gloss=gloss)
+        *color, roughness = derived(wanted)
+        diffuse = cycles.reflectance(color, roughness, 0.0, 0.0, 0.0)
+        expected = gloss_lobe.layer(gloss, 0.0, 0.0, 0.0).over(diffuse)
         # Four samples in single precision.
         np.testing.assert_allclose(pixels[2, 2, :3], expected, rtol=1e-4)
 
@@ -282,6 +288,74 @@ def test_a_driven_sigma_is_followed(wall):
         bpy.context.view_layer.update()
         assert wall.rough_spectra.sigma == pytest.approx(age)
         assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
+
+
+BY_HAND = {
+    "Specular IOR Level": 0.9,
+    "Roughness": 0.2,
+    "IOR": 1.7,
+    "Specular Tint": (1.0, 0.4, 0.2, 1.0),
+    "Coat Weight": 0.7,
+}
+
+
+def update():
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("name", BY_HAND)
+def test_gloss_set_by_hand_is_followed_at_once(wall, name):
+    """The whole reading stays the sample's, where the gloss alone does not read more."""
+    update()
+    heard = []
+    changes.derived.subscribe(heard.append)
+    before = sockets(wall)
+    shader_nodes.shader_node(wall).inputs[name].default_value = BY_HAND[name]
+    assert state.state(wall).reasons == ("its gloss was changed",)
+    update()
+    changes.derived.unsubscribe(heard.append)
+    assert [done.material for done in heard] == [wall]
+    assert state.state(wall).kind == "fresh"
+    assert sockets(wall) != before
+    assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
+    *color, roughness = sockets(wall)
+    gloss = shader_nodes.surface(wall).gloss
+    read = gloss_lobe.at_instrument(gloss, "45a:0").over(
+        cycles.reflectance(color, roughness, math.pi / 4, 0.0, 0.0)
+    )
+    target = heard[0].solved.solution.target
+    least = gloss_lobe.at_instrument(gloss, "45a:0").shine
+    np.testing.assert_allclose(read, np.maximum(target, least), atol=1e-6)
+    told = [text for text in state.state(wall).stamp.warnings if "cannot have this gloss" in text]
+    assert bool(told) == bool((least > target).any())
+
+
+def test_gloss_that_goes_is_followed_too(wall):
+    update()
+    shader_nodes.shader_node(wall).inputs["Specular IOR Level"].default_value = 0.0
+    update()
+    assert state.state(wall).kind == "fresh"
+    assert storage.load(wall).gloss is None
+    assert "gloss" not in state.state(wall).stamp.shader_reason
+
+
+@pytest.mark.parametrize("edit", ["color", "kept", "older file"])
+def test_below_gloss_what_was_edited_by_hand_stays(wall, edit):
+    update()
+    node, group = shader_nodes.shader_node(wall), wall.rough_spectra
+    if edit == "color":
+        node.inputs["Base Color"].default_value[0] = 0.3
+    elif edit == "kept":
+        storage.keep(wall)
+    else:  # one that was derived before gloss was counted, with gloss put back by hand
+        stamp = derivation.get_stamp(wall)._replace(gloss=None)
+        group.stamp = derivation.to_text(stamp).replace(', "gloss": null', "")
+        assert derivation.get_stamp(wall).gloss is None
+    before = sockets(wall)
+    node.inputs["Specular IOR Level"].default_value = 0.9
+    update()
+    assert sockets(wall) == before
+    assert state.state(wall).kind == ("kept" if edit == "kept" else "stale")
 
 
 def test_animation_spares_edits_by_hand_and_others(wall, make_material):

@@ -157,6 +157,7 @@ STAMPS = st.builds(
     delta_e_lights=st.lists(st.tuples(TEXTS, NUMBERS), max_size=3).map(tuple),
     derivation=st.integers(0, 99),
     sigma_max=st.none() | NUMBERS,
+    gloss=st.none() | st.lists(NUMBERS, max_size=3).map(tuple),
 )
 
 
@@ -168,11 +169,12 @@ def test_a_stamp_reads_as_it_was_written(stamp):
     assert derivation._read(text) == stamp
 
 
-@pytest.mark.parametrize("name", [*derivation._NUMBERS, "sigma_max", "delta_e_lights"])
+@pytest.mark.parametrize("name", [*derivation._NUMBERS, "sigma_max", "delta_e_lights", "gloss"])
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_a_stamp_that_nobody_could_read_is_not_taken_for_known(material, name, value):
     found = derivation.get_stamp(material)
-    damaged = found._replace(**{name: (("Sun", value),) if name == "delta_e_lights" else value})
+    several = {"delta_e_lights": (("Sun", value),), "gloss": (value,)}
+    damaged = found._replace(**{name: several.get(name, value)})
     assert derivation.parse(derivation.to_text(damaged)) is None
 
 

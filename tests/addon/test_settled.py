@@ -287,7 +287,7 @@ def set_color(value):
 OBSTACLES = {
     **{
         f"no ΔE00 is predicted with {name} in use": use(name)
-        for name in ("Specular IOR Level", *sockets.OF_SHADER["PRINCIPLED"].neutral)
+        for name in sockets.OF_SHADER["PRINCIPLED"].neutral
     },
     "color or roughness comes from another node: there is no one color to compare": link_texture,
     "the shader node is muted: there is no color to compare": mute,
@@ -327,10 +327,10 @@ def test_there_is_no_number_for_what_is_not_predicted(assigned, sentence, kept):
 def test_several_are_named_together(assigned):
     material = assigned("auto")
     material.rough_spectra.shader = "PRINCIPLED"
-    for name in ("Specular IOR Level", "Coat Weight"):
+    for name in ("Sheen Weight", "Metallic"):
         use(name)(material)
     found = settled.obstacle(shader_nodes.surface(material))
-    assert str(found) == "no ΔE00 is predicted with Specular IOR Level, Coat Weight in use"
+    assert str(found) == "no ΔE00 is predicted with Metallic, Sheen Weight in use"
 
 
 @pytest.mark.parametrize("where", ["Normal", "Displacement"])

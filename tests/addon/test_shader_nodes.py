@@ -79,14 +79,66 @@ def test_diffuse_made_by_hand_is_set_where_it_is(make_material):
     assert len(material.node_tree.nodes) == 2
 
 
-def test_principled_made_by_hand_is_set_without_specular(make_material):
-    material = make_material(node="ShaderNodeBsdfPrincipled", Roughness=0.2)
+def test_principled_made_by_hand_keeps_its_gloss(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled", Roughness=0.2, Coat_Weight=0.5)
     node = written(material)
     assert node.bl_idname == "ShaderNodeBsdfPrincipled"
-    assert node.inputs["Specular IOR Level"].default_value == 0
-    # The gloss that the user chose is not ours to change.
-    assert node.inputs["Roughness"].default_value == pytest.approx(0.2)
+    values = [node.inputs[name].default_value for name in ("Specular IOR Level", "Roughness")]
+    assert values == pytest.approx([0.5, 0.2])
     assert len(material.node_tree.nodes) == 2
+    found = shader_nodes.gloss_at(shader_nodes.find(material))
+    told = (found.level, found.roughness, found.coat, found.coat_ior)
+    assert told == pytest.approx((0.5, 0.2, 0.5, 1.5))
+    shader_nodes.remove_gloss(shader_nodes.find(material, keep_gloss=False))
+    assert shader_nodes.gloss_of(node) is None
+    assert node.inputs["Roughness"].default_value == pytest.approx(0.2)
+
+
+def test_a_principled_that_is_made_has_no_gloss(make_material):
+    node = written(make_material(), "PRINCIPLED")
+    assert shader_nodes.gloss_of(node) is None
+
+
+GLOSS = sockets.OF_SHADER["PRINCIPLED"].gloss
+
+
+@pytest.mark.parametrize("field", GLOSS)
+def test_gloss_is_read_from_the_sockets_of_these_names(make_material, field):
+    material = make_material(node="ShaderNodeBsdfPrincipled", Coat_Weight=1.0)
+    node, before = surface(material), shader_nodes.surface(material).gloss
+    socket = node.inputs[GLOSS[field]]
+    is_tint = hasattr(socket.default_value, "__len__")
+    socket.default_value = (0.25, 0.5, 0.75, 1.0) if is_tint else 0.25
+    expected = before._replace(**{field: (0.25, 0.5, 0.75) if is_tint else 0.25})
+    assert shader_nodes.surface(material).gloss == expected
+    kind = "ShaderNodeRGB" if is_tint else "ShaderNodeValue"
+    material.node_tree.links.new(material.node_tree.nodes.new(kind).outputs[0], socket)
+    assert shader_nodes.surface(material).disturbing == (socket.name,)
+    refused(material, f"{socket.name} comes from another node")
+    if field not in ("level", "coat"):
+        shader_nodes.find(material, keep_gloss=False)
+
+
+def test_what_goes_with_no_gloss_does_not_count(make_material):
+    material = make_material(
+        node="ShaderNodeBsdfPrincipled",
+        Specular_IOR_Level=0.0,
+        Coat_Weight=0.0,
+        Roughness=0.1,
+        Anisotropic=0.7,
+    )
+    assert shader_nodes.surface(material).gloss is None
+    assert shader_nodes.surface(material).disturbing == ()
+    surface(material).inputs["Specular IOR Level"].default_value = 0.5
+    assert shader_nodes.surface(material).disturbing == ("Anisotropic",)
+    refused(material, "Anisotropic is in use, which turns its gloss")
+    shader_nodes.find(material, keep_gloss=False)
+
+
+def test_the_distribution_counts(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled")
+    surface(material).distribution = "GGX"
+    assert not shader_nodes.surface(material).gloss.multiscatter
 
 
 def test_new_material_gets_a_shader():
@@ -381,7 +433,15 @@ def test_linked_animated_and_driven_sockets_are_refused(make_material, kind, soc
 
 def test_animation_of_another_socket_does_not_matter(make_material):
     material = make_material(node="ShaderNodeBsdfPrincipled")
+    surface(material).inputs["Subsurface Scale"].keyframe_insert("default_value", frame=1)
+    written(material)
+
+
+def test_animated_gloss_is_refused_where_there_is_gloss(make_material):
+    material = make_material(node="ShaderNodeBsdfPrincipled")
     surface(material).inputs["Roughness"].keyframe_insert("default_value", frame=1)
+    refused(material, "Roughness is animated or driven")
+    surface(material).inputs["Specular IOR Level"].default_value = 0.0
     written(material)
 
 
@@ -446,7 +506,7 @@ def test_local_copy_of_a_linked_material_is_written(library):
     written(wanted.materials[0].copy())
 
 
-PRINCIPLED = ("Specular IOR Level", *sockets.OF_SHADER["PRINCIPLED"].neutral)
+PRINCIPLED = tuple(sockets.OF_SHADER["PRINCIPLED"].neutral)
 
 
 @pytest.mark.parametrize("name", PRINCIPLED)
@@ -522,7 +582,7 @@ def test_writing_leaves_all_other_sockets_as_they_are_to_the_bit(make_material, 
             socket.default_value = not value
         elif hasattr(value, "__len__"):
             socket.default_value = [0.1 + number / 31 + i / 7 for i in range(len(value))]
-        elif socket.name not in sockets.OF_SHADER["PRINCIPLED"].neutral:
+        elif socket.name not in ("Anisotropic", *sockets.OF_SHADER["PRINCIPLED"].neutral):
             socket.default_value = 0.1 + number / 31
     before = [(s.name, s.default_value) for s in node.inputs]
     before = [(name, tuple(v) if hasattr(v, "__len__") else v) for name, v in before]
@@ -535,8 +595,6 @@ def test_writing_leaves_all_other_sockets_as_they_are_to_the_bit(make_material, 
             assert found == (0.25, 0.5, 0.75, value[3])
         elif name == roughness:
             assert found == 0.125
-        elif name == "Specular IOR Level":
-            assert found == 0.0
         else:
             assert found == value, name
 

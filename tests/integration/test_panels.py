@@ -301,15 +301,35 @@ def test_what_another_node_sets_is_not_compared(green):
     assert not any(line.startswith("picture") for line in page)
 
 
-def test_gloss_is_not_compared_and_a_measurement_of_it_stands_alone(green):
+def test_gloss_is_counted_and_can_be_removed(green):
+    green.rough_spectra.shader = "PRINCIPLED"
+    node = next(node for node in green.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    assert "rough_spectra.remove_gloss" not in drawn()
+    node.inputs["Specular IOR Level"].default_value = 0.1
+    assert sentence_with("Its gloss was changed")
+    OPS.renew()
+    page = drawn()
+    assert "45°/0°: ΔE00 0.00, not visible" in page
+    assert any("with gloss, which is kept as it is set" in line for line in page)
+    assert "rough_spectra.remove_gloss" in page
+    assert OPS.remove_gloss() == {"FINISHED"}
+    assert node.inputs["Specular IOR Level"].default_value == 0
+    page = drawn()
+    assert "45°/0°: ΔE00 0.00, not visible" in page
+    assert "rough_spectra.remove_gloss" not in page
+    with pytest.raises(RuntimeError, match="there is none to remove"):
+        OPS.remove_gloss()
+
+
+def test_a_measurement_of_what_is_not_predicted_stands_alone(green):
     green.rough_spectra.shader = "PRINCIPLED"
     node = next(node for node in green.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
     assert any("ΔE00" in line for line in drawn())
-    node.inputs["Specular IOR Level"].default_value = 0.5
+    node.inputs["Metallic"].default_value = 0.5
     for act in (lambda: None, lambda: storage.keep(green)):
         act()
         page = drawn()
-        assert any("No ΔE00 is predicted with Specular IOR" in line for line in page)
+        assert any("No ΔE00 is predicted with Metallic" in line for line in page)
         assert not any("ΔE00 0" in line for line in page)
         assert "There is no color to plot" in page
         assert not any(line.startswith("picture") for line in page)

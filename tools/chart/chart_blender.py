@@ -50,7 +50,7 @@ def assigned(work: Work) -> tuple[list[Any], list[Any], list[bool]]:
         for patch, values in enumerate(readings)
     ]
     rough = [bpy.data.materials.new(request.sample.name) for request in requests]
-    solutions = derive.assign(list(zip(rough, requests, strict=True)))
+    solutions = derive.assign(list(zip(rough, requests, strict=True)), keep_gloss=False)
     flat = [lambertian(solution.target) for solution in solutions]
     return rough, flat, [bool(np.all(solution.target >= 0)) for solution in solutions]
 

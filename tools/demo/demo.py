@@ -65,7 +65,7 @@ def materials(folder: Path) -> tuple[Path, list[tuple[str, list[Any]]]]:
         requests = [Request(sample, math.radians(degrees)) for degrees in SIGMAS]
         pairs += zip(row, requests, strict=True)
         strips.append((label, row))
-    solutions = derive.assign(pairs)
+    solutions = derive.assign(pairs, keep_gloss=False)
     say(f"1/4  assigned {len(solutions)} materials in {time.monotonic() - start:.1f} s")
     demo_scene.build(
         strips,

@@ -111,7 +111,7 @@ def prepare() -> Assigned:
         for sample in samples
     ]
     materials = [bpy.data.materials.new(request.sample.name) for request in requests]
-    solutions = derive.assign(list(zip(materials, requests, strict=True)))
+    solutions = derive.assign(list(zip(materials, requests, strict=True)), keep_gloss=False)
     within = [not any("gamut" in warning for warning in s.warnings) for s in solutions]
     return Assigned(materials, requests, within, len(samples))
 

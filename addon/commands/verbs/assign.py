@@ -87,6 +87,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="auto",
     )
     parser.add_argument(
+        "--gloss",
+        choices=("keep", "none"),
+        default="keep",
+        help="whether a Principled BSDF keeps its gloss, under which the color is then solved, or "
+        "loses it",
+    )
+    parser.add_argument(
         "--create", action="store_true", help="make the materials that are not there"
     )
     parser.add_argument("--output", type=Path, metavar="FILE", help="save here, not over the file")
@@ -122,7 +129,7 @@ def run(options: argparse.Namespace) -> int:
     destination(options.output)  # before the work that could not be saved
     rows = mapping.rows(options)
     pairs = mapping.pair(rows, options)
-    solutions = api.assign(pairs, options.shader)
+    solutions = api.assign(pairs, options.shader, options.gloss)
     for (material, request), solution in zip(pairs, solutions, strict=True):
         if remark := stated_white.remark(request.sample):
             tell(f"note: material {material.name!r}: {remark}")

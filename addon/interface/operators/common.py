@@ -245,6 +245,7 @@ def assign_in_scope(
     RoughSpectraError
         If it cannot be done; nothing was changed then.
     """
+    from ...blender import shader_nodes
     from ...material import derive
 
     if scope == "SELECTED" or active_material(context) is not None:
@@ -258,7 +259,7 @@ def assign_in_scope(
     if not (thing.is_editable and thing.data.is_editable):
         msg = f"Object {thing.name!r} is linked; make it local first, to give it a material."
         raise RoughSpectraError(msg)
-    material = bpy.data.materials.new(thing.name)
+    material = shader_nodes.new_material(thing.name)
     try:
         solutions = derive.assign([(material, request)], shader)
     except RoughSpectraError:

@@ -108,10 +108,11 @@ def _colored(operator: Any, chosen: Sequence[Found]) -> list[Found]:
 
 
 def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]]:
+    from ...blender import shader_nodes
     from ...material import derive
 
     requests = [common.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
-    materials = [bpy.data.materials.new(each.sample.name) for each in chosen]
+    materials = [shader_nodes.new_material(each.sample.name) for each in chosen]
     try:
         solutions = derive.assign(list(zip(materials, requests, strict=True)), operator.shader)
     except RoughSpectraError:

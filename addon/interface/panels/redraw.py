@@ -84,6 +84,11 @@ class PanelMaterial:
         """Whether the surface is turned point by point, which no number counts."""
         return self.facts.surface is not None and self.facts.surface.bumped
 
+    @property
+    def is_glossy(self) -> bool:
+        """Whether gloss lies over the color."""
+        return self.facts.surface is not None and self.facts.surface.gloss is not None
+
     def picture(self, figure: str, units: float) -> int:
         """Give the icon of a figure for `template_icon` with this scale."""
         return icons.icon_id(self.uid, figure, icons.side(units, self.unit), self._pictured)

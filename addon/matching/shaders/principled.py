@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Principled BSDF without its gloss, which leaves the same lobe as that of the Diffuse BSDF."""
+"""The Principled BSDF: the same lobe as that of the Diffuse BSDF, below the gloss that it has."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from ..target_shader import TargetShader
 SHADER = TargetShader(
     name="PRINCIPLED",
     title="Principled BSDF",
-    description="Set a Principled BSDF with its specular level at 0",
+    description="Set a Principled BSDF below the gloss that it has; one that is made has none",
     number=2,
 )

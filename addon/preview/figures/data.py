@@ -14,7 +14,7 @@ from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb, tristimulus
 from ...colorimetry.rgb_space import WorkingSpace, matrix_of
-from ...matching import scene_match, surface_spectra
+from ...matching import glossy, scene_match, surface_spectra
 from ...matching.assess import in_directions, under_main_light
 from ...matching.request import Request
 from ..drawing.raster import Color
@@ -118,6 +118,9 @@ def of_request(
     everywhere = instrument_lobe.with_directions(_DIRECTIONS, request.read_at)
     # The instrument comes last.
     shown = cycles.reflected(color, cycles.lobe(np.asarray(roughness, float), *everywhere))
+    if request.gloss is not None:
+        layer, _ = glossy.with_instrument(request.gloss, _DIRECTIONS, request.read_at)
+        shown = layer.over(shown)
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument
     curve = space.to_xyz(shown, light)[:, 1]
@@ -126,6 +129,15 @@ def of_request(
         target, blender = under_main_light(request.scene, seen, bands, blender, space)
         luminance = main.weights(bands)[:, 1]
         curve = scene_match.to_xyz(shown, main, space)[:, 1]
+    targets = in_directions(request, rho, _DIRECTIONS)
+    target_curve = np.maximum(targets @ luminance, 0)
+    if request.gloss is not None:
+        aims = (seen @ weights, targets @ weights)
+        rgb = glossy.target(request.gloss, *aims, _DIRECTIONS, request.read_at)
+        if request.scene is None:
+            target_curve = space.to_xyz(rgb, light)[:, 1]
+        else:
+            target_curve = scene_match.to_xyz(rgb, request.scene.lights[0], space)[:, 1]
     wanted, shown_there = patches(np.array((target, blender)), space)
     return Data(
         target=wanted,
@@ -135,7 +147,7 @@ def of_request(
         reading=seen,
         bars=rgb_bars(at_instrument, space, light),
         view=VIEW_ANGLES,
-        target_curve=np.maximum(in_directions(request, rho, _DIRECTIONS) @ luminance, 0),
+        target_curve=target_curve,
         blender_curve=curve,
         lambert=float(seen @ luminance),
         sigma=float(np.degrees(request.sigma)),

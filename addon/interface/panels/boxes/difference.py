@@ -41,6 +41,11 @@ def draw(layout: Any, context: Any) -> None:
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
         text.draw(layout, sentences.difference(shown.facts, apart, here.style))
+    if shown.is_glossy:
+        told = "The gloss is kept as it is set, and counted in color and numbers"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
+        if shown.state.kind != "linked":
+            layout.operator("rough_spectra.remove_gloss").scope = "ACTIVE"
     if shown.is_bumped:
         told = "Bump is not counted: numbers are of the surface without it. Measure it to know"
         text.draw(layout, sentences.of(told, "INFO", here.style))

@@ -1,0 +1,313 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the gloss of Cycles' Principled BSDF adds to its diffuse lobe, and what it takes from it.
+
+    r = shine + passed · r_d(color, diffuse roughness)
+
+with r_d that of `core.cycles.lobe`. Neither `shine` nor `passed` depends on color or diffuse
+roughness, and `passed` depends on the view alone. The formulas are those of Blender 4.5 and 5.2,
+`kernel/svm/closure.h` and `kernel/closure/bsdf_microfacet.h`: a GGX lobe with Smith's shadowing
+(Walter et al. 2007; Heitz 2014), scaled so that no light is lost between facets after Kulla and
+Conty, "Revisiting physically based shading at Imageworks" (2017), and below it the rest. Both
+versions have the same tables.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ..closure.packing import unpack
+from ..gloss import Gloss
+from ..instruments import quadrature
+from ..numerics.arrays import Array
+from . import gloss_data
+
+_MIRROR = 2e-10
+"""Fourth power of the roughness up to which Cycles has no lobe, only a mirror: a light without
+width does not show in that."""
+_FAINT = 1e-5
+"""Weight up to which Cycles leaves a layer out."""
+_GRAZING = 1e-6
+_HALVINGS = 24
+
+
+class Layer(NamedTuple):
+    """What lies over the diffuse lobe in some directions.
+
+    Parameters
+    ----------
+    shine
+        Reflectance factor of gloss and coat, scene-linear RGB, shape (..., 3).
+    passed
+        What the diffuse lobe is multiplied with, shape (..., 3).
+    """
+
+    shine: Array
+    passed: Array
+
+    def over(self, diffuse: Array) -> Array:
+        """Reflectance factor with the diffuse lobe (..., 3) below."""
+        return np.asarray(self.shine + self.passed * diffuse)
+
+    def below(self, reading: Array) -> Array:
+        """Give what the diffuse lobe has to read for a reading (..., 3); below 0 where it can't."""
+        return np.asarray((reading - self.shine) / self.passed)
+
+
+def layer(
+    gloss: Gloss, theta_i: npt.ArrayLike, theta_r: npt.ArrayLike, delta_phi: npt.ArrayLike
+) -> Layer:
+    """Compute what gloss adds and lets pass.
+
+    Parameters
+    ----------
+    gloss
+        The node's sockets.
+    theta_i, theta_r, delta_phi
+        Light, view and the azimuth between them, radians; they broadcast. The light may not be
+        swapped with the view.
+
+    Examples
+    --------
+    >>> found = layer(Gloss(), np.pi / 4, 0.0, 0.0)
+    >>> np.round(found.shine, 4).tolist()
+    [0.0222, 0.0222, 0.0222]
+    >>> np.round(layer(Gloss(level=0), np.pi / 4, 0.0, 0.0).passed, 4).tolist()
+    [1.0, 1.0, 1.0]
+    """
+    light, view, around = np.broadcast_arrays(
+        *(np.asarray(angles, np.float64) for angles in (theta_i, theta_r, delta_phi))
+    )
+    at = _geometry(light, view, around)
+    shine, weight = np.zeros((*light.shape, 3)), np.ones((*light.shape, 3))
+    if gloss.coat > _FAINT:
+        index = max(gloss.coat_ior, 1.0)
+        if index > 1:
+            own = np.full(3, _at_normal(index))
+            seen, albedo = _lobe(gloss.coat_roughness, index, own, True, at)
+            shine += gloss.coat * seen
+            weight *= np.clip(1 - gloss.coat * albedo.max(axis=-1, keepdims=True), 0, 1)
+        # Beer's law along the refracted view.
+        depth = 1 / np.sqrt(1 - (1 - at.view[..., np.newaxis] ** 2) / index**2)
+        tint = np.maximum(gloss.coat_tint, 0)
+        weight *= 1 + gloss.coat * (tint**depth - 1)
+    index, own = _specular(gloss)
+    if index != 1:
+        tinted = np.clip(own * np.maximum(gloss.tint, 0), 0, 1)
+        seen, albedo = _lobe(gloss.roughness, index, tinted, gloss.multiscatter, at)
+        shine += weight * seen
+        weight *= np.clip(1 - albedo.max(axis=-1, keepdims=True), 0, 1)
+    return Layer(shine, weight)
+
+
+def at_instrument(gloss: Gloss, instrument: str) -> Layer:
+    """Give the same for an instrument: the means over its directions, each of shape (3,).
+
+    Exact where the instrument looks in one direction, since `passed` depends on the view alone.
+
+    Raises
+    ------
+    DomainError
+        If the instrument is unknown.
+
+    Examples
+    --------
+    >>> np.round(at_instrument(Gloss(level=1), "45a:0").shine, 4).tolist()
+    [0.0444, 0.0444, 0.0444]
+    """
+    return Layer(*_at_instrument(gloss, instrument))
+
+
+def reading(diffuse: Array, gloss: Gloss | None, instrument: str) -> Array:
+    """Put gloss over what an instrument reads of the diffuse lobe, shape (..., 3)."""
+    return diffuse if gloss is None else at_instrument(gloss, instrument).over(diffuse)
+
+
+def largest(
+    gloss: Gloss, wanted: npt.ArrayLike, instrument: str, white: npt.ArrayLike = 1.0
+) -> Gloss | None:
+    """Find how much gloss leaves a reading possible.
+
+    Parameters
+    ----------
+    gloss
+        What is there.
+    wanted
+        The whole reading in scene-linear RGB, shape (3,).
+    instrument
+        One of `core.instruments.REGISTRY`.
+    white
+        Reading of the diffuse lobe alone at color 1.
+
+    Returns
+    -------
+    The same gloss if some color below it gives the reading: if the gloss alone reads no more, and
+    over a white no less. Else with the largest level that does, or, where even level 0 does not,
+    level 0 with the largest weight of the coat. None where the reading fits no gloss, nor none.
+
+    Examples
+    --------
+    >>> found = largest(Gloss(level=0.8), [0.02, 0.03, 0.03], "45a:0")
+    >>> round(found.level, 3)
+    0.45
+    """
+    goal = np.asarray(wanted, np.float64)
+    most = np.broadcast_to(np.asarray(white, np.float64), goal.shape)
+    if not ((goal > 0) & (goal <= most)).all():
+        return None
+
+    def fits(tried: Gloss) -> bool:
+        found = at_instrument(tried, instrument)
+        return bool(((found.shine <= goal) & (goal <= found.over(most))).all())
+
+    if fits(gloss):
+        return gloss
+    level_free = gloss._replace(level=0.0)
+    if fits(level_free):
+        return _most(lambda share: gloss._replace(level=share * gloss.level), fits)
+    return _most(lambda share: level_free._replace(coat=share * gloss.coat), fits)
+
+
+def _most(of_share: Callable[[float], Gloss], fits: Callable[[Gloss], bool]) -> Gloss:
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if fits(of_share(middle)) else (low, middle)
+    return of_share(low)
+
+
+def _at_instrument(gloss: Gloss, instrument: str) -> tuple[Array, Array]:
+    of = quadrature.of(instrument)
+    if of.angles is not None:
+        return layer(gloss, *of.angles)
+    found = layer(gloss, of.theta_i, of.theta_r, of.delta_phi)
+    return np.asarray(of.weights @ found.shine), np.asarray(of.weights @ found.passed)
+
+
+class _Geometry(NamedTuple):
+    """Cosines of light and view to the normal, and of the half vector to normal and view."""
+
+    light: Array
+    view: Array
+    normal: Array
+    half: Array
+
+
+def _geometry(theta_i: Array, theta_r: Array, delta_phi: Array) -> _Geometry:
+    light, view = (np.maximum(np.cos(theta), _GRAZING) for theta in (theta_i, theta_r))
+    between = light * view + np.sin(theta_i) * np.sin(theta_r) * np.cos(delta_phi)
+    # |light + view| is twice the cosine from either to the middle.
+    half = np.sqrt(np.maximum((1 + between) / 2, _GRAZING**2))
+    return _Geometry(light, view, np.minimum((light + view) / (2 * half), 1), half)
+
+
+def _lobe(
+    roughness: float, index: float, at_normal: Array, multiscatter: bool, at: _Geometry
+) -> tuple[Array, Array]:
+    """Reflectance factor of a GGX lobe and the albedo Cycles counts for it, each (..., 3)."""
+    roughness = min(max(roughness, 0.0), 1.0)
+    glancing = 1 - at_normal
+    bent = _remapped(_fresnel(at.half, index), index)[..., np.newaxis]
+    scale, dimming = _kept(roughness, index, at_normal, at.view) if multiscatter else (1.0, 1.0)
+    share = _over_view("share", at.view, roughness, _place(index))[..., np.newaxis]
+    albedo = (at_normal + glancing * share) * dimming
+    if roughness**4 <= _MIRROR:
+        return np.zeros_like(albedo), np.asarray(albedo)
+    square = roughness**4
+    spread = square / (1 - at.normal**2 + square * at.normal**2) ** 2
+    shadow = 1 + _shadowing(square, at.light) + _shadowing(square, at.view)
+    shape = (spread / (4 * at.light * at.view * shadow))[..., np.newaxis]
+    return np.asarray((at_normal + glancing * bent) * shape * scale * dimming), np.asarray(albedo)
+
+
+def _kept(roughness: float, index: float, at_normal: Array, view: Array) -> tuple[Array, Array]:
+    """Give what makes up for light that is lost between facets, and how much of it they absorb."""
+    kept = _over_view("kept", view, roughness)[..., np.newaxis]
+    mean_kept = float(_between(_TABLES["mean kept"], roughness))
+    missing = (1 - kept) / kept
+    share = _remapped(np.asarray(_mean_fresnel(index)), index)
+    single = at_normal + (1 - at_normal) * share
+    multiple = single * mean_kept / (1 - single * (1 - mean_kept))
+    return 1 + missing, (1 + multiple * missing) / (1 + missing)
+
+
+def _specular(gloss: Gloss) -> tuple[float, float]:
+    """Index of refraction and reflection at the normal that level and IOR make together."""
+    index = max(gloss.ior, 1e-5)
+    own = _at_normal(index)
+    if gloss.level == 0.5:
+        return index, own
+    own *= 2 * max(gloss.level, 0.0)
+    root = math.sqrt(min(own, 0.99))
+    found = (1 + root) / (1 - root)
+    return (1 / found if index < 1 else found), own
+
+
+def _at_normal(index: float) -> float:
+    return ((index - 1) / (index + 1)) ** 2
+
+
+def _fresnel(cosine: Array, index: float) -> Array:
+    """Fresnel reflection of unpolarized light on a dielectric."""
+    inside = index**2 - 1 + cosine**2
+    bent = np.sqrt(np.maximum(inside, 0))
+    across = (cosine - bent) / (cosine + bent)
+    along = (bent - index**2 * cosine) / (bent + index**2 * cosine)
+    return np.where(inside > 0, (across**2 + along**2) / 2, 1.0)
+
+
+def _remapped(fresnel: Array, index: float) -> Array:
+    """Where a reflection lies between that at the normal, 0, and the whole, 1."""
+    own = _at_normal(index)
+    return np.asarray(np.clip((fresnel - own) / (1 - own), 0, 1))
+
+
+def _mean_fresnel(index: float) -> float:
+    """Fresnel reflection over the hemisphere, in Kulla and Conty's fit."""
+    if index < 1:
+        return 0.997118 + index * (0.1014 - index * (0.965241 + index * 0.130607))
+    return (index - 1) / (4.08567 + 1.00071 * index)
+
+
+def _shadowing(square: float, cosine: Array) -> Array:
+    """Smith's Λ for GGX."""
+    return np.asarray((np.sqrt(1 + square * (1 / cosine**2 - 1)) - 1) / 2)
+
+
+def _place(index: float) -> float:
+    """Where an index of refraction lies in `gloss_data.SHARE`."""
+    return math.sqrt(abs(index - 1) / (index + 1))
+
+
+def _over_view(name: str, view: Array, *places: float) -> Array:
+    """Read a table linearly between its entries, as Cycles does, at the cosines of a view.
+
+    `places`, from 0 to 1, are those of roughness and, where the table has it, refraction: its last
+    axis and its first. They are one number each, so that a line over the view is left.
+    """
+    line = _TABLES[name]
+    line = _between(np.moveaxis(line, -1, 0), places[0])
+    if len(places) > 1:
+        line = _between(line, places[1])
+    return np.interp(view, np.linspace(0, 1, line.size), line)
+
+
+def _between(table: Array, place: float) -> Array:
+    """Read the first axis of a table at a place from 0 to 1."""
+    along = min(max(place, 0.0), 1.0) * (len(table) - 1)
+    low = min(int(along), len(table) - 2)
+    return np.asarray(table[low] * (1 - (along - low)) + table[low + 1] * (along - low))
+
+
+def _unpacked(size: int, packed: str) -> Array:
+    values = unpack(packed, (gloss_data.STEP,))[:, 0]
+    axes = round(math.log(values.size, size))
+    return np.asarray(values.reshape((size,) * axes))
+
+
+_TABLES = {name: _unpacked(*table) for name, table in gloss_data.TABLES.items()}

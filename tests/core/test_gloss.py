@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What gloss adds to a diffuse lobe and takes from it; `test_gloss_rendered` holds it to Cycles."""
+
+import numpy as np
+import pytest
+
+from core.cycles import gloss_lobe
+from core.gloss import Gloss, from_numbers
+
+AT = "45a:0"
+
+
+@pytest.mark.parametrize(
+    ("level", "shine"), [(0.5, 0.0222), (1.0, 0.0444)]
+)  # rendered by Blender 5.2, at roughness 0.5
+def test_reading_of_the_lobe_alone(level, shine):
+    np.testing.assert_allclose(gloss_lobe.at_instrument(Gloss(level), AT).shine, shine, atol=5e-5)
+
+
+def test_no_level_and_no_coat_is_no_gloss():
+    angles = np.radians([[0.0, 45, 79], [0, 30, 79], [0, 90, 180]])
+    found = gloss_lobe.layer(Gloss(level=0, roughness=0.2), *angles)
+    np.testing.assert_array_equal(found.shine, 0)
+    np.testing.assert_array_equal(found.passed, 1)
+
+
+@pytest.mark.parametrize("roughness", [0.3, 0.6, 1.0])
+@pytest.mark.parametrize("polar", [0.0, 45.0, 70.0])
+def test_what_is_taken_from_below_is_what_the_lobe_sends_on(roughness, polar):
+    """The lobe's own integral over the hemisphere of light, against 1 - passed.
+
+    Cycles counts the single scattering between facets, and lights the lobe by what it lost too:
+    both agree within some hundredths of the little there is.
+    """
+    gloss = Gloss(level=1.0, roughness=roughness)
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    cosine, around = (nodes + 1) / 2, np.linspace(0, 2 * np.pi, 360, endpoint=False)
+    light, azimuth = np.meshgrid(np.arccos(cosine), around, indexing="ij")
+    found = gloss_lobe.layer(gloss, light, np.radians(polar), azimuth)
+    sent = (weights * cosine) @ found.shine[..., 0].mean(axis=1)
+    taken = 1 - found.passed[0, 0, 0]
+    assert sent == pytest.approx(taken, rel=0.06)
+
+
+def test_nothing_depends_on_the_azimuth_at_the_normal():
+    around = np.linspace(0, 6, 7)
+    found = gloss_lobe.layer(Gloss(coat=0.5), np.pi / 4, 0.0, around)
+    assert np.ptp(found.shine, axis=0).max() < 1e-12
+    np.testing.assert_allclose(
+        found.shine[0], gloss_lobe.at_instrument(Gloss(coat=0.5), AT).shine, rtol=1e-12
+    )
+
+
+def test_below_undoes_over():
+    found = gloss_lobe.at_instrument(Gloss(level=0.8, coat=1.0, coat_tint=(0.9, 0.5, 0.2)), AT)
+    read = np.array([[0.2, 0.5, 0.8], [0.0, 0.01, 1.0]])
+    np.testing.assert_allclose(found.below(found.over(read)), read, atol=1e-15)
+
+
+def test_largest_gloss_reads_the_darkest_channel():
+    black = [0.031, 0.032, 0.033]
+    found = gloss_lobe.largest(Gloss(level=0.9), black, AT)
+    read = gloss_lobe.at_instrument(found, AT).shine
+    assert 0 < found.level < 0.9
+    assert read.max() == pytest.approx(0.031, abs=1e-6)
+    assert gloss_lobe.largest(found, black, AT) == found
+    coated = gloss_lobe.largest(Gloss(level=0.9, coat=1.0, coat_roughness=0.5), [0.01] * 3, AT)
+    assert coated.level == 0
+    assert 0 < coated.coat < 1
+    assert gloss_lobe.largest(Gloss(), [0.5, 0.0, 0.5], AT) is None
+
+
+def test_a_mirror_shows_no_light_without_width():
+    """Cycles takes a lobe this narrow for a mirror; what it takes from below stays."""
+    found = gloss_lobe.layer(Gloss(level=1, roughness=0.003), 0.3, 0.3, np.pi)
+    np.testing.assert_array_equal(found.shine, 0)
+    assert found.passed.max() < 0.95
+
+
+def test_numbers_come_back():
+    gloss = Gloss(0.3, 0.2, 1.4, (0.9, 0.8, 0.7), 0.6, 0.1, 1.6, (0.5, 0.4, 0.3), False)
+    assert from_numbers(gloss.numbers()) == gloss
+    for row in ((), gloss.numbers()[:-1], (float("nan"), *gloss.numbers()[1:])):
+        with pytest.raises(ValueError, match="no gloss"):
+            from_numbers(row)
