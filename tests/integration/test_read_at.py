@@ -76,7 +76,9 @@ def test_every_file_names_the_instrument_of_each_reading(several):
         table = several.with_name(f"angles.{part}.cgats.txt").read_text(encoding="utf-8")
         assert re.findall(r'^MEASUREMENT_GEOMETRY\t"(.*)"$', table, re.MULTILINE) == names
     for ending in ("predicted.spectral.exr", "measured.exr"):
-        assert b"read at 45as15, 45as110, di:8; " in several.with_name(f"angles.{ending}").read_bytes()
+        assert (
+            b"read at 45as15, 45as110, di:8; " in several.with_name(f"angles.{ending}").read_bytes()
+        )
 
 
 def test_predictions_are_those_of_each_instrument_and_read_back_as_such(several):
