@@ -118,7 +118,7 @@ def source_directions(meter: GlossMeter) -> tuple[Array, Array, Array]:
     Examples
     --------
     >>> theta, _, weights = source_directions(find(60))
-    >>> round(float(np.degrees(theta @ weights)), 1), float(weights.sum())
+    >>> round(float(np.degrees(theta @ weights)), 1), round(float(weights.sum()), 12)
     (60.0, 1.0)
     """
     tilt = np.radians(meter.angle)

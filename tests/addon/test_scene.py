@@ -24,9 +24,10 @@ from rough_spectra.addon.material import (
 )
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.scene import analysis, follow_scene, sampling
-from rough_spectra.core import cycles, reading
+from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import InputError, MaterialError
+from rough_spectra.core.instruments import quadrature
 from rough_spectra.core.numerics import direction_grid
 
 from tools.checks import judge_scene, make_room
@@ -228,14 +229,15 @@ def test_compromise_is_no_worse_than_either_lights_own_color(colorchecker):
             assert mean <= np.average(apart, weights=both.weights) + 0.02
 
 
-def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
-    """In the scene and at 45°/0°; also when the view was used before, with other bands."""
+@pytest.mark.parametrize("read_at", ["45a:0", "45as75", "di:8"])
+def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker, read_at):
+    """In the scene and at the instrument; also when the view was used before, with other bands."""
     view = view_of(light_of((1, 0.6, 0.25), "Warm", 0.7), light_of((0.02, 1, 0.03), "Lime", 0.3))
     space, sample = working_space.current(), colorchecker[5]
     read, bands = 0.9 * sample.values, sample.wavelengths
-    arguments = (read, "closure", SIGMA, bands, space)
+    arguments = (read, "closure", SIGMA, bands, space, read_at)
     first = scene_match.match(view, sample.values, *arguments)
-    half = (read[::2], "closure", SIGMA, bands[::2], space)
+    half = (read[::2], "closure", SIGMA, bands[::2], space, read_at)
     scene_match.match(view, sample.values[::2], *half)
     again = scene_match.match(scene_view.from_json(view.to_json()), sample.values, *arguments)
     for found, same in zip(first[:2], again[:2], strict=True):
@@ -243,7 +245,12 @@ def test_what_a_match_leaves_over_is_what_its_shader_does(colorchecker):
         shader = (found.color, found.roughness)
         over = scene_match.differences(view, shader, sample.values, *arguments[1:])
         assert found.over_scene == pytest.approx(over, abs=1e-9)
-        seen = cycles.reflectance(*shader, *reading.INSTRUMENT_ANGLES["45a:0"])
+        of = quadrature.of(read_at)
+        directions = (of.theta_i, of.theta_r, of.delta_phi)
+        seen = of.weights @ cycles.reflectance(
+            *(np.tile(shader[0], (of.weights.size, 1)), np.full(of.weights.size, shader[1])),
+            *directions,
+        )
         for light, apart in zip(view.lights, found.instrument.tolist(), strict=True):
             wanted = color_difference.xyz_to_lab(read @ light.weights(bands), light.white)
             own = color_difference.delta_e(scene_match.to_lab(seen, light, space), wanted)

@@ -195,6 +195,24 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     assert "45°/0°: ΔE00 0.00, not visible" in drawn()
 
 
+def test_what_is_said_of_the_instrument_follows_the_menu(green):
+    assert "read_at" in drawn()
+    green.rough_spectra.sigma = math.radians(40)
+    green.rough_spectra.read_at = "45as75"
+    drawn()
+    icons._work()
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    page = drawn()
+    assert "45°:as75°: ΔE00 0.00, not visible" in page
+    assert "Measured at 45°:as75°: ΔE00 0.00, not visible" in page
+    assert not any(line.startswith("45°/0°") for line in page)
+    green.rough_spectra.read_at = "45a:0"
+    page = drawn()
+    assert "Measured before the last change; measure again" in page
+    # Where it was read, and not where it would be read now.
+    assert "Measured at 45°:as75°: ΔE00 0.00, not visible" in page
+
+
 def test_the_range_of_sigma_stands_below_the_slider(green):
     assert not any("Fits up to" in line for line in drawn())
     OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/19-white-9-5", sigma=0.2)
