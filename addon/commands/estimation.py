@@ -8,7 +8,7 @@ import argparse
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -28,7 +28,8 @@ from . import mapping
 SMOOTH = "smooth"
 """What the column `surface` calls a surface without roughness; all other words are roughnesses."""
 
-_FIELDS = ("sample", "surface", "material", "file", "instrument")
+FIELDS = ("sample", "surface", "material", "file", "instrument")
+"""Columns of its table."""
 _NEEDED = ("sample", "surface")
 
 
@@ -74,12 +75,39 @@ def read_table(path: Path) -> list[Surface]:
     InputError
         Naming file, row and remedy.
     """
-    samples = mapping.Samples(path)
     smooth: dict[str, list[Sample]] = {}
     rough: dict[str, dict[str, list[Sample]]] = {}
-    for place, record in mapping.records(path, _FIELDS, _NEEDED):
+    for _, cells, sample in rows(path, FIELDS):
+        of = smooth if cells["surface"] == SMOOTH else rough.setdefault(cells["surface"], {})
+        of.setdefault(cells["material"], []).append(sample)
+    if not rough:
+        msg = f"{path} has no row of a rough surface; name its roughness in the column surface."
+        raise InputError(msg)
+    return [
+        Surface(name, [(smooth.get(material, []), of[material]) for material in of])
+        for name, of in rough.items()
+    ]
+
+
+def rows(path: Path, fields: Sequence[str]) -> Iterator[tuple[str, dict[str, str], Sample]]:
+    """Read the rows of a table of readings: place for messages, cells by column, and sample.
+
+    Parameters
+    ----------
+    path
+        CSV or JSON.
+    fields
+        The columns that it may have, those of the verb `estimate` among them.
+
+    Raises
+    ------
+    InputError
+        Naming file, row and remedy.
+    """
+    samples = mapping.Samples(path)
+    for place, record in mapping.records(path, fields, _NEEDED):
         where = f"{path}, {place}"
-        cells = mapping.check_columns(where, record, _FIELDS)
+        cells = mapping.check_columns(where, record, fields)
         if not cells["sample"] or not cells["surface"]:
             msg = f"{where}: sample and surface must both be given."
             raise InputError(msg)
@@ -90,15 +118,7 @@ def read_table(path: Path) -> list[Surface]:
                 msg = f"{where}: instrument is {cells['instrument']!r}; make it one of: {known}."
                 raise InputError(msg)
             sample = replace(sample, instrument=cells["instrument"])
-        of = smooth if cells["surface"] == SMOOTH else rough.setdefault(cells["surface"], {})
-        of.setdefault(cells["material"], []).append(sample)
-    if not rough:
-        msg = f"{path} has no row of a rough surface; name its roughness in the column surface."
-        raise InputError(msg)
-    return [
-        Surface(name, [(smooth.get(material, []), of[material]) for material in of])
-        for name, of in rough.items()
-    ]
+        yield where, cells, sample
 
 
 def _by_names(files: Sequence[Path], smooth: Sequence[str], rough: Sequence[str]) -> Surface:

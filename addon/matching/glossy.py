@@ -16,7 +16,6 @@ from ...core.cycles import gloss_lobe, instrument_lobe
 from ...core.cycles.gloss_lobe import Layer
 from ...core.gloss import Gloss
 from ...core.numerics.arrays import Array
-from .request import VIRTUAL
 
 _ENOUGH = 1e-6
 """Overshoot that is rounding."""
@@ -125,10 +124,12 @@ def warning(
     return f"{name!r} cannot have this gloss: it {why}; {possible}."
 
 
-def too_much(name: str, gloss: Gloss, reading: Array) -> str:
+def too_much(name: str, gloss: Gloss | None, reading: Array, instrument: str) -> str:
     """Say the same of a reading that is one aim among others, as in a scene."""
-    below = gloss_lobe.at_instrument(gloss, VIRTUAL).below(reading)
-    return warning(name, gloss, reading, below, 0.0, VIRTUAL)
+    if gloss is None:
+        return ""
+    below = gloss_lobe.at_instrument(gloss, instrument).below(reading)
+    return warning(name, gloss, reading, below, 0.0, instrument)
 
 
 def _possible(gloss: Gloss, reading: Array, white: Array, instrument: str) -> str:

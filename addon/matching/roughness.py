@@ -21,6 +21,7 @@ def of_samples(
     model: str = estimate.MODEL,
     relative: float = estimate.RELATIVE,
     absolute: float = estimate.ABSOLUTE,
+    others: Sequence[str] = estimate.SPREAD,
 ) -> Estimate:
     """Estimate the one σ of some rough surfaces.
 
@@ -33,6 +34,8 @@ def of_samples(
         One of `core.models.NAMES` that knows roughness.
     relative, absolute
         Repeatability of the readings: see `core.estimate.repeatability`.
+    others
+        Models whose σ is given beside it.
 
     Raises
     ------
@@ -49,7 +52,7 @@ def of_samples(
         name = _material(number, *_listed(smooth), *_listed(rough))
         readings += [_reading(s, False, name, relative, absolute) for s in _listed(smooth)]
         readings += [_reading(s, True, name, relative, absolute) for s in _listed(rough)]
-    return estimate.sigma(readings, model)
+    return estimate.sigma(readings, model, others)
 
 
 def summary(found: Estimate) -> str:

@@ -4,7 +4,7 @@
 
 The color seen in each of the scene's directions, under the light that comes from there, is to be
 the spectrum's; color and roughness are chosen for the least mean ΔE00 over all of them. A reading
-at 45°/0° is then no longer met by itself: what the material reads there follows.
+at the instrument is then no longer met by itself: what the material reads there follows.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import cycles, ladder, reading
+from ...core import cycles, instruments, ladder
 from ...core.color import color_difference
 from ...core.cycles import (
     derivatives,
@@ -29,7 +29,6 @@ from ...core.numerics.memoized import memoized
 from ..colorimetry.perceptibility import SIDE_BY_SIDE
 from ..colorimetry.rgb_space import WorkingSpace, matrix_of
 from . import glossy
-from .request import VIRTUAL
 from .scene_view import SceneLight, SceneView
 
 _ELSEWHERE = 12
@@ -61,7 +60,7 @@ class Match:
     over_scene
         ΔE00 in each of the view's places, shape (places,).
     instrument
-        ΔE00 at 45°/0° under each of the view's lights, shape (lights,).
+        ΔE00 at the instrument under each of the view's lights, shape (lights,).
     """
 
     color: Array
@@ -78,6 +77,7 @@ def match(
     sigma: float,
     bands: Array,
     space: WorkingSpace,
+    read_at: str = instruments.DEFAULT,
     gloss: Gloss | None = None,
 ) -> tuple[Match, Match, Array]:
     """Match one material, with roughness and without.
@@ -96,21 +96,24 @@ def match(
         Wavelengths, nanometers, shape (bands,).
     space
         The working space.
+    read_at
+        The virtual instrument.
     gloss
         What lies over the diffuse lobe, or None.
 
     Returns
     -------
     rough, lambert, target
-        The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
+        The two materials, and the reading at the instrument as RGB, unclipped: the mean over the
+        lights.
     """
-    places = _places(view, bands.tobytes(), space.key, gloss)
+    places = _places(view, bands.tobytes(), space.key, read_at, gloss)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
     roots, _ = color_difference.roots(wanted)
     lab = color_difference.roots_to_lab(roots)
     color = np.clip(
-        matching.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, VIRTUAL), 0, 1
+        matching.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, read_at), 0, 1
     )
     starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
     found = least_mean_fit.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
@@ -132,6 +135,7 @@ def differences(
     sigma: float,
     bands: Array,
     space: WorkingSpace,
+    read_at: str = instruments.DEFAULT,
     gloss: tuple[Gloss, Array] | None = None,
 ) -> Array:
     """ΔE00 of a given color and roughness in each of the view's places; see `match`.
@@ -140,7 +144,7 @@ def differences(
     """
     cycles.check_roughness(np.asarray(shader[1]))
     over, read = gloss or (None, None)
-    places = _places(view, bands.tobytes(), space.key, over)
+    places = _places(view, bands.tobytes(), space.key, read_at, over)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     wanted = wanted[: len(places.weights)]
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])
@@ -229,11 +233,12 @@ def promised(
     roughness: float,
     view: SceneView,
     space: WorkingSpace,
+    read_at: str,
     gloss: Gloss | None = None,
 ) -> Array:
-    """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    diffuse = instrument_lobe.reflectance(color, roughness, VIRTUAL)
-    seen = gloss_lobe.reading(diffuse, gloss, VIRTUAL)
+    """Lab at an instrument of a shader under the view's main light, shape (3,)."""
+    diffuse = instrument_lobe.reflectance(color, roughness, read_at)
+    seen = gloss_lobe.reading(diffuse, gloss, read_at)
     return to_lab(seen, view.lights[0], space)
 
 
@@ -263,7 +268,7 @@ class _ShadingPoints:
     """Where materials are looked at in a scene, and all of it that no material changes.
 
     First come the places of the view and, with little weight, one for each of some directions all
-    around: these are searched. Last comes 45°/0° under each of the lights.
+    around: these are searched. Last comes the instrument under each of the lights.
 
     Parameters
     ----------
@@ -284,7 +289,7 @@ class _ShadingPoints:
         place and X, Y or Z: shape (3 places, 9).
     to_means
         From XYZ relative to white to two means of RGB, by mean and channel: over what is searched,
-        and over the lights at 45°/0°. Shape (6, 3 places).
+        and over the lights at the instrument. Shape (6, 3 places).
     under
         What gloss adds and lets pass; None without.
     """
@@ -354,8 +359,8 @@ class _Under:
 
     Parameters
     ----------
-    gloss
-        What it is.
+    there
+        What it adds and lets pass at the instrument.
     layer
         What it adds and lets pass on the ways to what is searched, each of shape (ways, 3).
     added
@@ -368,7 +373,7 @@ class _Under:
         Matrix from XYZ to scene-linear RGB.
     """
 
-    gloss: Gloss
+    there: gloss_lobe.Layer
     layer: gloss_lobe.Layer
     added: Array
     light: Array
@@ -378,24 +383,37 @@ class _Under:
     def target(self, matte: Array, read: Array) -> Array:
         """Put it over matte targets, XYZ (ways, 3), with readings under each light, (lights, 3)."""
         light = np.maximum(self.light, _FAINT * self.light.max(axis=1, keepdims=True))
-        there = gloss_lobe.at_instrument(self.gloss, VIRTUAL)
-        _, share = glossy.share_below(there, read @ self.from_xyz.T / light)
+        _, share = glossy.share_below(self.there, read @ self.from_xyz.T / light)
         body = matte @ self.from_xyz.T * share[self.lights]
         seen = self.layer.passed * body + self.layer.shine * self.light[self.lights]
         return np.asarray(seen @ np.linalg.inv(self.from_xyz).T)
 
 
+def _layer(gloss: Gloss, angles: Array, read_at: str, lights: int) -> gloss_lobe.Layer:
+    """Give what lies over all ways and, for each of the lights, over the instrument."""
+    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, read_at)
+    shine, passed = (
+        np.vstack((all_ways, np.tile(at, (lights, 1))))
+        for all_ways, at in zip(elsewhere, there, strict=True)
+    )
+    return gloss_lobe.Layer(shine, passed)
+
+
 @memoized(maxsize=_KEPT)
-def _places(view: SceneView, bands: bytes, key: bytes, gloss: Gloss | None) -> _ShadingPoints:
-    """Make them, for the bytes of wavelengths and a working space's key."""
+def _places(
+    view: SceneView, bands: bytes, key: bytes, read_at: str, gloss: Gloss | None
+) -> _ShadingPoints:
+    """Make them, for the bytes of wavelengths, a working space's key and an instrument."""
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
     white = np.stack([light.white for light in view.lights])[lights]
     rgb = light_rgb(white, matrix)
     whites = mixing @ white
-    functions = derivatives.functions(*angles).T
+    at = instrument_lobe.mean_direction(read_at, angles.dtype)
+    instrument = derivatives.of_directions(*(np.full(len(view.lights), each) for each in at))
+    functions = np.concatenate((derivatives.functions(*angles), instrument), axis=1).T
     to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
-    layer = None if gloss is None else gloss_lobe.layer(gloss, *angles)
+    layer = None if gloss is None else _layer(gloss, angles, read_at, len(view.lights))
     below = rgb if layer is None else rgb * layer.passed
     mixed = mixing @ (below[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
 
@@ -409,7 +427,7 @@ def _places(view: SceneView, bands: bytes, key: bytes, gloss: Gloss | None) -> _
     under = None
     if gloss is not None and layer is not None:
         under = _Under(
-            gloss,
+            gloss_lobe.at_instrument(gloss, read_at),
             gloss_lobe.Layer(layer.shine[:ways], layer.passed[:ways]),
             np.einsum("pc,pcx->px", mixing @ (rgb * layer.shine), to_xyz),
             light_rgb(np.stack([light.white for light in view.lights]), matrix),
@@ -417,7 +435,7 @@ def _places(view: SceneView, bands: bytes, key: bytes, gloss: Gloss | None) -> _
             matrix,
         )
     return _ShadingPoints(
-        angles=angles[:, :ways],
+        angles=angles,
         weights=weights,
         colors=np.concatenate([light.weights(wavelengths) for light in view.lights], axis=1),
         own=np.arange(ways) * len(view.lights) + lights[:ways],
@@ -435,14 +453,11 @@ def _ways(view: SceneView) -> tuple[Array, Array, Array]:
     Returns
     -------
     angles, lights, mixing
-        θi, θr and Δφ, shape (3, ways); index of the light, shape (ways,); and the part of each way
-        in the light of each place, shape (places, ways).
+        θi, θr and Δφ of what is searched, shape (3, searched ways); index of the light, shape
+        (ways,); and the part of each way in the light of each place, shape (places, ways).
     """
     count = len(view.lights)
-    instrument = np.repeat(np.array(reading.INSTRUMENT_ANGLES[VIRTUAL])[:, np.newaxis], count, 1)
-    angles = np.concatenate(
-        (view.angles, direction_grid.hemisphere(_ELSEWHERE), instrument), axis=1
-    )
+    angles = np.concatenate((view.angles, direction_grid.hemisphere(_ELSEWHERE)), axis=1)
     elsewhere = np.zeros(_ELSEWHERE, int)
     lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
     # Beyond the view each way has a place of its own.

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core import cycles, ladder, reading
+from ...core import cycles, instruments, ladder, reading
 from ...core.choice import choose_shader
 from ...core.color import color_difference
-from ...core.cycles import matching
+from ...core.cycles import instrument_lobe, matching
 from ...core.gloss import Gloss
 from ...core.models import TARGET
 from ...core.numerics import direction_grid
@@ -24,11 +24,7 @@ from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
 from ..samples import quality
 from . import glossy, scene_match, surface_spectra
-from .request import (
-    AUTO,
-    VIRTUAL,
-    Request,
-)
+from .request import AUTO, Request
 from .scene_view import SceneView
 from .solution import Solution
 
@@ -37,7 +33,6 @@ __all__ = [
     "AUTO",
     "BY_DEFAULT",
     "MATCH_GEOMETRIES",
-    "VIRTUAL",
     "Request",
     "differences",
     "remarks",
@@ -95,16 +90,25 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
         if request.scene is not None:
             solutions[i] = _solve_in_scene(request, reason, request.scene, space)
     open_ones = [i for i, solution in enumerate(solutions) if solution is None]
-    for seen in dict.fromkeys((requests[i].illuminant, requests[i].gloss) for i in open_ones):
-        members = [i for i in open_ones if (requests[i].illuminant, requests[i].gloss) == seen]
-        of_light = _solve([settled[i] for i in members], space, *seen)
-        for i, solution in zip(members, of_light, strict=True):
+    for under in dict.fromkeys(_under(requests[i]) for i in open_ones):
+        members = [i for i in open_ones if _under(requests[i]) == under]
+        alike = _solve([settled[i] for i in members], space, *under)
+        for i, solution in zip(members, alike, strict=True):
             solutions[i] = solution
     return [solution for solution in solutions if solution is not None]
 
 
+def _under(request: Request) -> tuple[str, str, Gloss | None]:
+    """Give what has to be the same of all materials that are matched in one go."""
+    return request.illuminant, request.read_at, request.gloss
+
+
 def _solve(
-    settled: list[tuple[Request, str]], space: WorkingSpace, illuminant: str, gloss: Gloss | None
+    settled: list[tuple[Request, str]],
+    space: WorkingSpace,
+    illuminant: str,
+    read_at: str,
+    gloss: Gloss | None,
 ) -> list[Solution]:
     requests = [request for request, _ in settled]
     geometries = direction_grid.hemisphere(MATCH_GEOMETRIES)
@@ -112,7 +116,7 @@ def _solve(
 
     below, layer = readings, None
     if gloss is not None:
-        layer, there = glossy.with_instrument(gloss, geometries, VIRTUAL)
+        layer, there = glossy.with_instrument(gloss, geometries, read_at)
         below, targets = glossy.body(there, readings, targets)
 
     def perceive(rgb: Array) -> Array:
@@ -122,12 +126,13 @@ def _solve(
             rgb = shine + passed * rgb
         return space.to_lab(rgb, illuminant)
 
-    matched, roughness = matching.match(below, targets, geometries, perceive, VIRTUAL)
+    matched, roughness = matching.match(below, targets, geometries, perceive, read_at)
     color, smooth = np.clip(matched, 0.0, 1.0), np.clip(below, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
-    everywhere = _everywhere(MATCH_GEOMETRIES)
+    everywhere = instrument_lobe.with_directions(geometries, read_at)
     wanted = perceive(np.concatenate((targets, below[:, np.newaxis]), axis=1))
-    rough = cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *everywhere)
+    terms = cycles.lobe(roughness[:, np.newaxis], *everywhere)
+    rough = cycles.reflected(color[:, np.newaxis], terms)
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
     apart = color_difference.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
@@ -171,12 +176,12 @@ def differences(
     """ΔE00 of a shader's color and roughness in each of a scene's places."""
     [(settled, _)] = settle([replace(request, scene=view)])
     [albedo] = surface_spectra.albedos([settled], settled.model)
-    bands, shader = settled.sample.wavelengths, (color, roughness)
     gloss = None
     if settled.gloss is not None:
         gloss = settled.gloss, surface_spectra.readings_and_albedos([settled])[0][0]
-    of_surface = (albedo, settled.model, settled.sigma)
-    return scene_match.differences(view, shader, *of_surface, bands, space, gloss)
+    what = (albedo, settled.model, settled.sigma, settled.sample.wavelengths)
+    shader = (color, roughness)
+    return scene_match.differences(view, shader, *what, space, settled.read_at, gloss)
 
 
 def remarks(request: Request) -> tuple[str, ...]:
@@ -197,7 +202,15 @@ def _solve_in_scene(
         tristimulus.weights(sample.wavelengths)
     [read], [albedo] = surface_spectra.readings_and_albedos([request])
     rough, lambert, target = scene_match.match(
-        view, albedo, read, request.model, request.sigma, sample.wavelengths, space, request.gloss
+        view,
+        albedo,
+        read,
+        request.model,
+        request.sigma,
+        sample.wavelengths,
+        space,
+        request.read_at,
+        request.gloss,
     )
     taken, shader_reason = rough, _rough(request.gloss)
     if request.flat:
@@ -210,7 +223,7 @@ def _solve_in_scene(
     [judged] = quality.check_each([sample])
     found = (
         *(space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space)),
-        "" if request.gloss is None else glossy.too_much(sample.name, request.gloss, target),
+        glossy.too_much(sample.name, request.gloss, target, request.read_at),
     )
     return Solution(
         color=taken.color,
@@ -270,18 +283,6 @@ def _percentile(values: Array, share: float) -> Array:
     return np.asarray(low + (high - low) * (place - below))
 
 
-def _everywhere(count: int) -> tuple[Array, Array, Array]:
-    """Give directions all over the hemisphere, and the virtual instrument's."""
-    return _with_instrument(direction_grid.hemisphere(count))
-
-
-def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-    """Add the virtual instrument's direction at the end."""
-    instrument = reading.INSTRUMENT_ANGLES[VIRTUAL]
-    light, view, azimuth = np.concatenate((geometries, np.reshape(instrument, (3, 1))), axis=1)
-    return light, view, azimuth
-
-
 def _warnings(
     request: Request,
     space: WorkingSpace,
@@ -292,7 +293,7 @@ def _warnings(
 ) -> tuple[str, ...]:
     found = [space.warning, _infeasible(request)]
     if request.gloss is not None:
-        shown = (request.gloss, read, color, roughness, VIRTUAL)
+        shown = (request.gloss, read, color, roughness, request.read_at)
         too_much = glossy.warning(request.sample.name, *shown)
         if too_much:
             nearest = f"The nearest color misses the reading by ΔE00 {missed:.2f}."
@@ -321,7 +322,7 @@ def _infeasible(request: Request) -> str:
     if value <= limit * (1 + _ENOUGH):
         return ""
     bound = ""
-    if request.model == "two-bounce" and sample.instrument == VIRTUAL:
+    if request.model == "two-bounce" and sample.instrument == instruments.DEFAULT:
         bound = f", and at most {np.degrees(reading.sigma_max(value)):.1f}° would fit"
     return (
         f"{sample.name!r} reads {value:.3f} at {sample.wavelengths[peak]:g} nm, but white facets "

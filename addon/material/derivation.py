@@ -63,6 +63,8 @@ class Stamp(NamedTuple):
     gloss
         `Gloss.numbers` of what lay over the color, empty without; None in older files, whose
         colors were matched without gloss.
+    measured
+        Where the color is that was found by measuring, else an empty string; it is kept then.
     """
 
     inputs: str
@@ -85,6 +87,7 @@ class Stamp(NamedTuple):
     kept: str = ""
     sigma_max: float | None = None
     gloss: tuple[float, ...] | None = None
+    measured: str = ""
 
 
 def get_stamp(material: Any) -> Stamp | None:
@@ -104,6 +107,7 @@ def settings(found: Inputs) -> dict[str, str]:
         "model": found.model,
         "shader": found.shader,
         "tolerance": f"{found.tolerance:g}",
+        "virtual instrument": found.read_at,
         **_scene_settings(found),
     }
 
@@ -135,7 +139,7 @@ def _scene_settings(found: Inputs) -> dict[str, str]:
 
 _TEXTS = (
     *("inputs", "working_space", "node", "model", "model_reason", "shader_reason"),
-    *("scene_reason", "version", "kept"),
+    *("scene_reason", "version", "kept", "measured"),
 )
 
 

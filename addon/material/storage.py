@@ -44,7 +44,10 @@ _DETAILS = (
 _SENTENCES = ("notes", "altered")
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
-_MENUS = ("kind", "instrument", "white", "plaque", "illuminant", "observer", "model", "shader")
+_MENUS = (
+    *("kind", "instrument", "white", "plaque", "illuminant", "observer", "read_at"),
+    *("model", "shader"),
+)
 
 _UNREADABLE = (
     *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
@@ -78,6 +81,7 @@ def store(material: Any, request: Request, shader: str) -> None:
         group.sigma_source = sample.sigma_source
         group.illuminant = request.illuminant
         group.observer = str(request.observer)
+        group.read_at = request.read_at
         group.model = request.model
         group.tolerance = request.tolerance
         group.shader = shader
@@ -132,6 +136,7 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         illuminant=group.illuminant,
         observer=int(group.observer),
         tolerance=tolerance(group),
+        read_at=group.read_at,
         scene=view,
         flat=view is not None and engine_is_flat(),
         gloss=shown_gloss(material),
@@ -289,6 +294,9 @@ def set_stamp(
     node: str,
     inputs: Inputs,
     gloss: Gloss | None,
+    *,
+    kept: str = "",
+    measured: str = "",
 ) -> str:
     """Note what was derived and from which spectrum and settings; gives the text of the stamp.
 
@@ -316,6 +324,8 @@ def set_stamp(
             gloss=() if gloss is None else gloss.numbers(),
             version=version(),
             derivation=DERIVATION,
+            kept=kept,
+            measured=measured,
         )
     )
     material.rough_spectra.stamp = text
@@ -347,6 +357,7 @@ def keep(material: Any) -> None:
             settings=tuple(settings(inputs).items()),
             working_space=working_space.working_space_name(),
             kept=state.fingerprint(shader_nodes.surface(material)),
+            measured="",
         )
     )
     group.error = ""

@@ -167,7 +167,7 @@ def test_no_wavelength_and_no_precision_is_special():
     [
         ("two-bounce", "loses the light of all bounces after the second"),
         ("first-order", "leaves out the light between facets"),
-        ("closure", "up to 0.004"),
+        ("closure", "up to 0.001"),
         ("lambert", "knows no roughness"),
         ("no-such", "not known"),
     ],

@@ -159,3 +159,22 @@ def test_nothing_unwanted_was_printed(session):
     for word in ("traceback", "error", "warning", "rough_spectra", "memory"):
         lines = [line for line in session["said"].splitlines() if word in line.lower()]
         assert [line for line in lines if not any(own in line for own in BLENDERS_OWN + TOLD)] == []
+
+
+def test_estimating_sigma(scene):
+    assert scene["told"][0] == ""
+    assert scene["told"][-1].startswith("σ 25")
+    assert scene["degrees"] == pytest.approx(25, abs=0.1)
+    assert "Blasted green" in scene["source"]
+    assert scene["estimated"]["kind"] == "fresh"
+    assert scene["estimated"]["color"] != scene["before"]["color"]
+    assert same(scene["undone"], scene["before"])
+    assert same(scene["left"], scene["before"])
+
+
+def test_adding_a_rough_sample(scene):
+    assert scene["facets"] >= 2 * 64 * 64
+    assert scene["slopes"] == pytest.approx(0.5774, rel=0.05)  # tan 30°
+    assert scene["lights"] >= 8
+    assert scene["material"]
+    assert scene["same"]

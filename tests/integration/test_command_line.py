@@ -19,6 +19,7 @@ VERBS = (
     "compare",
     "emissivity",
     "estimate",
+    "experiment",
     "import",
     "lab",
     "merge",
