@@ -860,7 +860,7 @@ def gloss(
     >>> wall = bpy.data.materials.new("Wall")
     >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
     >>> [[units]] = gloss([wall], [60])
-    >>> float(units) < 2  # matte: what the window sees of the diffuse light
+    >>> bool(units < 2)  # matte: what the window sees of the diffuse light
     True
     """
     checked = [_checked(material) for material in materials]

@@ -38,9 +38,9 @@ def differences(
     """
     (seen, albedo), (color, roughness) = spectra, shader
     bands = request.sample.wavelengths
-    gloss = request.gloss
-    diffuse = instrument_lobe.reflectance(color, roughness, request.read_at)
-    at_instrument = gloss_lobe.reading(diffuse, gloss, request.read_at)
+    gloss, read_at = request.gloss, request.read_at
+    diffuse = instrument_lobe.reflectance(color, roughness, read_at)
+    at_instrument = gloss_lobe.reading(diffuse, gloss, read_at)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
         wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)
@@ -51,7 +51,7 @@ def differences(
     angles = direction_grid.hemisphere(MATCH_GEOMETRIES)
     reflected = np.vstack((in_directions(request, albedo, angles), seen))
     *targets, read = reflected @ space.rgb_weights(bands, request.illuminant)
-    targets = glossy.target(gloss, read, np.array(targets), angles, request.read_at)
+    targets = glossy.target(gloss, read, np.array(targets), angles, read_at)
     wanted = space.to_lab(np.vstack((targets, read)), request.illuminant)
     shown = cycles.reflectance(color, np.full(MATCH_GEOMETRIES, roughness), *angles)
     shown = glossy.over(gloss, shown, angles)

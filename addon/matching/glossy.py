@@ -124,8 +124,10 @@ def warning(
     return f"{name!r} cannot have this gloss: it {why}; {possible}."
 
 
-def too_much(name: str, gloss: Gloss, reading: Array, instrument: str) -> str:
+def too_much(name: str, gloss: Gloss | None, reading: Array, instrument: str) -> str:
     """Say the same of a reading that is one aim among others, as in a scene."""
+    if gloss is None:
+        return ""
     below = gloss_lobe.at_instrument(gloss, instrument).below(reading)
     return warning(name, gloss, reading, below, 0.0, instrument)
 

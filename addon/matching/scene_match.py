@@ -236,7 +236,7 @@ def promised(
     read_at: str,
     gloss: Gloss | None = None,
 ) -> Array:
-    """Lab at the instrument of a shader under the view's main light, shape (3,)."""
+    """Lab at an instrument of a shader under the view's main light, shape (3,)."""
     diffuse = instrument_lobe.reflectance(color, roughness, read_at)
     seen = gloss_lobe.reading(diffuse, gloss, read_at)
     return to_lab(seen, view.lights[0], space)
@@ -360,7 +360,7 @@ class _Under:
     Parameters
     ----------
     there
-        What it adds and lets pass at the instrument, each of shape (3,).
+        What it adds and lets pass at the instrument.
     layer
         What it adds and lets pass on the ways to what is searched, each of shape (ways, 3).
     added
@@ -389,21 +389,31 @@ class _Under:
         return np.asarray(seen @ np.linalg.inv(self.from_xyz).T)
 
 
+def _layer(gloss: Gloss, angles: Array, read_at: str, lights: int) -> gloss_lobe.Layer:
+    """Give what lies over all ways and, for each of the lights, over the instrument."""
+    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, read_at)
+    shine, passed = (
+        np.vstack((all_ways, np.tile(at, (lights, 1))))
+        for all_ways, at in zip(elsewhere, there, strict=True)
+    )
+    return gloss_lobe.Layer(shine, passed)
+
+
 @memoized(maxsize=_KEPT)
 def _places(
     view: SceneView, bands: bytes, key: bytes, read_at: str, gloss: Gloss | None
 ) -> _ShadingPoints:
+    """Make them, for the bytes of wavelengths, a working space's key and an instrument."""
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
     white = np.stack([light.white for light in view.lights])[lights]
     rgb = light_rgb(white, matrix)
     whites = mixing @ white
-    count = len(view.lights)
     at = instrument_lobe.mean_direction(read_at, angles.dtype)
-    instrument = derivatives.of_directions(*(np.full(count, each) for each in at))
+    instrument = derivatives.of_directions(*(np.full(len(view.lights), each) for each in at))
     functions = np.concatenate((derivatives.functions(*angles), instrument), axis=1).T
     to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
-    layer = None if gloss is None else _layer(gloss, angles, read_at, count)
+    layer = None if gloss is None else _layer(gloss, angles, read_at, len(view.lights))
     below = rgb if layer is None else rgb * layer.passed
     mixed = mixing @ (below[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
 

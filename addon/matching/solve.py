@@ -223,9 +223,7 @@ def _solve_in_scene(
     [judged] = quality.check_each([sample])
     found = (
         *(space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space)),
-        ""
-        if request.gloss is None
-        else glossy.too_much(sample.name, request.gloss, target, request.read_at),
+        glossy.too_much(sample.name, request.gloss, target, request.read_at),
     )
     return Solution(
         color=taken.color,

@@ -60,11 +60,11 @@ class Stamp(NamedTuple):
         The predictions are then not of what is shown.
     sigma_max
         Largest σ, degrees, that the reading allows; None where every σ fits.
-    measured
-        Where the color is that was found by measuring, else an empty string; it is kept then.
     gloss
         `Gloss.numbers` of what lay over the color, empty without; None in older files, whose
         colors were matched without gloss.
+    measured
+        Where the color is that was found by measuring, else an empty string; it is kept then.
     """
 
     inputs: str
@@ -86,8 +86,8 @@ class Stamp(NamedTuple):
     derivation: int = 1
     kept: str = ""
     sigma_max: float | None = None
-    measured: str = ""
     gloss: tuple[float, ...] | None = None
+    measured: str = ""
 
 
 def get_stamp(material: Any) -> Stamp | None:

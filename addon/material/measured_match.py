@@ -41,16 +41,8 @@ def write(material: Any, request: Request, place: Place, found: Found) -> None:
         solution, color=found.color, delta_e_instrument=found.difference, warnings=()
     )
     kept = state.fingerprint(shader_nodes.surface(material))
-    storage.set_stamp(
-        material,
-        solution,
-        space.name,
-        place.node,
-        inputs,
-        None,
-        kept=kept,
-        measured=place.name,
-    )
+    what = (solution, space.name, place.node, inputs, storage.shown_gloss(material))
+    storage.set_stamp(material, *what, kept=kept, measured=place.name)
     last_measurement.note(
         material,
         last_measurement.fingerprint(material),

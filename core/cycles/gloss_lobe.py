@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from ..closure.packing import unpack
 from ..gloss import Gloss
-from ..instruments import quadrature
+from ..instruments import HEMISPHERE, find, quadrature
 from ..numerics.arrays import Array
 from . import gloss_data
 
@@ -59,6 +59,32 @@ class Layer(NamedTuple):
         return np.asarray((reading - self.shine) / self.passed)
 
 
+class Lobe(NamedTuple):
+    """One GGX lobe.
+
+    Parameters
+    ----------
+    roughness
+        As its socket has it.
+    index
+        Index of refraction.
+    at_normal
+        Reflection at the normal, shape (3,).
+    multiscatter
+        Whether it is scaled for what its facets send to each other.
+    """
+
+    roughness: float
+    index: float
+    at_normal: Array
+    multiscatter: bool
+
+    @property
+    def square(self) -> float:
+        """α², as GGX counts roughness: the fourth power of the socket's."""
+        return min(max(self.roughness, 0.0), 1.0) ** 4
+
+
 def layer(
     gloss: Gloss, theta_i: npt.ArrayLike, theta_r: npt.ArrayLike, delta_phi: npt.ArrayLike
 ) -> Layer:
@@ -84,24 +110,43 @@ def layer(
         *(np.asarray(angles, np.float64) for angles in (theta_i, theta_r, delta_phi))
     )
     at = _geometry(light, view, around)
-    shine, weight = np.zeros((*light.shape, 3)), np.ones((*light.shape, 3))
+
+    def seen(lobe: Lobe) -> Array:
+        return _seen(lobe, at)
+
+    return compose(gloss, at.view, seen)
+
+
+def compose(gloss: Gloss, view: Array, seen: Callable[[Lobe], Array]) -> Layer:
+    """Lay coat and specular lobe over each other, as Cycles does.
+
+    Parameters
+    ----------
+    gloss
+        The node's sockets.
+    view
+        Cosine of the view, any shape (...).
+    seen
+        Gives what one lobe reads, shape (..., 3): of a direction of light, or of many together.
+    """
+    shine, weight = np.zeros((*view.shape, 3)), np.ones((*view.shape, 3))
     if gloss.coat > _FAINT:
         index = max(gloss.coat_ior, 1.0)
         if index > 1:
-            own = np.full(3, _at_normal(index))
-            seen, albedo = _lobe(gloss.coat_roughness, index, own, True, at)
-            shine += gloss.coat * seen
-            weight *= np.clip(1 - gloss.coat * albedo.max(axis=-1, keepdims=True), 0, 1)
+            coat = Lobe(gloss.coat_roughness, index, np.full(3, _at_normal(index)), True)
+            shine += gloss.coat * seen(coat)
+            taken = gloss.coat * _albedo(coat, view).max(axis=-1, keepdims=True)
+            weight *= np.clip(1 - taken, 0, 1)
         # Beer's law along the refracted view.
-        depth = 1 / np.sqrt(1 - (1 - at.view[..., np.newaxis] ** 2) / index**2)
+        depth = 1 / np.sqrt(1 - (1 - view[..., np.newaxis] ** 2) / index**2)
         tint = np.maximum(gloss.coat_tint, 0)
         weight *= 1 + gloss.coat * (tint**depth - 1)
     index, own = _specular(gloss)
     if index != 1:
         tinted = np.clip(own * np.maximum(gloss.tint, 0), 0, 1)
-        seen, albedo = _lobe(gloss.roughness, index, tinted, gloss.multiscatter, at)
-        shine += weight * seen
-        weight *= np.clip(1 - albedo.max(axis=-1, keepdims=True), 0, 1)
+        lobe = Lobe(gloss.roughness, index, tinted, gloss.multiscatter)
+        shine += weight * seen(lobe)
+        weight *= np.clip(1 - _albedo(lobe, view).max(axis=-1, keepdims=True), 0, 1)
     return Layer(shine, weight)
 
 
@@ -182,6 +227,10 @@ def _most(of_share: Callable[[float], Gloss], fits: Callable[[Gloss], bool]) -> 
 
 
 def _at_instrument(gloss: Gloss, instrument: str) -> tuple[Array, Array]:
+    if find(instrument).light == HEMISPHERE:
+        from . import gloss_sphere  # which is built on this
+
+        return gloss_sphere.layer(gloss, find(instrument))
     of = quadrature.of(instrument)
     if of.angles is not None:
         return layer(gloss, *of.angles)
@@ -206,32 +255,45 @@ def _geometry(theta_i: Array, theta_r: Array, delta_phi: Array) -> _Geometry:
     return _Geometry(light, view, np.minimum((light + view) / (2 * half), 1), half)
 
 
-def _lobe(
-    roughness: float, index: float, at_normal: Array, multiscatter: bool, at: _Geometry
-) -> tuple[Array, Array]:
-    """Reflectance factor of a GGX lobe and the albedo Cycles counts for it, each (..., 3)."""
-    roughness = min(max(roughness, 0.0), 1.0)
-    glancing = 1 - at_normal
-    bent = _remapped(_fresnel(at.half, index), index)[..., np.newaxis]
-    scale, dimming = _kept(roughness, index, at_normal, at.view) if multiscatter else (1.0, 1.0)
-    share = _over_view("share", at.view, roughness, _place(index))[..., np.newaxis]
-    albedo = (at_normal + glancing * share) * dimming
-    if roughness**4 <= _MIRROR:
-        return np.zeros_like(albedo), np.asarray(albedo)
-    square = roughness**4
+def _seen(lobe: Lobe, at: _Geometry) -> Array:
+    """Reflectance factor of a GGX lobe, (..., 3)."""
+    square = lobe.square
+    if square <= _MIRROR:
+        return np.zeros((*at.view.shape, 3))
     spread = square / (1 - at.normal**2 + square * at.normal**2) ** 2
-    shadow = 1 + _shadowing(square, at.light) + _shadowing(square, at.view)
+    shadow = 1 + shadowing(square, at.light) + shadowing(square, at.view)
     shape = (spread / (4 * at.light * at.view * shadow))[..., np.newaxis]
-    return np.asarray((at_normal + glancing * bent) * shape * scale * dimming), np.asarray(albedo)
+    return np.asarray(reflection(lobe, at.half) * shape * gained(lobe, at.view))
 
 
-def _kept(roughness: float, index: float, at_normal: Array, view: Array) -> tuple[Array, Array]:
+def reflection(lobe: Lobe, half: Array) -> Array:
+    """Reflection of facets (..., 3) at cosines of the angle to them, of any shape (...)."""
+    bent = _remapped(_fresnel(half, lobe.index), lobe.index)[..., np.newaxis]
+    return np.asarray(lobe.at_normal + (1 - lobe.at_normal) * bent)
+
+
+def gained(lobe: Lobe, view: Array) -> Array:
+    """Give by how much a lobe is scaled for what its facets send to each other, (..., 3)."""
+    if not lobe.multiscatter:
+        return np.ones((*view.shape, 3))
+    scale, dimming = _kept(lobe, view)
+    return np.asarray(scale * dimming)
+
+
+def _albedo(lobe: Lobe, view: Array) -> Array:
+    """Give what Cycles takes a lobe to send on in all, (..., 3)."""
+    share = _over_view("share", view, lobe.roughness, _place(lobe.index))[..., np.newaxis]
+    albedo = lobe.at_normal + (1 - lobe.at_normal) * share
+    return np.asarray(albedo * _kept(lobe, view)[1] if lobe.multiscatter else albedo)
+
+
+def _kept(lobe: Lobe, view: Array) -> tuple[Array, Array]:
     """Give what makes up for light that is lost between facets, and how much of it they absorb."""
-    kept = _over_view("kept", view, roughness)[..., np.newaxis]
-    mean_kept = float(_between(_TABLES["mean kept"], roughness))
+    kept = _over_view("kept", view, lobe.roughness)[..., np.newaxis]
+    mean_kept = float(_between(_TABLES["mean kept"], lobe.roughness))
     missing = (1 - kept) / kept
-    share = _remapped(np.asarray(_mean_fresnel(index)), index)
-    single = at_normal + (1 - at_normal) * share
+    share = _remapped(np.asarray(_mean_fresnel(lobe.index)), lobe.index)
+    single = lobe.at_normal + (1 - lobe.at_normal) * share
     multiple = single * mean_kept / (1 - single * (1 - mean_kept))
     return 1 + missing, (1 + multiple * missing) / (1 + missing)
 
@@ -274,7 +336,7 @@ def _mean_fresnel(index: float) -> float:
     return (index - 1) / (4.08567 + 1.00071 * index)
 
 
-def _shadowing(square: float, cosine: Array) -> Array:
+def shadowing(square: float, cosine: Array) -> Array:
     """Smith's Λ for GGX."""
     return np.asarray((np.sqrt(1 + square * (1 / cosine**2 - 1)) - 1) / 2)
 

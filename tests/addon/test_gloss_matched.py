@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.blender import shader_nodes, working_space
+from rough_spectra.addon.instrument import arrangement
+from rough_spectra.addon.instrument.measure import measure
 from rough_spectra.addon.matching import assess, scene_match, solve, surface_spectra
 from rough_spectra.addon.matching.request import Request
 from rough_spectra.addon.material import derivation, derive, settled, state, storage
@@ -39,6 +41,18 @@ def test_renders_read_like_the_sample_wherever_the_gloss_is_possible():
     assert max(possible) < 0.001
     assert max(case.ignored for case in cases) > 5
     assert {case.sample for case in cases if case.told} == {"black"}
+
+
+@pytest.mark.parametrize("instrument", ["0:45a-iso", "di:8", "de:8", "45as25"])
+def test_renders_read_like_the_sample_at_other_instruments(instrument):
+    """Noise of the sphere's light included."""
+    kinds = [(1.0, 0.3, 0.0), (0.5, 0.15, 1.0)]
+    materials = [check_gloss.principled(*kind) for kind in kinds]
+    wanted = request_of("concrete", read_at=instrument)
+    solutions = derive.assign([(material, wanted) for material in materials])
+    seen = measure(materials, [arrangement.of(instrument)])[0, :, 0]
+    assert check_gloss.difference(seen, solutions).max() < 0.1
+    assert not any("cannot" in text for found in solutions for text in found.warnings)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import pytest
 
 from core.cycles import gloss_lobe
 from core.gloss import Gloss, from_numbers
+from core.instruments.gloss import fresnel
 
 AT = "45a:0"
 
@@ -41,6 +42,20 @@ def test_what_is_taken_from_below_is_what_the_lobe_sends_on(roughness, polar):
     sent = (weights * cosine) @ found.shine[..., 0].mean(axis=1)
     taken = 1 - found.passed[0, 0, 0]
     assert sent == pytest.approx(taken, rel=0.06)
+
+
+def test_a_sphere_reads_what_fresnel_says_and_a_trap_takes_the_mirror():
+    smooth = Gloss(level=0.5, roughness=0.0)
+    found = gloss_lobe.at_instrument(smooth, "di:8").shine
+    np.testing.assert_allclose(found, fresnel(np.radians(8), 1.5), rtol=2e-3)
+    np.testing.assert_array_equal(gloss_lobe.at_instrument(smooth, "de:8").shine, 0)
+
+
+def test_a_lobe_that_absorbs_nothing_reads_white_in_a_sphere():
+    """What multiscatter GGX is for; its table is Cycles' own."""
+    for roughness in (0.2, 0.6, 1.0):
+        found = gloss_lobe.at_instrument(Gloss(roughness=roughness, ior=1e6), "di:8").shine
+        np.testing.assert_allclose(found, 1, atol=3e-3)
 
 
 def test_nothing_depends_on_the_azimuth_at_the_normal():

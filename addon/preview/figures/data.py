@@ -132,8 +132,9 @@ def of_request(
     targets = in_directions(request, rho, _DIRECTIONS)
     target_curve = np.maximum(targets @ luminance, 0)
     if request.gloss is not None:
-        aims = (seen @ weights, targets @ weights)
-        rgb = glossy.target(request.gloss, *aims, _DIRECTIONS, request.read_at)
+        rgb = glossy.target(
+            request.gloss, seen @ weights, targets @ weights, _DIRECTIONS, request.read_at
+        )
         if request.scene is None:
             target_curve = space.to_xyz(rgb, light)[:, 1]
         else:
