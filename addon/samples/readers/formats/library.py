@@ -5,10 +5,11 @@
 An object with ``format`` ("rough-spectra-library"), ``schema`` (1) and ``samples``: an array of
 objects with the fields of `Sample`, of which ``name``, ``kind``, ``wavelengths`` (nm) and
 ``values`` (fractions) are needed. ``rdq`` or ``sdq`` may state the roughness instead of
-``sigma_degrees``. ``others`` holds further readings of the same surface, objects as the samples,
-of which only ``values`` are needed: name and wavelengths are the sample's where they aren't given.
-``gloss`` holds gloss units by the angle, as in ``{"60": 23.5}``. A sample's ``id`` tells it from the others of the file. Other fields may stand
-beside them, and stay there when the library is written again.
+``sigma_degrees``. ``others`` holds further readings of the same surface, objects as the samples, of
+which ``values`` are needed: ``name`` and ``wavelengths`` are the sample's where they aren't given.
+``gloss`` holds gloss units by the angle, as in ``{"60": 23.5}``. A sample's ``id`` tells it from
+the others of the file. Other fields may stand beside them, and stay there when the library is
+written again.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from ..parts.document import Document, quote
 NAME = "Rough Spectra library"
 ENDINGS = ("json",)
 PRIORITY = 100
+SETS = True
 
 FORMAT = "rough-spectra-library"
 SCHEMA = 1
