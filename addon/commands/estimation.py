@@ -19,7 +19,7 @@ from ...core.errors import InputError
 from ...core.estimate import Estimate
 from ..material import preferences
 from ..readings.writers.tables import nanometers
-from ..samples import library, readers
+from ..samples import library, readers, sets
 from ..samples.sample import Sample
 from ..support.shown_text import to_cell
 from ..support.version import version
@@ -126,13 +126,13 @@ def _by_names(files: Sequence[Path], smooth: Sequence[str], rough: Sequence[str]
     if not rough:
         msg = "Name the readings of the rough surface, with --rough NAME; or give --mapping FILE."
         raise InputError(msg)
-    known = {s.name: s for path in reversed(files) for s in reversed(readers.read(path))}
+    known = sets.by_name([sample for path in files for sample in readers.read(path)])
 
     def find(name: str) -> Sample:
         if not files:
             return library.load(name, preferences.user_folder())
         if name not in known:
-            shown = ", ".join(list(reversed(known))[:5]) + (", …" if len(known) > 5 else "")
+            shown = ", ".join(list(known)[:5]) + (", …" if len(known) > 5 else "")
             msg = f"No sample is named {name!r}; the files have {shown}."
             raise InputError(msg)
         return known[name]

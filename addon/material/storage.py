@@ -39,9 +39,9 @@ from .snapshot import (
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
-    *("quantity", "geometry", "aperture", "specular", "surface"),
+    *("quantity", "geometry", "aperture", "specular", "surface", "called"),
 )
-_NEWER = {"surface"}
+_NEWER = {"surface", "called"}
 """Details that are written only where there are any: earlier materials are as they were."""
 _SENTENCES = ("notes", "altered")
 _SET = ("others", "gloss")

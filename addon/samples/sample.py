@@ -113,6 +113,8 @@ class Sample:
     others
         Further readings of the same surface by other instruments, or of the smooth one of the same
         material: readings without others of their own, each with all that its file says of it.
+    called
+        What the file calls this reading, where the set of it has another name.
     gloss
         Gloss units by angle, pairs of degrees and units, by increasing angle; ISO 2813 has 20, 60
         and 85 degrees.
@@ -150,6 +152,7 @@ class Sample:
     white_factor: float | None = None
     plaque: str = ""
     surface: str = ""
+    called: str = ""
     others: tuple[Sample, ...] = ()
     gloss: tuple[tuple[float, float], ...] = ()
 
@@ -257,7 +260,8 @@ _HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivi
 
 _TEXTS = (
     *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
-    *("license", "position", "device", "condition", "illuminant", "white", "plaque", "surface"),
+    *("license", "position", "device", "condition", "illuminant", "white", "plaque"),
+    *("surface", "called"),
 )
 _texts_of = attrgetter(*_TEXTS)
 

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from ...core.instruments import REGISTRY
 from .sample import Sample
@@ -35,6 +36,23 @@ def summary(sample: Sample) -> str:
     parts = [f"{count(sample)} readings (also {others})"] if others else []
     units = ", ".join(f"{units:g} GU at {angle:g}°" for angle, units in sample.gloss)
     return "; ".join([*parts, *([units] if units else [])])
+
+
+def by_name(samples: Sequence[Sample]) -> dict[str, Sample]:
+    """Return samples by name, the first of each, and single readings of sets by their own names.
+
+    What was chosen by the name that a reading has in its file stays that reading.
+    """
+    found: dict[str, Sample] = {}
+    for sample in samples:
+        found.setdefault(sample.name, sample)
+    for sample in samples:
+        for other in sample.others:
+            found.setdefault(other.name, other)
+        if sample.called:
+            alone = replace(sample, name=sample.called, called="", others=(), gloss=())
+            found.setdefault(sample.called, alone)
+    return found
 
 
 def sentences(sample: Sample) -> Iterable[str]:

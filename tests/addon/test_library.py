@@ -92,6 +92,7 @@ FULL = Sample(
     white="45:0",
     white_factor=1 / 1.03,
     surface="rough",
+    called="Gips (45/0)",
     others=(
         sample("Gips glatt", surface="smooth", notes=("Three.",)),
         Sample('Gips "rauh"\n石膏 \U0001f9f1', [400.0, 700.0], [0.1, 0.2], "reading", "di:8"),

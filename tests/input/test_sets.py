@@ -228,6 +228,24 @@ def test_two_tables_of_a_cgats_file(tmp_path):
     assert [(s.instrument, s.values[0]) for s in sample.readings] == [("de:8", 0.3), ("di:8", 0.34)]
 
 
+def test_columns_of_a_cgats_table(tmp_path):
+    path = tmp_path / "tile.txt"
+    head, _, tail = CGATS.format("?", 0).partition('MEASUREMENT_GEOMETRY "d/8 ?"')
+    tail = tail.replace("FIELDS 4", "FIELDS 6").replace("NAME NM400", "NAME {} {} NM400")
+    tail = tail.replace("SETS 1", "SETS 2").replace("Tile 0 0 0", "{}\n{}")
+    table = head + tail
+    sphere = "SPECULAR", "GLOSS_60", "Tile SCI 8.5 .3 .3 .3", "Tile SCE - .2 .2 .2"
+    path.write_text(table.format(*sphere))
+    [sample] = readers.read(path)
+    assert [(s.instrument, s.values[0]) for s in sample.readings] == [("de:8", 0.2), ("di:8", 0.3)]
+    assert sample.gloss == ((60.0, 8.5),)
+    assert not any("assumed" in note for s in sample.readings for note in s.notes)
+    angles = "GEOMETRY", "SURFACE", "Car 45as15 - .3 .3 .3", "Car 45as110 - .2 .2 .2"
+    path.write_text(table.format(*angles))
+    [sample] = readers.read(path)
+    assert [s.instrument for s in sample.readings] == ["45as110", "45as15"]
+
+
 def specification(name, geometry):
     return (
         f'<cc:ColorSpecification Id="{name}"><cc:MeasurementSpec><cc:MeasurementType>'

@@ -230,7 +230,7 @@ def test_what_cannot_be_told_changes_nothing(sanded, measured, tmp_path):
     before = stored(sanded)
     file = {"source": "FILE", "filepath": str(measured)}
     assert refusal(OPS.estimate_sigma).startswith("Name the second reading")
-    assert "has 8 samples" in refusal(OPS.estimate_sigma, **file)
+    assert "has 6 samples" in refusal(OPS.estimate_sigma, **file)
     brighter = refusal(OPS.estimate_sigma, **file, name_in_file="Gray sanded")
     assert brighter.startswith("σ can't be told")
     other = write(tmp_path / "other.csv", {"Paper": ALBEDO}, NM + 5)

@@ -189,10 +189,12 @@ def _joint(members: list[Sample], marks: list[Mark]) -> Sample | None:
         return None
     main = min(members, key=rank)
     others = tuple(replace(member, gloss=()) for member in members if member is not main)
+    name = _name(main, members, marks)
     of_sigma = next((m for m in members if m.sigma_degrees in stated), main)
     return replace(
         main,
-        name=_name(main, members, marks),
+        name=name,
+        called="" if main.name == name else main.name,
         others=others,
         gloss=tuple(gloss.items()),
         sigma_degrees=of_sigma.sigma_degrees,
