@@ -203,7 +203,8 @@ def estimate(
     ----------
     materials
         Of each material what was read of a smooth surface (or its albedo, or None), and what was
-        read of the rough one. A list holds readings of several instruments or angles.
+        read of the rough one. A list holds readings of several instruments or angles; a sample
+        with `others` counts as all of its readings that tell σ.
     model
         One of `core.models.NAMES` that knows roughness; None takes the usual one.
     repeatability

@@ -17,6 +17,7 @@ import numpy as np
 from ...core import instruments
 from ...core.errors import InputError
 from ...core.estimate import Estimate
+from ..matching import roughness
 from ..material import preferences
 from ..readings.writers.tables import nanometers
 from ..samples import library, readers, sets
@@ -43,10 +44,11 @@ class Surface:
     @property
     def samples(self) -> list[tuple[int, bool, Sample]]:
         """Number of material, whether rough, and sample, in the order of an estimate's readings."""
+        found = [roughness.used(*pair) for pair in self.materials]
         return [
             (number, rough, sample)
-            for number, pair in enumerate(self.materials)
-            for rough, part in zip((False, True), pair, strict=True)
+            for number, each in enumerate(found)
+            for rough, part in ((False, each.smooth), (True, each.rough))
             for sample in part
         ]
 
