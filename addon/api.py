@@ -38,9 +38,14 @@ from ..core.errors import (
     RoughSpectraError,
 )
 from ..core.estimate import RELATIVE, Estimate
+from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
-from .blender import working_space
+from ..core.numerics.arrays import Array
+from .blender import colors, working_space
+from .instrument import adjustment
 from .instrument import bake as instrument_bake
+from .instrument import gloss as instrument_gloss
+from .instrument.adjustment import Adjusted
 from .laboratory import experiment, kinds
 from .laboratory.experiment import Measured
 from .laboratory.kinds import RoughSample
@@ -65,6 +70,7 @@ from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
 
 __all__ = [
+    "Adjusted",
     "Apart",
     "CancelledError",
     "Comparison",
@@ -94,7 +100,9 @@ __all__ = [
     "emissivity",
     "estimate",
     "find",
+    "gloss",
     "keep",
+    "match_by_measuring",
     "materials",
     "measure_rough",
     "paused",
@@ -375,6 +383,7 @@ def request(
     sdq: float | None = None,
     white: str | None = None,
     white_factor: float | str | None = None,
+    read_at: str = DEFAULT,
 ) -> Request:
     """Say what to make of a sample; what is left out is as on the command line.
 
@@ -404,6 +413,10 @@ def request(
         the instrument's white plaque, "45:0" or "8:d"; and the plaque's true reflectance factor at
         the instrument's geometry over the certificate's value, or "ptfe" for sintered PTFE. None
         takes what the sample says. The values stay as measured.
+    read_at
+        Virtual instrument that the material is to read right at, and is measured with: one of
+        `core.instruments.REGISTRY`, such as "45a:0" or "di:8". The sample says itself which real
+        instrument it was measured with.
 
     Raises
     ------
@@ -438,7 +451,13 @@ def request(
         sample = sample.taken_as(kind)
     sample = stated_white.given(sample, white, white_factor)
     return Request(
-        sample, sigma, model, illuminant=illuminant, observer=observer, tolerance=tolerance
+        sample,
+        sigma,
+        model,
+        illuminant=illuminant,
+        observer=observer,
+        tolerance=tolerance,
+        read_at=read_at,
     )
 
 
@@ -452,7 +471,7 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
 
     Returns
     -------
-    `measured` between what an instrument at 45°/0° reads, `albedos` between the albedos, and
+    `measured` between what the virtual instrument reads, `albedos` between the albedos, and
     `roughness`, for each of the two what its roughness does: from its albedo to its reading. Each
     has `delta_e_00`; `delta_l`, `delta_a` and `delta_b`, second less first; `delta_ab`; and
     `shift`, the distance in a*b* once both have the luminance of the first. `interreflection` is
@@ -461,7 +480,8 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
     Raises
     ------
     DomainError
-        Model, illuminant or observer differ, or a spectrum does not cover the visible range.
+        Model, illuminant, observer or virtual instrument differ, or a spectrum does not cover the
+        visible range.
 
     Examples
     --------
@@ -493,7 +513,8 @@ def assign(
     Returns
     -------
     What was matched, in the order of `pairs`: among others `color`, shape (3,); `roughness`;
-    `delta_e_instrument` and `delta_e_mean`, the ΔE00 that remain at 45°/0° and over all angles;
+    `delta_e_instrument` and `delta_e_mean`, the ΔE00 that remain at the virtual instrument and over
+    all angles;
     and `warnings`, sentences that should be read.
 
     Raises
@@ -519,6 +540,59 @@ def assign(
         for material, what in pairs
     ]
     return derive.assign(wanted, _node(shader))
+
+
+def match_by_measuring(
+    material: bpy.types.Material,
+    sample: Sample | Request | None = None,
+    color: str = "",
+    progress: Callable[[int, int], None] | None = None,
+) -> Adjusted:
+    """Set one color of a material so that what Cycles shows is the sample's reading.
+
+    For what no formula tells: mixes, groups, sheen, layers, bump. Several colors are tried at once
+    in a second Blender, up to five times, and this call waits for it. Nothing but that color is
+    changed, and it is kept: it does not follow σ.
+
+    Parameters
+    ----------
+    sample
+        What it is to read; None for what the material stores.
+    color
+        Node and name of a socket, as in "Diffuse BSDF: Color"; a group's input; or an RGB node.
+        Empty takes the one that is most likely meant.
+    progress
+        Called with measurements done and how many there are at most; may raise to stop.
+
+    Returns
+    -------
+    `color` and `reading`, shape (3,); `delta_e` between reading and sample; `is_met`, whether
+    that is at most 0.1; `measurements`; and a `sentence` for a person, which tells what can be had
+    where the sample cannot.
+
+    Raises
+    ------
+    MaterialError
+        The material cannot be written, has no such color, or does not change with it; nothing was
+        changed.
+    OutputError
+        The second Blender failed; nothing was changed.
+    CancelledError
+        On an interrupt from the keyboard; nothing was changed.
+
+    Examples
+    --------
+    >>> velvet = bpy.data.materials.new("Velvet")
+    >>> _ = assign([(velvet, find("green"))], "principled")
+    >>> velvet.node_tree.nodes["Principled BSDF"].inputs["Sheen Weight"].default_value = 0.3
+    >>> found = match_by_measuring(velvet)
+    >>> found.is_met, state(velvet).kind
+    (True, 'kept')
+    """
+    _checked(material)
+    asked = storage.load(material) if sample is None else sample
+    wanted = request(asked) if isinstance(asked, Sample) else asked
+    return adjustment.adjust(material, wanted, colors.find(material, color), progress)
 
 
 def materials() -> list[bpy.types.Material]:
@@ -666,7 +740,7 @@ def differences(material: bpy.types.Material) -> Differences:
 
     Returns
     -------
-    ΔE00 at 45°/0°, and its mean and 95th percentile over all angles.
+    ΔE00 at the virtual instrument, and its mean and 95th percentile over all angles.
 
     Raises
     ------
@@ -688,8 +762,9 @@ def bake(
     surfaces: Iterable[bpy.types.Material | tuple[str, bpy.types.Material]],
     measure: bool = True,
     progress: Callable[[int, int], None] | None = None,
+    read_at: str | Iterable[str] | None = None,
 ) -> Readings:
-    """Predict the readings of materials at 45°/0°, and measure them in Cycles.
+    """Predict the readings of materials at virtual instruments, and measure them in Cycles.
 
     Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
 
@@ -702,10 +777,13 @@ def bake(
         Whether to measure; predictions alone need no second Blender.
     progress
         Called with renders done and renders in all.
+    read_at
+        Instruments instead of each material's own, one or several.
 
     Returns
     -------
-    Its `entries` have one `Reading` for each surface, in this order: `predicted.values`, one a
+    Its `entries` have one `Reading` for each surface and instrument, in this order; each names its
+    `instrument`: `predicted.values`, one a
     band; `measured.rgb`; `delta_e_00` between the two; `warnings`; and `fault`, why a prediction
     or a measurement is missing, which does not stop the others. `largest_delta_e` is the largest.
 
@@ -713,6 +791,8 @@ def bake(
     ------
     MaterialError
         A surface is no material.
+    DomainError
+        An instrument is not known.
     OutputError
         The second Blender failed.
     CancelledError
@@ -730,7 +810,55 @@ def bake(
     """
     named = [surface if isinstance(surface, tuple) else ("", surface) for surface in surfaces]
     found = [(name, _checked(material)) for name, material in named]
-    return instrument_bake.bake(found, measure, progress)
+    at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
+    return instrument_bake.bake(found, measure, progress, at)
+
+
+def gloss(
+    materials: Iterable[bpy.types.Material],
+    angles: Iterable[float] = (20, 60, 85),
+    progress: Callable[[int, int], None] | None = None,
+) -> Array:
+    """Measure the gloss of materials with the virtual gloss meter of ISO 2813, in Cycles.
+
+    Cycles renders in a second Blender, and this call waits for it. The open file is not changed.
+
+    Parameters
+    ----------
+    materials
+        Any materials, with a spectrum or without.
+    angles
+        Degrees: 20, 60 and 85.
+    progress
+        Called with renders done and renders in all.
+
+    Returns
+    -------
+    Gloss units, shape (materials, angles): 100 is polished black glass of the index 1.567. Exact to
+    0.1 for mirrors, to some 2 % for rough surfaces.
+
+    Raises
+    ------
+    MaterialError
+        One is no material.
+    DomainError
+        There is no gloss meter of an angle.
+    OutputError
+        The second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, find("neutral 6.5"))])
+    >>> [[units]] = gloss([wall], [60])
+    >>> bool(units < 2)  # matte: what the window sees of the diffuse light
+    True
+    """
+    checked = [_checked(material) for material in materials]
+    space = working_space.current()
+    return instrument_gloss.measured(checked, space, tuple(angles), progress)
 
 
 def write(

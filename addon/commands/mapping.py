@@ -16,7 +16,7 @@ from typing import Any, cast
 
 import bpy
 
-from ...core import limits
+from ...core import instruments, limits
 from ...core.errors import InputError, MaterialError
 from .. import api
 from ..material import preferences, selection
@@ -27,16 +27,20 @@ from ..support import user_files
 
 _SIGMA = Names("sigma_deg")
 _OPTIONS = Names("--sigma", "--rdq", "--sdq")
-_FIELDS = ("material", "sample", "file", *_SIGMA, "kind", "white", "white_factor")
+_FIELDS = ("material", "sample", "file", *_SIGMA, "kind", "white", "white_factor", "read_at")
 
 
 @dataclass(frozen=True)
 class Row:
-    """One assignment as asked for, and the file and row that say so, if any do."""
+    """One assignment as asked for, and the file and row that say so, if any do.
+
+    `read_at` is the virtual instrument; empty where nothing is said.
+    """
 
     material: str
     sample: Sample
     where: str = ""
+    read_at: str = ""
 
 
 def rows(options: argparse.Namespace) -> list[Row]:
@@ -266,7 +270,11 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
     if fault:
         raise InputError(f"{where}: {fault}.")
     sample = _with_sigma(sample, sigma, f"Stated in {path.name}, {place}.")
-    return Row(cells["material"], sample, where)
+    read_at = cells["read_at"]
+    if read_at and read_at not in instruments.REGISTRY:
+        names = ", ".join(instruments.REGISTRY)
+        raise InputError(f"{where}: read_at is {read_at!r}; make it one of {names}.")
+    return Row(cells["material"], sample, where, read_at)
 
 
 def _number(where: str, name: str, cell: str) -> float | None:
@@ -304,4 +312,5 @@ def _request(row: Row, sigma: StatedSigma, options: argparse.Namespace) -> api.R
         model=options.model,
         illuminant=options.illuminant,
         observer=options.observer,
+        read_at=options.read_at or row.read_at or instruments.DEFAULT,
     )

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
 import numpy as np
 
+from ...core import instruments
 from ...core.color import color_difference
 from ...core.errors import RoughSpectraError
 from ...core.numerics.arrays import Array
@@ -39,15 +40,16 @@ from ..readings.document import (
     Triple,
 )
 from ..samples import stated_white
-from . import measure, rendered
+from . import arrangement, measure, rendered
 
 _IN_SCENE = (
-    "follows its scene: compared at 45°/0° with what was matched to the scene, which is ΔE00 "
+    "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
     "{:.2f} from the spectrum's own reading"
 )
 
 _ALONE = "{}; the predicted reading is the spectrum's alone"
 _BUMPED = "bump is not counted: the predicted reading is of the surface without it"
+_ELSEWHERE = "made to read right at {}"
 _NO_NUMBER = "Cycles rendered a value that is not a number; check the material's nodes."
 
 
@@ -57,8 +59,9 @@ class Prepared:
 
     Holds nothing of Blender's, so the user may go on editing while the measurement runs.
     `promised` is what a material that follows its scene is to show: a compromise over the scene's
-    lights and directions, which at 45°/0° is not the spectrum's own reading. `fault` says why there
-    is nothing to compare with although a spectrum is stored, else it is empty.
+    lights and directions, which at the instrument is not the spectrum's own reading. `fault` says
+    why there is nothing to compare with although a spectrum is stored, else it is empty. `read_at`
+    is the virtual instrument, that of the request if there is one.
     """
 
     surface: str
@@ -69,33 +72,46 @@ class Prepared:
     warnings: tuple[str, ...]
     promised: solution.Solution | None = None
     fault: str = ""
+    read_at: str = instruments.DEFAULT
 
 
-def prepare(surfaces: Sequence[tuple[str, Any]]) -> list[Prepared]:
+def prepare(surfaces: Sequence[tuple[str, Any]], read_at: Sequence[str] = ()) -> list[Prepared]:
     """Take down what materials store now.
 
     Parameters
     ----------
     surfaces
         Name of the object it was asked for by, or an empty string, and the material.
+    read_at
+        Instruments instead of each material's own.
 
     Returns
     -------
-    One for each surface. A material whose stored data cannot be used says so as its `fault`, and
-    does not hold up the others.
+    One for each surface and instrument, the instruments of a surface together. A material whose
+    stored data cannot be used says so as its `fault`, and does not hold up the others.
+
+    Raises
+    ------
+    DomainError
+        If an instrument is not known.
     """
+    for name in read_at:
+        instruments.find(name)
     space = working_space.current().name
     prepared = []
     for surface, material in surfaces:
-        try:
-            prepared.append(_prepared(surface, material, space))
-        except RoughSpectraError as error:
-            reasons = ("", "", (str(error),))
-            prepared.append(Prepared(surface, material.name, None, *reasons, fault=str(error)))
+        own = material.rough_spectra.read_at or instruments.DEFAULT  # empty in a damaged file
+        for at in read_at or (own,):
+            try:
+                prepared.append(_prepared(surface, material, space, at))
+            except RoughSpectraError as error:
+                reasons = ("", "", (str(error),))
+                fault = Prepared(surface, material.name, None, *reasons, None, str(error), at)
+                prepared.append(fault)
     return prepared
 
 
-def _prepared(surface: str, material: Any, space: str) -> Prepared:
+def _prepared(surface: str, material: Any, space: str, read_at: str) -> Prepared:
     request, warnings, model_reason, shader_reason = None, [], "", ""
     if snapshot.has_spectrum(material):
         request, model_reason = settled.of(material)
@@ -115,10 +131,14 @@ def _prepared(surface: str, material: Any, space: str) -> Prepared:
         elif surface_now is not None and surface_now.bumped:
             warnings.append(_BUMPED)
     promised = _promised(material, request)
-    if promised is not None:
-        warnings.append(_IN_SCENE.format(promised.delta_e_instrument))
+    if promised is not None and request is not None:
+        where = instruments.spoken(request.read_at)
+        warnings.append(_IN_SCENE.format(where, promised.delta_e_instrument))
+    if request is not None and request.read_at != read_at:
+        warnings.append(_ELSEWHERE.format(instruments.spoken(request.read_at)))
+        request = replace(request, read_at=read_at)
     reasons_why = (model_reason, shader_reason, tuple(warnings))
-    return Prepared(surface, material.name, request, *reasons_why, promised)
+    return Prepared(surface, material.name, request, *reasons_why, promised, read_at=read_at)
 
 
 def _promised(material: Any, request: solve.Request | None) -> solution.Solution | None:
@@ -128,7 +148,7 @@ def _promised(material: Any, request: solve.Request | None) -> solution.Solution
     return solve.solve([storage.load(material)], working_space.current())[0]
 
 
-def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
+def compare(prepared: Sequence[Prepared], measured: Array | None, each: int = 1) -> Readings:
     """Predict readings and put the measured ones beside them.
 
     Parameters
@@ -136,8 +156,10 @@ def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
     prepared
         What `prepare` gave.
     measured
-        What `measure.measure` gave for these materials at one geometry, shape (n, 2, 3), or None
-        for predictions alone.
+        What `measure.measure` gave for these materials, each at its `read_at`, shape (n, 2, 3),
+        or None for predictions alone.
+    each
+        How many instruments each surface has.
 
     Returns
     -------
@@ -148,13 +170,14 @@ def compare(prepared: Sequence[Prepared], measured: Array | None) -> Readings:
         _reading(item, None if measured is None else measured[i], space)
         for i, item in enumerate(prepared)
     ]
-    return Readings(space.name, bpy.app.version_string, tuple(entries))
+    return Readings(space.name, bpy.app.version_string, tuple(entries), each=each)
 
 
 def bake(
     surfaces: Sequence[tuple[str, Any]],
     with_measurement: bool = True,
     progress: Callable[[int, int], None] | None = None,
+    read_at: Sequence[str] = (),
 ) -> Readings:
     """Predict the readings of materials and measure them in Cycles.
 
@@ -166,27 +189,67 @@ def bake(
         Whether to render; predictions alone need no second Blender.
     progress
         As in `measure.measure`.
+    read_at
+        As in `prepare`.
 
     Raises
     ------
+    DomainError
+        As in `prepare`.
     OutputError, CancelledError
         As in `measure.measure`.
     """
-    prepared = prepare(surfaces)
+    read_at = tuple(dict.fromkeys(read_at))
+    each = max(1, len(read_at))
+    prepared = prepare(surfaces, read_at)
     if not with_measurement:
-        return compare(prepared, None)
-    distinct, places = distinct_materials(surfaces)
-    return compare(prepared, measure.measure(distinct, progress=progress)[0][places])
+        return compare(prepared, None, each)
+    wanted = plan(surfaces, prepared)
+    return compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
 
 
-def distinct_materials(surfaces: Sequence[tuple[str, Any]]) -> tuple[list[Any], list[int]]:
-    """Give each material once, and for every surface the place of its material."""
-    distinct = list(dict.fromkeys(material for _, material in surfaces))
-    index = {material: i for i, material in enumerate(distinct)}
-    return distinct, [index[material] for _, material in surfaces]
+@dataclass(frozen=True)
+class Plan:
+    """What is to be measured, and whose readings it gives.
+
+    Parameters
+    ----------
+    work
+        Materials, and geometries, each with the places of the materials that it measures.
+    rows
+        Place of the geometry and of the material, for each reading.
+    """
+
+    work: tuple[list[Any], list[arrangement.Arrangement]]
+    rows: tuple[list[int], list[int]]
+
+    def taken(self, values: Array) -> Array:
+        """Give what was measured, (geometries, materials, 2, 3), a reading after the other."""
+        return np.asarray(values[self.rows])
 
 
-def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
+def plan(surfaces: Sequence[tuple[str, Any]], prepared: Sequence[Prepared]) -> Plan:
+    """Measure each material once at each of its instruments; `prepared` are of these surfaces."""
+    each = len(prepared) // max(1, len(surfaces))
+    of_reading = [material for _, material in surfaces for _ in range(each)]
+    materials = {material: i for i, material in enumerate(dict.fromkeys(of_reading))}
+    names = {name: i for i, name in enumerate(dict.fromkeys(item.read_at for item in prepared))}
+    wanted: dict[str, set[int]] = {name: set() for name in names}
+    for material, item in zip(of_reading, prepared, strict=True):
+        wanted[item.read_at].add(materials[material])
+    geometries = [
+        replace(arrangement.of(name), members=tuple(sorted(members)))
+        for name, members in wanted.items()
+    ]
+    return Plan(
+        (list(materials), geometries),
+        ([names[item.read_at] for item in prepared], [materials[m] for m in of_reading]),
+    )
+
+
+def digest(
+    surfaces: Sequence[tuple[str, Any]], with_measurement: bool, read_at: Sequence[str] = ()
+) -> str:
     """Tell bakes apart: by what is read, the spectra and settings stored in it, and its nodes."""
     told = [
         (
@@ -195,7 +258,8 @@ def digest(surfaces: Sequence[tuple[str, Any]], with_measurement: bool) -> str:
         )
         for surface, material in surfaces
     ]
-    return hashlib.sha256(repr((told, with_measurement)).encode()).hexdigest()[:16]
+    whole = (told, with_measurement, tuple(read_at))
+    return hashlib.sha256(repr(whole).encode()).hexdigest()[:16]
 
 
 def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace) -> Reading:
@@ -210,7 +274,8 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         fault, warnings = " ".join(filter(None, (fault, no_number))), (*warnings, no_number)
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
-        lab = scene_match.promised(promised.color, promised.roughness, scene, space)
+        shader = promised.color, promised.roughness
+        lab = scene_match.promised(*shader, scene, space, item.read_at)
         difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, solve.target_reading(request)
@@ -227,6 +292,7 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         shader_reason=item.shader_reason,
         warnings=warnings,
         fault=fault,
+        instrument=item.read_at,
     )
 
 

@@ -19,9 +19,16 @@ import numpy as np
 
 from ...core.numerics.arrays import Array
 from ..blender.background_job import Job
+from .arrangement import Arrangement, Shot, told
 
 SAMPLES = 16
 """Rays a pixel unless told otherwise: with 16 pixels a sample, 256 places on a texture."""
+RAYS = 4096
+"""Those into a glowing hemisphere, over all views; there Cycles estimates."""
+
+
+Colored = tuple[str, str, int, tuple[float, float, float]] | None
+"""Node, side and number of a socket, as `addon.blender.colors` has them, and scene-linear RGB."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +46,11 @@ class Geometry:
     lights: tuple[tuple[float, float], ...]
     view: float
 
+    @property
+    def arrangement(self) -> Arrangement:
+        """Its renders, one a light."""
+        return Arrangement(tuple(Shot(light, self.view) for light in self.lights))
+
 
 RING_45_0 = Geometry(tuple((math.pi / 4, 2 * math.pi * k / 8) for k in range(8)), 0.0)
 """45°a:0°: eight lights around the sample at 45°, view along the normal."""
@@ -55,6 +67,11 @@ class Measurement(Job):
         Where to measure.
     samples
         Rays a pixel. One is exact for an even material; textures and bumps need more.
+    rays
+        Rays a pixel where it is a hemisphere that glows.
+    colors
+        For each material a color to measure it with instead of its own, or None; the material
+        itself is not touched.
 
     Raises
     ------
@@ -69,9 +86,13 @@ class Measurement(Job):
     def __init__(
         self,
         materials: Sequence[Any],
-        geometries: Sequence[Geometry],
+        geometries: Sequence[Geometry | Arrangement],
         samples: int = SAMPLES,
+        rays: int = RAYS,
+        colors: Sequence[Colored] = (),
     ) -> None:
+        arrangements = [g.arrangement if isinstance(g, Geometry) else g for g in geometries]
+
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "materials.blend"
             # Blender leaves linked data out unless local data use it: the worker links it anew.
@@ -83,7 +104,9 @@ class Measurement(Job):
                 "blend": blend.name,
                 "samples": samples,
                 "materials": [[m.name, _library_path(m)] for m in materials],
-                "geometries": [{"lights": g.lights, "view": g.view} for g in geometries],
+                "rays": rays,
+                "geometries": [told(each, len(materials)) for each in arrangements],
+                "colors": list(colors),
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
@@ -94,7 +117,8 @@ class Measurement(Job):
         Returns
         -------
         Shape (geometries, materials, 2, 3): mean and standard deviation over the sample's area of
-        the reflectance factor in scene-linear RGB.
+        the reflectance factor in scene-linear RGB. NaN for materials that are no members of an
+        arrangement.
 
         Raises
         ------
@@ -106,15 +130,16 @@ class Measurement(Job):
 
 def measure(
     materials: Sequence[Any],
-    geometries: Sequence[Geometry] = (RING_45_0,),
+    geometries: Sequence[Geometry | Arrangement] = (RING_45_0,),
     progress: Callable[[int, int], None] | None = None,
     samples: int = SAMPLES,
+    rays: int = RAYS,
 ) -> Array:
     """Measure materials and wait for the result.
 
     Parameters
     ----------
-    materials, geometries, samples
+    materials, geometries, samples, rays
         As in `Measurement`.
     progress
         Called with renders done and renders in all; may raise to stop.
@@ -132,7 +157,7 @@ def measure(
     """
     if not materials:
         return np.empty((len(geometries), 0, 2, 3))
-    measurement = Measurement(materials, geometries, samples)
+    measurement = Measurement(materials, geometries, samples, rays)
     try:
         measurement.wait(progress)
         return measurement.result()

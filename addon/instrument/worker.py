@@ -7,7 +7,8 @@ with the bpy module alike. It gets the path of a job (JSON, written by `measure`
 argument and leaves an array beside it.
 
 Light comes from suns without width and goes to a camera without perspective, so every pixel of a
-flat sample sees one exact geometry, and Cycles has nothing to estimate.
+flat sample sees one exact geometry, and Cycles has nothing to estimate. Only where the hemisphere
+glows, as in a sphere, rays are sent out to see what they meet there.
 
 A reading is the same to the last bit wherever its sample lies and whatever lies beside it, so that
 a bake in parts gives what a bake in one go gives. Three things see to that:
@@ -39,6 +40,8 @@ PIXELS = 6
 PIXELS_PER_UNIT = 4
 """The ring lies around the sample's square of one unit; a pixel has to be a binary fraction."""
 COLUMNS = 32
+MAP_RESOLUTION = 512
+"""Pixels around the horizon in which Cycles looks for a window that glows."""
 SAMPLES_PER_RENDER = COLUMNS**2
 FIRST_PIXEL = 256
 """Where the samples begin in the picture. They end before twice that: single precision then keeps
@@ -68,22 +71,36 @@ def main(job_path: Path) -> None:
     end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     materials = [find(*key) for key in job["materials"]]
-    parts = batches(materials)
-    total, done = len(parts) * len(job["geometries"]), 0
-    result = np.empty((len(job["geometries"]), len(materials), 2, 3))
-    for part in parts:
+    if job["colors"]:
+        pairs = zip(materials, job["colors"], strict=True)
+        materials = [colored(material, color) for material, color in pairs]
+    work = [
+        (part, alike)
+        for members, alike in together(job["geometries"])
+        for part in batches(materials, members)
+    ]
+    total, done = sum(len(alike) for _, alike in work), 0
+    result = np.full((len(job["geometries"]), len(materials), 2, 3), np.nan)
+    for part, alike in work:
         scene, stretch = build([materials[i] for i in part])
-        for number, geometry in enumerate(job["geometries"]):
-            aim(scene, stretch, geometry["view"])
-            how = (geometry, job["samples"], len(part))
-            result[number, part] = measure(scene, folder / "render.exr", *how)
+        for number in alike:
+            how = (job["geometries"][number]["shots"], job["samples"], job["rays"], len(part))
+            result[number, part] = measure(scene, stretch, folder / "render.exr", *how)
             done += 1
             report(folder, done, total)
             end_if_orphaned(job["asked_by"], folder)
     np.save(folder / "result.npy", result)
 
 
-def batches(materials: list[Any]) -> list[list[int]]:
+def together(geometries: list[dict[str, Any]]) -> list[tuple[list[int], list[int]]]:
+    """Put geometries together that measure the same materials: these, and the geometries."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for number, geometry in enumerate(geometries):
+        found.setdefault(tuple(geometry["members"]), []).append(number)
+    return [(list(members), alike) for members, alike in found.items()]
+
+
+def batches(materials: list[Any], members: list[int]) -> list[list[int]]:
     """Divide materials, by their numbers, among pictures.
 
     What asks for its place gets a picture of its own, and so does a second material of one name,
@@ -92,7 +109,8 @@ def batches(materials: list[Any]) -> list[list[int]]:
     together: list[int] = []
     alone: list[list[int]] = []
     names: set[str] = set()
-    for number, material in enumerate(materials):
+    for number in members:
+        material = materials[number]
         if material.name in names or asks_place(material.node_tree, set()):
             alone.append([number])
         else:
@@ -141,6 +159,17 @@ def find(name: str, library: str | None) -> Any:
     if wanted.materials[0] is None:
         raise LibraryError(f"{library} has no material {name!r} any more")
     return wanted.materials[0]
+
+
+def colored(material: Any, color: tuple[str, str, int, list[float]] | None) -> Any:
+    """Give a copy of a material that has another color at a socket; without a color, itself."""
+    if color is None:
+        return material
+    node, side, number, rgb = color
+    copied = material.copy()
+    socket = getattr(copied.node_tree.nodes[node], side)[number]
+    socket.default_value = (*rgb, socket.default_value[3])
+    return copied
 
 
 def round_alike(tree: Any, seen: set[Any]) -> None:
@@ -207,7 +236,6 @@ def build(materials: list[Any]) -> tuple[Any, Any]:
     settings.border_max_x = 0.5 + columns * PIXELS / (2 * FIRST_PIXEL)
     settings.border_max_y = 0.5 + rows * PIXELS / (2 * FIRST_PIXEL)
     cycles = scene.cycles
-    cycles.samples = 1  # the first ray meets a pixel's middle, to 1/2048
     # Pixels usually get random numbers of their own; at a distance of 0 all get the same ones.
     cycles.auto_scrambling_distance, cycles.scrambling_distance = False, 0.0
     cycles.max_bounces = 0
@@ -251,55 +279,167 @@ def square() -> Any:
     return mesh
 
 
-def aim(scene: Any, stretch: Any, view: float) -> None:
-    """Set the view; samples are stretched by as much as it foreshortens them."""
+def aim(scene: Any, stretch: Any, view: float, quarter: int) -> None:
+    """Set the view; samples are stretched by as much as it foreshortens them.
+
+    A view from another quarter is that of a camera which does not roll: up stays up as far as it
+    can, and the samples lie in the picture as ever.
+    """
     # Far enough for the far end of the stretched samples; a power of two for a view from above.
     scene.camera.data.clip_end = 8 * COLUMNS * (1 + math.tan(view))
-    scene.camera.rotation_euler = (0, view, 0)
-    stretch.scale = (1 / math.cos(view), 1, 1)
+    turned = ((0, view, 0), (-view, 0, 0), (0, -view, 0), (view, 0, 0))
+    scene.camera.rotation_euler = turned[quarter]
+    long = 1 / math.cos(view)
+    stretch.scale = (1, long, 1) if quarter % 2 else (long, 1, 1)
 
 
-def passes(lights: list[list[float]], samples: int) -> Iterator[tuple[list[float], float, float]]:
-    """Give a light and a place within all pixels, from 0 to 1, for each ray that a pixel gets.
+def passes(
+    shots: list[dict[str, Any]], samples: int
+) -> Iterator[tuple[dict[str, Any], float, float]]:
+    """Give a shot and a place within all pixels, from 0 to 1, for each ray that a pixel gets.
 
-    Every light has as many rays as the others. Cycles would pick one by chance for each ray, and
-    the chance would have to be another in each pixel, or all would miss the same lights. Places
-    are Hammersley's: their mean is the middle.
+    Every light and view has as many rays as the others. Cycles would pick one by chance for each
+    ray, and the chance would have to be another in each pixel, or all would miss the same lights.
+    Places are Hammersley's: their mean is the middle.
     """
-    count = len(lights) * max(1, round(samples / len(lights)))
+    count = len(shots) * max(1, round(samples / len(shots)))
     digits = max(1, (count - 1).bit_length())
     for number in range(count):
         mirrored = int(f"{number:0{digits}b}"[::-1], 2)
-        yield lights[number % len(lights)], (number + 0.5) / count, (mirrored + 0.5) / 2**digits
+        yield shots[number % len(shots)], (number + 0.5) / count, (mirrored + 0.5) / 2**digits
 
 
-def expose(scene: Any, sun: Any, light: list[float], x: float, y: float) -> None:
-    """Turn the sun to a light's direction, and move the camera to a place within pixels."""
-    theta, phi = light
-    # The irradiance is π, so the radiance is the reflectance factor.
-    sun.data.energy = math.pi / math.cos(theta)
-    sun.rotation_euler = (0, theta, phi)
+def light(scene: Any, sun: Any, shot: dict[str, Any]) -> None:
+    """Turn the sun to a light's direction, or let the hemisphere glow."""
+    if "glow" in shot:
+        glow(scene, shot["glow"])
+    elif scene.world is not None:
+        scene.world = None
+    sun.hide_render = "sun" not in shot
+    if "sun" in shot:
+        theta, phi = shot["sun"]
+        # The irradiance is π, so the radiance is the reflectance factor.
+        sun.data.energy = math.pi / math.cos(theta)
+        sun.rotation_euler = (0, theta, phi)
+
+
+def glow(scene: Any, what: dict[str, Any]) -> None:
+    """Make a world whose upper half glows, but for a trap, or in a window alone.
+
+    An even one is best met by rays that go where the material sends most. To a small window they
+    are sent on purpose as well. The world stays where it is the same as before: Cycles then has
+    nothing to look at again.
+    """
+    told = json.dumps(what)
+    before = scene.world
+    if before is not None and before.get("told") == told:
+        return
+    world = bpy.data.worlds.new("Hemisphere")
+    if world.node_tree is None:
+        world.use_nodes = True
+    tree = world.node_tree
+    tree.nodes.clear()
+    toward = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
+    shines = above(tree, dot(tree, toward, [0, 0, 1]), 0.0)
+    for name in ("window", "trap"):
+        if what[name] is not None:
+            within = inside(tree, toward, what[name])
+            if name == "trap":
+                within = math_node(tree, "SUBTRACT", 1.0, within)
+            shines = math_node(tree, "MULTIPLY", shines, within)
+    background = tree.nodes.new("ShaderNodeBackground")
+    background.inputs["Color"].default_value = (1, 1, 1, 1)
+    tree.links.new(
+        math_node(tree, "MULTIPLY", shines, what["strength"]), background.inputs["Strength"]
+    )
+    output = tree.nodes.new("ShaderNodeOutputWorld")
+    tree.links.new(background.outputs[0], output.inputs["Surface"])
+    world.cycles.sampling_method = "NONE" if what["window"] is None else "MANUAL"
+    world.cycles.sample_map_resolution = MAP_RESOLUTION
+    world["told"] = told
+    scene.world = world
+    if before is not None:
+        bpy.data.worlds.remove(before)
+
+
+def inside(tree: Any, toward: Any, window: dict[str, Any]) -> Any:
+    """1 where a direction lies in a window, else 0."""
+    ahead, *sides = (dot(tree, toward, axis) for axis in window["axes"])
+    if window["cosine"] is not None:
+        return above(tree, ahead, window["cosine"])
+    within = above(tree, ahead, 0.0)
+    for side, tangent in zip(sides, window["tangents"], strict=True):
+        reach = math_node(tree, "MULTIPLY", ahead, tangent)
+        free = math_node(tree, "SUBTRACT", reach, math_node(tree, "ABSOLUTE", side))
+        within = math_node(tree, "MULTIPLY", within, above(tree, free, 0.0))
+    return within
+
+
+def above(tree: Any, value: Any, bound: float) -> Any:
+    """1 where a value is greater than a bound, else 0."""
+    return math_node(tree, "GREATER_THAN", value, bound)
+
+
+def dot(tree: Any, vector: Any, axis: list[float]) -> Any:
+    """Component of a direction along an axis."""
+    node = tree.nodes.new("ShaderNodeVectorMath")
+    node.operation = "DOT_PRODUCT"
+    tree.links.new(vector, node.inputs[0])
+    node.inputs[1].default_value = axis
+    return node.outputs["Value"]
+
+
+def math_node(tree: Any, operation: str, *values: Any) -> Any:
+    """Output of a Math node; each value is a number or another node's output."""
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation = operation
+    for value, socket in zip(values, node.inputs, strict=False):
+        if isinstance(value, (int, float)):
+            socket.default_value = value
+        else:
+            tree.links.new(value, socket)
+    return node.outputs[0]
+
+
+def place(scene: Any, shot: dict[str, Any], x: float, y: float) -> None:
+    """Move the camera to a place within pixels, from 0 to 1."""
     # The middle of the whole picture lies half a sample below the middle of the first one.
     aside, up = (place - 0.5 - PIXELS / 2 for place in (x, y))
     aside, up = aside / PIXELS_PER_UNIT, up / PIXELS_PER_UNIT
-    view = scene.camera.rotation_euler[1]
+    view, quarter = shot["view"], shot["quarter"]
     distance = scene.camera.data.clip_end / 4
-    scene.camera.location = (
-        distance * math.sin(view) + aside * math.cos(view),
-        up,
-        distance * math.cos(view) - aside * math.sin(view),
-    )
+    # Along the tilt of the view, and at right angles to it.
+    sign = -1 if quarter in (2, 3) else 1
+    tilted, level = (up, aside) if quarter % 2 else (aside, up)
+    ahead = distance * sign * math.sin(view) + tilted * math.cos(view)
+    height = distance * math.cos(view) - sign * tilted * math.sin(view)
+    scene.camera.location = (level, ahead, height) if quarter % 2 else (ahead, level, height)
 
 
-def measure(scene: Any, path: Path, geometry: dict[str, Any], samples: int, count: int) -> Any:
+def measure(
+    scene: Any,
+    stretch: Any,
+    path: Path,
+    shots: list[dict[str, Any]],
+    samples: int,
+    rays: int,
+    count: int,
+) -> Any:
     """Measure all samples in one geometry, shape (samples, 2, 3): mean and standard deviation."""
     (sun,) = (thing for thing in scene.objects if thing.type == "LIGHT")
-    pictures = []
-    for number, (light, x, y) in enumerate(passes(geometry["lights"], samples)):
+    pictures, weights = [], []
+    # Rays into a glowing hemisphere spread over the pixel by themselves.
+    renders = list(passes(shots, 1 if "glow" in shots[0] else samples))
+    for number, (shot, x, y) in enumerate(renders):
         scene.cycles.seed = number
-        expose(scene, sun, light, x, y)
+        # The first ray meets a pixel's middle, to 1/2048.
+        scene.cycles.samples = max(1, rays // len(renders)) if "glow" in shot else 1
+        aim(scene, stretch, shot["view"], shot["quarter"])
+        light(scene, sun, shot)
+        place(scene, shot, *((x, y) if "sun" in shot else (0.5, 0.5)))
         pictures.append(render(scene, path))
-    pixels = np.mean(pictures, axis=0)
+        weights.append(shot["weight"])
+    pixels = np.average(pictures, axis=0, weights=weights)
     rows, columns = pixels.shape[0] // PIXELS, pixels.shape[1] // PIXELS
     tiles = pixels.reshape(rows, PIXELS, columns, PIXELS, 3)[:, 1:-1, :, 1:-1]
     # Each sample's pixels in a row of their own: numpy then adds them up in one order, whatever

@@ -14,7 +14,7 @@ from ...core.numerics.arrays import Array
 from ..colorimetry.rgb_space import WorkingSpace
 from . import scene_match, solve
 from .scene_view import SceneView
-from .solve import MATCH_GEOMETRIES, VIRTUAL, Request
+from .solve import MATCH_GEOMETRIES, Request
 
 Differences = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
@@ -38,7 +38,7 @@ def differences(
     """
     (seen, albedo), (color, roughness) = spectra, shader
     bands = request.sample.wavelengths
-    at_instrument = instrument_lobe.reflectance(color, roughness, VIRTUAL)
+    at_instrument = instrument_lobe.reflectance(color, roughness, request.read_at)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
         wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)

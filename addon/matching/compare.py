@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core import interreflection
+from ...core import instruments, interreflection
 from ...core.color import chromaticity, color_difference
 from ...core.errors import DomainError
 from ...core.models import TARGET
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
 from . import solve, surface_spectra
-from .request import AUTO, VIRTUAL, Request
+from .request import AUTO, Request
 
 Lab = tuple[float, float, float]
 
@@ -61,14 +61,15 @@ class Comparison:
     Attributes
     ----------
     measured
-        Between the readings at 45°/0°: as printed where that is what was measured, else predicted.
+        Between the readings at one instrument: as printed where that is what was measured, else
+        predicted.
     albedos
         Between the albedos: the same surfaces without their roughness.
     roughness
         For each of the two, from its albedo to its reading: what its roughness does to the color.
     interreflection
         For each of the two, the share of its reading's luminance that met more than one facet.
-    model, illuminant, observer
+    model, illuminant, observer, read_at
         What it was computed with.
     warnings
         What to know of the two, sentences.
@@ -82,6 +83,7 @@ class Comparison:
     illuminant: str
     observer: int
     warnings: tuple[str, ...]
+    read_at: str = instruments.DEFAULT
 
 
 def compare(first: Request, second: Request) -> Comparison:
@@ -90,8 +92,9 @@ def compare(first: Request, second: Request) -> Comparison:
     Parameters
     ----------
     first, second
-        With the same model, illuminant and observer; the wavelengths may differ. "auto" stands for
-        `core.models.TARGET`: where one is rougher, the bounces must be the same.
+        With the same model, illuminant, observer and virtual instrument; the wavelengths may
+        differ. "auto" stands for `core.models.TARGET`: where one is rougher, the bounces must be
+        the same.
 
     Raises
     ------
@@ -100,10 +103,13 @@ def compare(first: Request, second: Request) -> Comparison:
     """
     pair = [_settled(request) for request in (first, second)]
     one, other = pair
-    for label in ("model", "illuminant", "observer"):
-        if getattr(one, label) != getattr(other, label):
+    for label, name in (
+        *(("model", "model"), ("illuminant", "illuminant")),
+        *(("observer", "observer"), ("virtual instrument", "read_at")),
+    ):
+        if getattr(one, name) != getattr(other, name):
             msg = (
-                f"The {label} is {getattr(one, label)} of one and {getattr(other, label)} of the "
+                f"The {label} is {getattr(one, name)} of one and {getattr(other, name)} of the "
                 "other sample; compare them with the same."
             )
             raise DomainError(msg)
@@ -119,7 +125,7 @@ def compare(first: Request, second: Request) -> Comparison:
         # Beyond white facets the models say nothing; the albedo is in proportion there.
         shares.append(
             interreflection.overall_share(
-                np.minimum(rho, 1), request.sigma, weights[:, 1], request.model, VIRTUAL
+                np.minimum(rho, 1), request.sigma, weights[:, 1], request.model, request.read_at
             )
         )
         warnings += [f"{sample.name}: {sentence}" for sentence in solve.remarks(request)]
@@ -132,6 +138,7 @@ def compare(first: Request, second: Request) -> Comparison:
         model=one.model,
         illuminant=one.illuminant,
         observer=one.observer,
+        read_at=one.read_at,
         warnings=tuple(warnings),
     )
 

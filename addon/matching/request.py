@@ -7,15 +7,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...core import limits
+from ...core import instruments, limits
 from ...core.errors import DomainError
 from ...core.models import NAMES
 from ..colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 from ..samples.sample import Sample
 from .scene_view import SceneView
-
-VIRTUAL = "45a:0"
-"""Instrument that materials are matched and measured with, whichever gave the reading."""
 
 AUTO = "auto"
 """Model of a request that asks for none: `core.models.TARGET`."""
@@ -46,6 +43,10 @@ class Request:
         engine: without one, a material is always made for Cycles.
     tolerance
         Largest ΔE00 that "auto" accepts for the sake of a shader without roughness.
+    read_at
+        Virtual instrument that the material is to read right at, one of
+        `core.instruments.REGISTRY`. `sample.instrument` is the real one that the sample was
+        measured with.
 
     Raises
     ------
@@ -62,6 +63,7 @@ class Request:
     scene: SceneView | None = None
     flat: bool = False
     tolerance: float = limits.TOLERANCE
+    read_at: str = instruments.DEFAULT
 
     def __post_init__(self) -> None:
         """Refuse what would spread through every color, or stop the writing of many materials."""
@@ -93,6 +95,7 @@ class Request:
             ("model", self.model, (AUTO, *NAMES)),
             ("illuminant", self.illuminant, ILLUMINANTS),
             ("observer", self.observer, OBSERVERS),
+            ("virtual instrument", self.read_at, tuple(instruments.REGISTRY)),
         ):
             if name not in known:
                 choices = ", ".join(map(str, known))

@@ -4,7 +4,7 @@
 
 The color seen in each of the scene's directions, under the light that comes from there, is to be
 the spectrum's; color and roughness are chosen for the least mean ΔE00 over all of them. A reading
-at 45°/0° is then no longer met by itself: what the material reads there follows.
+at the instrument is then no longer met by itself: what the material reads there follows.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import cycles, ladder, reading
+from ...core import cycles, instruments, ladder
 from ...core.color import color_difference
 from ...core.cycles import (
     derivatives,
@@ -26,7 +26,6 @@ from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..colorimetry.perceptibility import SIDE_BY_SIDE
 from ..colorimetry.rgb_space import WorkingSpace, matrix_of
-from .request import VIRTUAL
 from .scene_view import SceneLight, SceneView
 
 _ELSEWHERE = 12
@@ -58,7 +57,7 @@ class Match:
     over_scene
         ΔE00 in each of the view's places, shape (places,).
     instrument
-        ΔE00 at 45°/0° under each of the view's lights, shape (lights,).
+        ΔE00 at the instrument under each of the view's lights, shape (lights,).
     """
 
     color: Array
@@ -75,6 +74,7 @@ def match(
     sigma: float,
     bands: Array,
     space: WorkingSpace,
+    read_at: str = instruments.DEFAULT,
 ) -> tuple[Match, Match, Array]:
     """Match one material, with roughness and without.
 
@@ -92,19 +92,22 @@ def match(
         Wavelengths, nanometers, shape (bands,).
     space
         The working space.
+    read_at
+        The virtual instrument.
 
     Returns
     -------
     rough, lambert, target
-        The two materials, and the reading at 45°/0° as RGB, unclipped: the mean over the lights.
+        The two materials, and the reading at the instrument as RGB, unclipped: the mean over the
+        lights.
     """
-    places = _places(view, bands.tobytes(), space.key)
+    places = _places(view, bands.tobytes(), space.key, read_at)
     wanted = places.relative(_reflected(albedo, model, sigma, places), read)
     mean, target = (places.to_means @ wanted.ravel()).reshape(2, 3)
     roots, _ = color_difference.roots(wanted)
     lab = color_difference.roots_to_lab(roots)
     color = np.clip(
-        matching.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, VIRTUAL), 0, 1
+        matching.color_for_reading(np.clip(mean, 1e-4, 1)[np.newaxis], _STARTS, read_at), 0, 1
     )
     starts = [[*own, start] for own, start in zip(color.tolist(), _STARTS, strict=True)]
     found = least_mean_fit.fit(places.distance_to(roots, lab), places.weights, starts, _FREE)
@@ -126,10 +129,11 @@ def differences(
     sigma: float,
     bands: Array,
     space: WorkingSpace,
+    read_at: str = instruments.DEFAULT,
 ) -> Array:
     """ΔE00 of a given color and roughness in each of the view's places; see `match`."""
     cycles.check_roughness(np.asarray(shader[1]))
-    places = _places(view, bands.tobytes(), space.key)
+    places = _places(view, bands.tobytes(), space.key, read_at)
     wanted = places.relative(_reflected(albedo, model, sigma, places))
     seen = places.perceive([[*shader[0].tolist(), shader[1]]])
     lab = color_difference.roots_to_lab(color_difference.roots(wanted)[0])
@@ -210,9 +214,11 @@ def gamut(name: str, target: Array, space: WorkingSpace) -> str:
     )
 
 
-def promised(color: Array, roughness: float, view: SceneView, space: WorkingSpace) -> Array:
-    """Lab at 45°/0° of a shader under the view's main light, shape (3,)."""
-    seen = instrument_lobe.reflectance(color, roughness, VIRTUAL)
+def promised(
+    color: Array, roughness: float, view: SceneView, space: WorkingSpace, read_at: str
+) -> Array:
+    """Lab at an instrument of a shader under the view's main light, shape (3,)."""
+    seen = instrument_lobe.reflectance(color, roughness, read_at)
     return to_lab(seen, view.lights[0], space)
 
 
@@ -242,7 +248,7 @@ class _ShadingPoints:
     """Where materials are looked at in a scene, and all of it that no material changes.
 
     First come the places of the view and, with little weight, one for each of some directions all
-    around: these are searched. Last comes 45°/0° under each of the lights.
+    around: these are searched. Last comes the instrument under each of the lights.
 
     Parameters
     ----------
@@ -263,7 +269,7 @@ class _ShadingPoints:
         place and X, Y or Z: shape (3 places, 9).
     to_means
         From XYZ relative to white to two means of RGB, by mean and channel: over what is searched,
-        and over the lights at 45°/0°. Shape (6, 3 places).
+        and over the lights at the instrument. Shape (6, 3 places).
     """
 
     angles: Array
@@ -316,14 +322,16 @@ class _ShadingPoints:
 
 
 @memoized(maxsize=_KEPT)
-def _places(view: SceneView, bands: bytes, key: bytes) -> _ShadingPoints:
-    """Make them, for the bytes of wavelengths and a working space's key."""
+def _places(view: SceneView, bands: bytes, key: bytes, read_at: str) -> _ShadingPoints:
+    """Make them, for the bytes of wavelengths, a working space's key and an instrument."""
     matrix, wavelengths = matrix_of(key), np.frombuffer(bands)
     angles, lights, mixing = _ways(view)
     white = np.stack([light.white for light in view.lights])[lights]
     rgb = light_rgb(white, matrix)
     whites = mixing @ white
-    functions = derivatives.functions(*angles).T
+    at = instrument_lobe.mean_direction(read_at, angles.dtype)
+    instrument = derivatives.of_directions(*(np.full(len(view.lights), each) for each in at))
+    functions = np.concatenate((derivatives.functions(*angles), instrument), axis=1).T
     mixed = mixing @ (rgb[..., np.newaxis] * functions[:, np.newaxis]).reshape(-1, 9)
     to_xyz = np.linalg.inv(matrix).T / whites[:, np.newaxis]
 
@@ -335,7 +343,7 @@ def _places(view: SceneView, bands: bytes, key: bytes) -> _ShadingPoints:
     means[0, :searched], means[1, searched:] = weights, share / share.sum()
     to_ratio = _to_ratio(matrix, mixing @ rgb) * whites[:, np.newaxis]
     return _ShadingPoints(
-        angles=angles[:, :ways],
+        angles=angles,
         weights=weights,
         colors=np.concatenate([light.weights(wavelengths) for light in view.lights], axis=1),
         own=np.arange(ways) * len(view.lights) + lights[:ways],
@@ -352,14 +360,11 @@ def _ways(view: SceneView) -> tuple[Array, Array, Array]:
     Returns
     -------
     angles, lights, mixing
-        θi, θr and Δφ, shape (3, ways); index of the light, shape (ways,); and the part of each way
-        in the light of each place, shape (places, ways).
+        θi, θr and Δφ of what is searched, shape (3, searched ways); index of the light, shape
+        (ways,); and the part of each way in the light of each place, shape (places, ways).
     """
     count = len(view.lights)
-    instrument = np.repeat(np.array(reading.INSTRUMENT_ANGLES[VIRTUAL])[:, np.newaxis], count, 1)
-    angles = np.concatenate(
-        (view.angles, direction_grid.hemisphere(_ELSEWHERE), instrument), axis=1
-    )
+    angles = np.concatenate((view.angles, direction_grid.hemisphere(_ELSEWHERE)), axis=1)
     elsewhere = np.zeros(_ELSEWHERE, int)
     lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
     # Beyond the view each way has a place of its own.

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core import cycles, ladder, reading
+from ...core import cycles, instruments, ladder, reading
 from ...core.choice import choose_shader
 from ...core.color import color_difference
-from ...core.cycles import matching
+from ...core.cycles import instrument_lobe, matching
 from ...core.models import TARGET
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
@@ -23,11 +23,7 @@ from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
 from ..samples import quality
 from . import scene_match, surface_spectra
-from .request import (
-    AUTO,
-    VIRTUAL,
-    Request,
-)
+from .request import AUTO, Request
 from .scene_view import SceneView
 from .solution import Solution
 
@@ -36,7 +32,6 @@ __all__ = [
     "AUTO",
     "BY_DEFAULT",
     "MATCH_GEOMETRIES",
-    "VIRTUAL",
     "Request",
     "differences",
     "remarks",
@@ -94,16 +89,21 @@ def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
         if request.scene is not None:
             solutions[i] = _solve_in_scene(request, reason, request.scene, space)
     open_ones = [i for i, solution in enumerate(solutions) if solution is None]
-    for illuminant in sorted({requests[i].illuminant for i in open_ones}):
-        members = [i for i in open_ones if requests[i].illuminant == illuminant]
-        of_light = _solve([settled[i] for i in members], space, illuminant)
-        for i, solution in zip(members, of_light, strict=True):
+    for under in sorted({_under(requests[i]) for i in open_ones}):
+        members = [i for i in open_ones if _under(requests[i]) == under]
+        alike = _solve([settled[i] for i in members], space, *under)
+        for i, solution in zip(members, alike, strict=True):
             solutions[i] = solution
     return [solution for solution in solutions if solution is not None]
 
 
+def _under(request: Request) -> tuple[str, str]:
+    """Give what has to be the same of all materials that are matched in one go."""
+    return request.illuminant, request.read_at
+
+
 def _solve(
-    settled: list[tuple[Request, str]], space: WorkingSpace, illuminant: str
+    settled: list[tuple[Request, str]], space: WorkingSpace, illuminant: str, read_at: str
 ) -> list[Solution]:
     requests = [request for request, _ in settled]
     geometries = direction_grid.hemisphere(MATCH_GEOMETRIES)
@@ -112,12 +112,13 @@ def _solve(
     def perceive(rgb: Array) -> Array:
         return space.to_lab(rgb, illuminant)
 
-    matched, roughness = matching.match(readings, targets, geometries, perceive, VIRTUAL)
+    matched, roughness = matching.match(readings, targets, geometries, perceive, read_at)
     color, smooth = np.clip(matched, 0.0, 1.0), np.clip(readings, 0.0, 1.0)
     # The instrument comes last. Both materials in one call, which is most of what they cost.
-    everywhere = _everywhere(MATCH_GEOMETRIES)
+    everywhere = instrument_lobe.with_directions(geometries, read_at)
     wanted = perceive(np.concatenate((targets, readings[:, np.newaxis]), axis=1))
-    rough = cycles.reflectance(color[:, np.newaxis], roughness[:, np.newaxis], *everywhere)
+    terms = cycles.lobe(roughness[:, np.newaxis], *everywhere)
+    rough = cycles.reflected(color[:, np.newaxis], terms)
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
     apart = color_difference.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
@@ -161,8 +162,8 @@ def differences(
     """ΔE00 of a shader's color and roughness in each of a scene's places."""
     [(settled, _)] = settle([replace(request, scene=view)])
     [albedo] = surface_spectra.albedos([settled], settled.model)
-    bands, shader = settled.sample.wavelengths, (color, roughness)
-    return scene_match.differences(view, shader, albedo, settled.model, settled.sigma, bands, space)
+    what = (albedo, settled.model, settled.sigma, settled.sample.wavelengths)
+    return scene_match.differences(view, (color, roughness), *what, space, settled.read_at)
 
 
 def remarks(request: Request) -> tuple[str, ...]:
@@ -183,7 +184,14 @@ def _solve_in_scene(
         tristimulus.weights(sample.wavelengths)
     [read], [albedo] = surface_spectra.readings_and_albedos([request])
     rough, lambert, target = scene_match.match(
-        view, albedo, read, request.model, request.sigma, sample.wavelengths, space
+        view,
+        albedo,
+        read,
+        request.model,
+        request.sigma,
+        sample.wavelengths,
+        space,
+        request.read_at,
     )
     taken, shader_reason = rough, _ROUGH
     if request.flat:
@@ -247,18 +255,6 @@ def _percentile(values: Array, share: float) -> Array:
     return np.asarray(low + (high - low) * (place - below))
 
 
-def _everywhere(count: int) -> tuple[Array, Array, Array]:
-    """Give directions all over the hemisphere, and the virtual instrument's."""
-    return _with_instrument(direction_grid.hemisphere(count))
-
-
-def _with_instrument(geometries: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-    """Add the virtual instrument's direction at the end."""
-    instrument = reading.INSTRUMENT_ANGLES[VIRTUAL]
-    light, view, azimuth = np.concatenate((geometries, np.reshape(instrument, (3, 1))), axis=1)
-    return light, view, azimuth
-
-
 def _warnings(
     request: Request, space: WorkingSpace, color: Array, missed: float
 ) -> tuple[str, ...]:
@@ -287,7 +283,7 @@ def _infeasible(request: Request) -> str:
     if value <= limit * (1 + _ENOUGH):
         return ""
     bound = ""
-    if request.model == "two-bounce" and sample.instrument == VIRTUAL:
+    if request.model == "two-bounce" and sample.instrument == instruments.DEFAULT:
         bound = f", and at most {np.degrees(reading.sigma_max(value)):.1f}° would fit"
     return (
         f"{sample.name!r} reads {value:.3f} at {sample.wavelengths[peak]:g} nm, but white facets "

@@ -14,7 +14,7 @@ from ...core.errors import DomainError
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..samples.sample import Sample
-from .request import VIRTUAL, Request
+from .request import Request
 
 
 def readings_and_albedos(requests: list[Request]) -> tuple[Array, Array]:
@@ -44,7 +44,10 @@ def _of_all(requests: list[Request]) -> tuple[Array, Array]:
         return rho, rho
     sigma = np.array([request.sigma for request in requests])
     seen = [i for i, request in enumerate(requests) if _as_printed(request)]
-    predicted = rho.copy() if len(seen) == len(requests) else _from_albedo(rho, sigma, model)
+    read_at = requests[0].read_at
+    predicted = rho.copy()
+    if len(seen) < len(requests):
+        predicted = _from_albedo(rho, sigma, model, read_at)
     for i in seen:
         predicted[i] = requests[i].sample.reflectance
     return predicted, rho
@@ -97,7 +100,7 @@ def _quick(model: str) -> str:
 
 def _as_printed(request: Request) -> bool:
     """Whether the measured values themselves are what the virtual instrument has to read."""
-    return request.sample.kind == "reading" and request.sample.instrument == VIRTUAL
+    return request.sample.kind == "reading" and request.sample.instrument == request.read_at
 
 
 def albedos(requests: list[Request], model: str) -> Array:
@@ -122,18 +125,19 @@ def _to_albedo(values: Array, sigma: Array, model: str, instrument: str) -> Arra
     return np.asarray(rho * np.maximum(values / white, 1))
 
 
-def _from_albedo(rho: Array, sigma: Array, model: str) -> Array:
+def _from_albedo(rho: Array, sigma: Array, model: str, read_at: str) -> Array:
     """Predict the virtual instrument's readings; beyond 1 in proportion, as `_to_albedo`."""
-    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, VIRTUAL)
+    seen = reading.from_albedo(np.minimum(rho, 1), sigma, model, read_at)
     return np.asarray(seen * np.maximum(rho, 1))
 
 
 def alike(requests: Sequence[Request]) -> list[list[int]]:
-    """Group requests that share wavelengths, light, model and instrument: their matrices."""
+    """Group requests that share wavelengths, light, model and instruments: their matrices."""
     groups: dict[tuple[object, ...], list[int]] = {}
     for i, request in enumerate(requests):
         sample, light = request.sample, request.scene or request.illuminant
-        key = (sample.wavelengths.tobytes(), light, request.model, sample.instrument)
+        bands, read_at = sample.wavelengths.tobytes(), request.read_at
+        key = (bands, light, request.model, sample.instrument, read_at)
         groups.setdefault(key, []).append(i)
     return list(groups.values())
 

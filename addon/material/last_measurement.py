@@ -13,6 +13,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from ...core.instruments import DEFAULT, REGISTRY
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from . import snapshot
@@ -26,7 +27,7 @@ class LastMeasurement:
     Parameters
     ----------
     rgb
-        Reading at 45°/0° in scene-linear RGB of the working space then.
+        Reading in scene-linear RGB of the working space then.
     delta_e
         ΔE00 from the prediction; None where the material stores no spectrum.
     current
@@ -34,12 +35,15 @@ class LastMeasurement:
     predicted
         ΔE00 that was predicted of it then, with the target of its settings then; None where there
         is no prediction, and in older files.
+    instrument
+        The virtual one that read it.
     """
 
     rgb: tuple[float, float, float]
     delta_e: float | None
     current: bool
     predicted: float | None = None
+    instrument: str = DEFAULT
 
 
 def fingerprint(material: Any) -> str:
@@ -74,6 +78,7 @@ def note(
     rgb: tuple[float, float, float],
     delta_e: float | None,
     predicted: float | None = None,
+    instrument: str = DEFAULT,
 ) -> None:
     """Keep a measurement with its material.
 
@@ -83,10 +88,17 @@ def note(
         A `bpy.types.Material` that is not linked.
     of
         Its `fingerprint` when the measurement began.
-    rgb, delta_e, predicted
+    rgb, delta_e, predicted, instrument
         As in `LastMeasurement`.
     """
-    told = {"of": of, "rgb": rgb, "delta_e_00": delta_e, "predicted_delta_e_00": predicted}
+    told: dict[str, Any] = {
+        "of": of,
+        "rgb": rgb,
+        "delta_e_00": delta_e,
+        "predicted_delta_e_00": predicted,
+    }
+    if instrument != DEFAULT:
+        told["instrument"] = instrument
     material.rough_spectra.measured = json.dumps(told)
 
 
@@ -98,15 +110,17 @@ def get(material: Any, known: Snapshot | None = None) -> LastMeasurement | None:
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
-    of, rgb, delta_e, predicted = found
+    of, rgb, delta_e, predicted, instrument = found
     current = of == _fingerprint(known or snapshot.of(material))
-    return LastMeasurement(rgb, delta_e, current, predicted)
+    return LastMeasurement(rgb, delta_e, current, predicted, instrument)
+
+
+_Note = tuple[str, tuple[float, float, float], float | None, float | None, str]
+"""Fingerprint, RGB, both ΔE00 and the instrument."""
 
 
 @memoized(maxsize=64)
-def _parsed(
-    text: str,
-) -> tuple[str, tuple[float, float, float], float | None, float | None] | None:
+def _parsed(text: str) -> _Note | None:
     try:
         data = json.loads(text)
         red, green, blue = map(float, data["rgb"])
@@ -116,6 +130,9 @@ def _parsed(
         )
         if not all(map(math.isfinite, (red, green, blue, delta_e or 0.0, predicted or 0.0))):
             return None
-        return str(data["of"]), (red, green, blue), delta_e, predicted
+        instrument = str(data.get("instrument", DEFAULT))
+        if instrument not in REGISTRY:
+            return None
+        return str(data["of"]), (red, green, blue), delta_e, predicted, instrument
     except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         return None

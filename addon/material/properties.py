@@ -19,7 +19,7 @@ from bpy.props import (
 from bpy.types import Material, PropertyGroup
 
 from ...core import limits, models, white_scale
-from ...core.instruments import REGISTRY
+from ...core.instruments import DEFAULT, REGISTRY
 from ..matching import shaders
 from . import changes
 
@@ -75,6 +75,7 @@ _TITLES = {
     for setting, items in (
         *(("kind", KIND_ITEMS), ("instrument", INSTRUMENT_ITEMS)),
         *(("model", MODEL_ITEMS), ("shader", SHADER_ITEMS)),
+        ("virtual instrument", INSTRUMENT_ITEMS),
     )
 }
 ILLUMINANT_ITEMS = tuple(
@@ -159,6 +160,13 @@ class RoughSpectraMaterial(PropertyGroup):
     )
     observer: EnumProperty(
         name="Observer", description="Observer of the reports", items=OBSERVER_ITEMS
+    )
+    read_at: EnumProperty(
+        name="Read At",
+        description="Virtual instrument that the material reads right at, and is measured with",
+        items=INSTRUMENT_ITEMS,
+        default=DEFAULT,
+        update=changes.on_setting,
     )
     model: EnumProperty(
         name="Model",

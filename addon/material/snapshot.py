@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import bpy
 
 from ...core import white_scale
+from ...core.instruments import DEFAULT
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
 from ..blender.working_space import working_space_name
@@ -51,6 +52,8 @@ class Inputs(NamedTuple):
         a scene only.
     white
         Which white, what its factor is, and which plaque: of `stated_white`.
+    read_at
+        The virtual instrument.
     """
 
     spectrum: str
@@ -64,6 +67,7 @@ class Inputs(NamedTuple):
     scene_view: str
     flat: bool
     white: White = _PERFECT
+    read_at: str = DEFAULT
 
 
 class Snapshot(NamedTuple):
@@ -205,6 +209,8 @@ def digest(found: Inputs) -> str:
         told += (f"{found.tolerance}",)  # so that older stamps stay valid
     if found.white != _PERFECT:
         told += (repr(found.white),)
+    if found.read_at != DEFAULT:
+        told += (f"read at {found.read_at}",)
     return hashlib.sha256("\n".join(told).encode()).hexdigest()[:16]
 
 
@@ -227,6 +233,7 @@ def _inputs(group: Any, analysis: str, engine: str) -> Inputs:
         view,
         bool(view) and engine in _FLAT_ENGINES,
         white(group),
+        group.read_at,
     )
 
 

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ...core import white_scale
+from ...core import instruments, white_scale
 from ...core.limits import MATCHED_SIGMA_DEGREES
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes
@@ -79,6 +79,8 @@ def evaluate(found: Snapshot) -> State:
     if reasons:
         return State("stale", reasons, last)
     if last is not None and last.kept:
+        if last.measured:
+            return State("kept", (f"{last.measured!r} was found by measuring, and is kept",), last)
         return State("kept", ("color or roughness was edited by hand, and is kept",), last)
     return State("fresh", (), last)
 
@@ -160,7 +162,9 @@ def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
         return []
     before, now = dict(stamp.settings), settings(found)
     if before:
-        before.setdefault("white", _PERFECT)  # an older stamp knows no other
+        # An older stamp knows no others.
+        before.setdefault("white", _PERFECT)
+        before.setdefault("virtual instrument", instruments.DEFAULT)
     changes = []
     for label, value in before.items():
         if now.get(label, value) == value:

@@ -47,7 +47,10 @@ _SENTENCES = ("notes", "altered")
 _SET = ("others", "gloss")
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
-_MENUS = ("kind", "instrument", "white", "plaque", "illuminant", "observer", "model", "shader")
+_MENUS = (
+    *("kind", "instrument", "white", "plaque", "illuminant", "observer", "read_at"),
+    *("model", "shader"),
+)
 
 _UNREADABLE = (
     *(RoughSpectraError, ValueError, KeyError, TypeError, AttributeError),
@@ -86,6 +89,7 @@ def store(material: Any, request: Request, shader: str) -> None:
         group.sigma_source = sample.sigma_source
         group.illuminant = request.illuminant
         group.observer = str(request.observer)
+        group.read_at = request.read_at
         group.model = request.model
         group.tolerance = request.tolerance
         group.shader = shader
@@ -140,6 +144,7 @@ def load(material: Any, view: SceneView | None = None) -> Request:
         illuminant=group.illuminant,
         observer=int(group.observer),
         tolerance=tolerance(group),
+        read_at=group.read_at,
         scene=view,
         flat=view is not None and engine_is_flat(),
     )
@@ -282,7 +287,14 @@ def _refuse_damaged(material: Any) -> None:
 
 
 def set_stamp(
-    material: Any, solution: Solution, working_space: str, node: str, inputs: Inputs
+    material: Any,
+    solution: Solution,
+    working_space: str,
+    node: str,
+    inputs: Inputs,
+    *,
+    kept: str = "",
+    measured: str = "",
 ) -> str:
     """Note what was derived and from which spectrum and settings; gives the text of the stamp."""
     red, green, blue = solution.color.tolist()
@@ -306,6 +318,8 @@ def set_stamp(
             scene_reason=solution.scene_reason,
             version=version(),
             derivation=DERIVATION,
+            kept=kept,
+            measured=measured,
         )
     )
     material.rough_spectra.stamp = text
@@ -337,6 +351,7 @@ def keep(material: Any) -> None:
             settings=tuple(settings(inputs).items()),
             working_space=working_space.working_space_name(),
             kept=state.fingerprint(shader_nodes.surface(material)),
+            measured="",
         )
     )
     group.error = ""

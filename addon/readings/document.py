@@ -10,14 +10,15 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ...core import instruments
 from ...core.errors import InputError
 from ..support import user_files
 from ..support.version import version
 
 FORMAT = "rough-spectra-readings"
 SCHEMA = 1
-INSTRUMENT = "45a:0"
 APERTURE = "none: parallel beams on a flat sample"
+APERTURES = "those of the instrument, over a flat sample"
 
 Triple = tuple[float, float, float]
 
@@ -73,6 +74,8 @@ class Reading:
     both a prediction and a measurement. `shader_reason` says whether the
     material is Lambertian or rough, and why; empty where that was not derived here. `fault` says
     why a prediction or a measurement that was asked for is missing; else it is empty.
+    `instrument` is the virtual one, a name in `core.instruments.REGISTRY`, of both prediction and
+    measurement.
     """
 
     material: str
@@ -85,6 +88,7 @@ class Reading:
     shader_reason: str
     warnings: tuple[str, ...]
     fault: str = ""
+    instrument: str = instruments.DEFAULT
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,8 @@ class Readings:
     """A whole bake, or the part of one that a shard made.
 
     `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
-    `version` is that of the extension that baked it.
+    `version` is that of the extension that baked it. `each` is how many readings, at as many
+    instruments, each surface has one after the other.
     """
 
     working_space: str
@@ -102,6 +107,19 @@ class Readings:
     shards: int = 1
     whole: str = ""
     version: str = field(default_factory=version)
+    each: int = 1
+
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        """Names of the virtual instruments, in the order in which they are met."""
+        found = tuple(dict.fromkeys(entry.instrument for entry in self.entries))
+        return found or (instruments.DEFAULT,)
+
+    @property
+    def aperture(self) -> str:
+        """Say what the instruments light and look through."""
+        wide = any(map(instruments.has_apertures, self.instruments))
+        return APERTURES if wide else APERTURE
 
     @property
     def largest_delta_e(self) -> float | None:
@@ -136,7 +154,9 @@ def merge(parts: Iterable[Readings]) -> Readings:
             raise InputError(msg)
     count = found[0].shards
     numbers = [part.shard for part in found]
-    settings = {(part.working_space, part.blender, part.shards, part.whole) for part in found}
+    settings = {
+        (part.working_space, part.blender, part.shards, part.whole, part.each) for part in found
+    }
     if len(settings) > 1:
         msg = (
             "The parts come from different bakes; merge parts that one version of Blender baked "
@@ -146,15 +166,16 @@ def merge(parts: Iterable[Readings]) -> Readings:
     if numbers != list(range(1, count + 1)):
         msg = f"Parts {numbers} do not make up 1 to {count}; give each part once."
         raise InputError(msg)
+    each = found[0].each
     total = sum(len(part.entries) for part in found)
     entries: list[Reading] = []
-    for place in range(total):
-        part, row = found[place % count], place // count
-        if row >= len(part.entries):
+    for place in range(-(-total // each)):
+        part, row = found[place % count], place // count * each
+        if row + each > len(part.entries):
             msg = f"Part {part.shard} of {count} has too few readings; bake it again."
             raise InputError(msg)
-        entries.append(part.entries[row])
-    return Readings(found[0].working_space, found[0].blender, tuple(entries))
+        entries += part.entries[row : row + each]
+    return Readings(found[0].working_space, found[0].blender, tuple(entries), each=each)
 
 
 def to_json(readings: Readings) -> bytes:
@@ -165,8 +186,8 @@ def to_json(readings: Readings) -> bytes:
         "version": readings.version,
         "blender": readings.blender,
         "working_space": readings.working_space,
-        "instrument": INSTRUMENT,
-        "aperture": APERTURE,
+        "instrument": ", ".join(readings.instruments),
+        "aperture": readings.aperture,
         "units": {
             "values": "reflectance factor, 0..1",
             "wavelengths": "nm",
@@ -176,6 +197,7 @@ def to_json(readings: Readings) -> bytes:
         "shard": readings.shard,
         "shards": readings.shards,
         "whole": readings.whole,
+        "each": readings.each,
         "largest_delta_e_00": readings.largest_delta_e,
         "readings": [asdict(entry) for entry in readings.entries],
     }
@@ -213,6 +235,7 @@ def from_json(path: Path) -> Readings:
             int(document["shards"]),
             str(document["whole"]),
             str(document["version"]),
+            max(1, int(document.get("each", 1))),
         )
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         msg = f"{path} is damaged ({error!r}); bake it again."

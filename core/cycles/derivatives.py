@@ -37,7 +37,26 @@ def functions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Array:
     >>> functions(np.array([0.8]), np.array([0.0]), np.array([0.0])).shape
     (3, 1)
     """
-    tilt, spread = directions(theta_i, theta_r, delta_phi)
+    return of_directions(*directions(theta_i, theta_r, delta_phi))
+
+
+def of_directions(tilt: Array, spread: Array) -> Array:
+    """Give the same of what the closure takes from directions, or of its mean over several.
+
+    Parameters
+    ----------
+    tilt, spread
+        As `core.cycles.lobe` takes them, shape (directions,).
+
+    Returns
+    -------
+    Shape (3, directions).
+
+    Examples
+    --------
+    >>> of_directions(np.zeros(1), np.ones(1)).shape
+    (3, 1)
+    """
     # With a = 1 / (π + s k) single scattering is c a (π + π s t), which is c + c s a (π t - k).
     bent = (np.pi * tilt - ALBEDO_SPAN) / MEAN_SPAN
     return np.stack((np.ones_like(tilt), bent, spread / MEAN_SPAN))

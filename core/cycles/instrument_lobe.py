@@ -59,6 +59,39 @@ def reflectance(color: npt.ArrayLike, roughness: npt.ArrayLike, instrument: str)
     return reflected(c, lobe(s, *mean_direction(instrument, c.dtype)))
 
 
+def with_directions(geometries: tuple[Array, Array, Array], instrument: str) -> tuple[Array, Array]:
+    """Give tilt and spread of single directions, and those of an instrument at the end.
+
+    What looks at a material in many directions and at its instrument evaluates the closure once.
+
+    Parameters
+    ----------
+    geometries
+        θi, θr and Δφ, radians, each of shape (directions,).
+    instrument
+        One of `core.instruments.REGISTRY`.
+
+    Returns
+    -------
+    Two arrays of shape (directions + 1,), for `core.cycles.lobe`.
+
+    Raises
+    ------
+    DomainError
+        If a polar angle lies outside [0, π/2] or the instrument is unknown.
+
+    Examples
+    --------
+    >>> tilt, spread = with_directions((np.array([0.1]), np.array([0.2]), np.zeros(1)), "di:8")
+    >>> tilt.shape, spread.shape
+    ((2,), (2,))
+    """
+    single = directions(*geometries)
+    mean = mean_direction(instrument, single[0].dtype)
+    tilt, spread = (np.append(one, at) for one, at in zip(single, mean, strict=True))
+    return tilt, spread
+
+
 def mean_direction(instrument: str, dtype: np.dtype[Any]) -> tuple[Array, Array]:
     """Give tilt and spread of an instrument: the weighted means over its directions.
 

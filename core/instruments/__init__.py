@@ -9,6 +9,7 @@ curves       what each model says of an instrument, over σ
 
 from .geometries import (
     APERTURE,
+    DEFAULT,
     HEMISPHERE,
     NORMAL,
     REGISTRY,
@@ -16,6 +17,20 @@ from .geometries import (
     Beam,
     Instrument,
     find,
+    has_apertures,
+    spoken,
 )
 
-__all__ = ["APERTURE", "HEMISPHERE", "NORMAL", "REGISTRY", "TRAP", "Beam", "Instrument", "find"]
+__all__ = [
+    "APERTURE",
+    "DEFAULT",
+    "HEMISPHERE",
+    "NORMAL",
+    "REGISTRY",
+    "TRAP",
+    "Beam",
+    "Instrument",
+    "find",
+    "has_apertures",
+    "spoken",
+]

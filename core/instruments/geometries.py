@@ -122,6 +122,39 @@ def find(name: str) -> Instrument:
     return REGISTRY[name]
 
 
+def spoken(name: str) -> str:
+    """Say an instrument in a sentence, as "at …": the default one as everybody calls it.
+
+    Raises
+    ------
+    DomainError
+        As in `find`.
+
+    Examples
+    --------
+    >>> spoken("45a:0"), spoken("di:8")
+    ('45°/0°', 'di:8° Sphere')
+    """
+    return "45°/0°" if name == DEFAULT else find(name).menu
+
+
+def has_apertures(name: str) -> bool:
+    """Whether an instrument lights from, or looks from, more than directions without width.
+
+    Raises
+    ------
+    DomainError
+        As in `find`.
+
+    Examples
+    --------
+    >>> has_apertures("di:8"), has_apertures("45a:0")
+    (True, False)
+    """
+    instrument = find(name)
+    return bool(instrument.light.half_angle or instrument.view.half_angle)
+
+
 def _multi_angle(aspecular: int, number: int) -> Instrument:
     """Make a view of light at 45°, from so far from its mirror direction."""
     # The mirror direction lies at -45°, on the far side of the normal.
@@ -232,3 +265,6 @@ REGISTRY: Mapping[str, Instrument] = MappingProxyType(
     {instrument.name: instrument for instrument in _INSTRUMENTS}
 )
 """Every instrument by its name."""
+
+DEFAULT = _INSTRUMENTS[0].name
+"""Meant wherever no instrument is named."""

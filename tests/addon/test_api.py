@@ -14,14 +14,16 @@ from rough_spectra.addon import api
 
 SIGNATURES = {
     "assign": "(pairs, shader='auto')",
-    "bake": "(surfaces, measure=True, progress=None)",
+    "bake": "(surfaces, measure=True, progress=None, read_at=None)",
     "compare": "(first, second)",
     "differences": "(material)",
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
     "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
+    "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "keep": "(material)",
+    "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
     "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
     "paused": "()",
@@ -30,7 +32,7 @@ SIGNATURES = {
     "read_filter": "(path)",
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
-    "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None)",
+    "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
     "state": "(material)",
@@ -44,22 +46,24 @@ FIELDS = {
     "Sample": "name wavelengths values kind quantity instrument geometry aperture specular "
     "sigma_degrees sigma_source source license position device condition illuminant observer lab "
     "xyz notes altered white white_factor plaque surface called others gloss",
-    "Request": "sample sigma model illuminant observer scene flat tolerance",
+    "Request": "sample sigma model illuminant observer scene flat tolerance read_at",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
     "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
     "chi_square freedom notes",
+    "Adjusted": "color reading target delta_e is_met measurements sentence",
     "Apart": "first second delta_e_00 delta_l delta_a delta_b delta_ab shift",
-    "Comparison": "measured albedos roughness interreflection model illuminant observer warnings",
+    "Comparison": "measured albedos roughness interreflection model illuminant observer warnings "
+    "read_at",
     "State": "kind reasons stamp",
     "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
     "directional hemispherical bands warnings",
     "InBand": "name first last directional hemispherical apparent",
     "Filter": "wavelengths response",
     "Settled": "request model_reason",
-    "Readings": "working_space blender entries shard shards whole version",
+    "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
-    "warnings fault",
+    "warnings fault instrument",
     "RoughSample": "kind mesh length asked seed",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }

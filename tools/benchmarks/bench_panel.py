@@ -160,21 +160,22 @@ def pictures(material: Any, scale: int) -> None:
 
 def others(material: Any) -> None:
     """Drag σ of samples that cost more than the preset: many bands, instruments, next to white."""
-    from rough_spectra.addon.matching.request import VIRTUAL, Request
+    from rough_spectra.addon.matching.request import Request
     from rough_spectra.addon.material import derive as assigning
     from rough_spectra.addon.material import storage
     from rough_spectra.addon.samples.sample import Kind, Sample
+    from rough_spectra.core.instruments import DEFAULT
 
     before = storage.load(material)
     fine = np.arange(380, 781, dtype=np.float64)
     kinds: tuple[Kind, Kind] = ("reading", "albedo")
     reading, albedo = kinds
     for name, nm, low, high, kind, instrument in (
-        ("401 bands", fine, 0.1, 0.8, reading, VIRTUAL),
-        ("401 bands, albedo", fine, 0.1, 0.8, albedo, VIRTUAL),
+        ("401 bands", fine, 0.1, 0.8, reading, DEFAULT),
+        ("401 bands, albedo", fine, 0.1, 0.8, albedo, DEFAULT),
         ("sphere", fine[::10], 0.1, 0.6, reading, "di:8"),
-        ("dark", fine[::10], 0.03, 0.03, reading, VIRTUAL),
-        ("white", fine[::10], 0.95, 0.95, reading, VIRTUAL),
+        ("dark", fine[::10], 0.03, 0.03, reading, DEFAULT),
+        ("white", fine[::10], 0.95, 0.95, reading, DEFAULT),
     ):
         step = low + (high - low) / (1 + np.exp((580 - nm) / 20))
         sample = Sample(name, nm, step, kind=kind, instrument=instrument)

@@ -19,18 +19,20 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assign`."""
+    from ....core.instruments import REGISTRY
     from ....core.models import NAMES
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
     from ...matching import shaders
 
+    instruments = tuple(REGISTRY)
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument(
         "--mapping",
         type=Path,
         metavar="FILE",
         help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg (or rdq, or sdq), kind, white, white_factor; a sample without a file is a "
-        "preset or of the library",
+        "sigma_deg (or rdq, or sdq), kind, white, white_factor, read_at; a sample without a file "
+        "is a preset or of the library",
     )
     source.add_argument(
         "--by-name",
@@ -66,6 +68,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_white_arguments(parser)
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument(
+        "--read-at",
+        choices=instruments,
+        metavar="INSTRUMENT",
+        help="virtual instrument that the materials read right at, and are measured with: "
+        f"{', '.join(instruments)}; without it what the mapping says, or {instruments[0]}",
+    )
     parser.add_argument(
         "--model",
         choices=("auto", *NAMES),
@@ -103,6 +112,7 @@ def add_white_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
+    from ....core.instruments import spoken
     from ... import api
     from ...blender.blend_file import destination, save
     from ...samples import stated_white
@@ -120,8 +130,9 @@ def run(options: argparse.Namespace) -> int:
             tell(f"warning: material {material.name!r}: {warning}")
     path = save(options.output)
     worst = max(solution.delta_e_instrument for solution in solutions)
+    at = ", ".join(dict.fromkeys(spoken(request.read_at) for _, request in pairs))
     tell(
-        f"assigned {counted(len(pairs), 'material')}, largest predicted ΔE00 at 45°/0° "
+        f"assigned {counted(len(pairs), 'material')}, largest predicted ΔE00 at {at} "
         f"{worst:.4f}; saved {path}"
     )
     return 0

@@ -18,7 +18,8 @@ NAME = "bake"
 SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
 DESCRIPTION = (
     "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "
-    "samples at 45°a:0°, and write both. The .blend itself is not changed."
+    "samples at the instruments that they are to read right at, and write both. The "
+    ".blend itself is not changed."
 )
 
 _UNUSABLE = 2
@@ -47,7 +48,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare which materials are meant."""
+    """Declare which materials are meant, and where they are read."""
+    from ....core.instruments import REGISTRY
+
+    instruments = tuple(REGISTRY)
     parser.add_argument(
         "--material",
         action="append",
@@ -61,6 +65,15 @@ def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME",
         help="the materials on this object's surface, repeatable",
+    )
+    parser.add_argument(
+        "--read-at",
+        action="append",
+        default=[],
+        choices=instruments,
+        metavar="INSTRUMENT",
+        help="read at this virtual instrument instead of each material's own, repeatable: "
+        f"{', '.join(instruments)}",
     )
 
 
@@ -95,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
     result = measure(options, not options.predicted_only)
     if count > 1:
         surfaces = selection.surfaces(options.material, options.object)
-        whole = bake.digest(surfaces, not options.predicted_only)
+        whole = bake.digest(surfaces, not options.predicted_only, options.read_at)
         part = replace(result, shard=index, shards=count, whole=whole)
         with atomic_files.publication() as files:
             files.write(target, document.to_json(part))
@@ -104,7 +117,8 @@ def run(options: argparse.Namespace) -> int:
         written = api.write(result, options.output, options.format or writers.FORMATS)
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
-    tell(f"{counted(len(result.entries), 'reading')}{largest}; wrote {names}")
+    at = ", ".join(result.instruments)
+    tell(f"{counted(len(result.entries), 'reading')} at {at}{largest}; wrote {names}")
     return tell_faults(result)
 
 
@@ -129,7 +143,8 @@ def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readi
     index, count = getattr(options, "shard", (1, 1))
     progress = ProgressLine("measuring")
     try:
-        return api.bake(surfaces[index - 1 :: count], with_measurement, progress)
+        mine = surfaces[index - 1 :: count]
+        return api.bake(mine, with_measurement, progress, options.read_at)
     finally:
         progress.close()
 

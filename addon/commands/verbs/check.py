@@ -61,10 +61,12 @@ def run(options: argparse.Namespace) -> int:
     failed = [entry for entry in compared if (entry.delta_e_00 or 0) > options.max_delta_e]
     for entry in failed:
         reason = f" ({'; '.join(entry.warnings)})" if entry.warnings else ""
-        tell(f"material {entry.material!r} differs by ΔE00 {entry.delta_e_00:.2f}{reason}")
+        at = "" if len(result.instruments) == 1 else f" at {entry.instrument}"
+        tell(f"material {entry.material!r} differs by ΔE00 {entry.delta_e_00:.2f}{at}{reason}")
     largest = result.largest_delta_e
+    what = "materials" if result.each == 1 else "readings"
     tell(
-        f"{len(failed)} of {len(compared)} materials exceed ΔE00 {options.max_delta_e:g}"
+        f"{len(failed)} of {len(compared)} {what} exceed ΔE00 {options.max_delta_e:g}"
         + ("" if largest is None else f"; the largest is {largest:.4f}")
     )
     # What could not be compared weighs more: nobody knows whether it would have passed.

@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 NAME = "compare"
 SUMMARY = "how far two samples are apart, as measured and as the albedos behind"
 DESCRIPTION = (
-    "Compare two samples, each with its roughness: what an instrument at 45°/0° reads of them, and "
-    "the albedos behind, which roughness does not change. Columns are separated by tabs."
+    "Compare two samples, each with its roughness: what an instrument reads of them, at 45°/0° if "
+    "none is named, and the albedos behind, which roughness does not change. Columns are separated "
+    "by tabs."
 )
 
 _FILE_AND_SAMPLE = "#"
@@ -31,6 +32,7 @@ _HEADER = ("between", "delta_e_00", "delta_L*", "delta_a*", "delta_b*", "delta_a
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `compare`."""
+    from ....core.instruments import DEFAULT, REGISTRY
     from ....core.models import NAMES, TARGET
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 
@@ -58,6 +60,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument(
+        "--read-at",
+        choices=tuple(REGISTRY),
+        default=DEFAULT,
+        metavar="INSTRUMENT",
+        help=f"virtual instrument that reads both ({DEFAULT}): {', '.join(REGISTRY)}",
+    )
     parser.add_argument("--output", type=Path, metavar="FILE", help="write a CSV file, too")
 
 
@@ -102,6 +111,7 @@ def _request(options: argparse.Namespace, place: int) -> Request:
         model=options.model,
         illuminant=options.illuminant,
         observer=options.observer,
+        read_at=options.read_at,
     )
 
 
@@ -164,7 +174,7 @@ def _csv(pair: list[Request], found: Comparison) -> bytes:
             f"instrument {request.sample.instrument}"
             for which, request in zip(("first", "second"), pair, strict=True)
         ),
-        f"readings: 45a:0, model {found.model}",
+        f"readings: {found.read_at}, model {found.model}",
         f"illuminant/observer: {found.illuminant}/{found.observer}°",
         "shift: distance in a*b* once the second of a row has the luminance of its first",
         "interreflection: share of the reading's luminance that met more than one facet",

@@ -17,6 +17,7 @@ from . import common
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
     from ...blender.background_job import Job
+    from ...instrument.bake import Plan
 
 _TIMER_SECONDS = 0.1
 
@@ -131,8 +132,8 @@ class Measuring(InBackground):
 
     stopped = "Measuring was stopped; nothing was written"
 
-    def to_measure(self, context: Any) -> list[Any]:
-        """Give the materials to measure, and note what the result is to be compared with.
+    def to_measure(self, context: Any) -> Plan:
+        """Say what to measure, and note what the result is to be compared with.
 
         Raises
         ------
@@ -142,16 +143,18 @@ class Measuring(InBackground):
         raise NotImplementedError
 
     def take(self, values: Array) -> str:
-        """Use what was measured, shape (materials, 2, 3), and say so in one sentence."""
+        """Use what was measured, shape (readings, 2, 3), and say so in one sentence."""
         raise NotImplementedError
 
     def start(self, context: Any) -> Job:
         """Start the measurement."""
         from ...instrument import measure
 
-        materials = self.to_measure(context)
+        plan = self.to_measure(context)
+        materials, geometries = plan.work
         self._count = len(materials)  # the materials themselves may not outlive an undo
-        return measure.Measurement(materials, (measure.RING_45_0,))
+        self._plan = plan
+        return measure.Measurement(materials, geometries)
 
     def state(self, done: int, total: int) -> str:
         """Say how many renders are done."""
@@ -163,4 +166,4 @@ class Measuring(InBackground):
 
     def finish(self, job: Any) -> str:
         """Hand the values on."""
-        return self.take(job.result()[0])
+        return self.take(self._plan.taken(job.result()))

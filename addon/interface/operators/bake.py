@@ -15,6 +15,7 @@ from . import background, common
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
+    from ...instrument.bake import Plan
 
 
 class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
@@ -49,7 +50,7 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def to_measure(self, context: Any) -> list[Any]:
+    def to_measure(self, context: Any) -> Plan:
         """Check the target, and take down the predictions."""
         from ...instrument import bake
         from ...readings import writers
@@ -59,15 +60,14 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
         materials = common.materials_in_scope(context, self.scope)
         surfaces = [("", material) for material in materials]
         self._prepared = bake.prepare(surfaces)
-        distinct, self._places = bake.distinct_materials(surfaces)
-        return distinct
+        return bake.plan(surfaces, self._prepared)
 
     def take(self, values: Array) -> str:
         """Write all files."""
         from ...instrument import bake
         from ...readings import writers
 
-        result = bake.compare(self._prepared, values[self._places])
+        result = bake.compare(self._prepared, values)
         written = writers.write(result, self._base)
         for sentence in result.faults:
             self.report({"WARNING"}, sentence)

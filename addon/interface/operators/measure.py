@@ -11,11 +11,13 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
+from ....core import instruments
 from ....core.errors import MaterialError
 from . import background, common
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
+    from ...instrument.bake import Plan
 
 
 class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
@@ -50,18 +52,19 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
         """Need at least one material."""
         return common.has_materials(cls)
 
-    def to_measure(self, context: Any) -> list[Any]:
+    def to_measure(self, context: Any) -> Plan:
         """Take down the predictions, and what each material is like now."""
         from ...instrument import bake
         from ...material import last_measurement
 
         materials = common.materials_in_scope(context, self.scope)
-        self._prepared = bake.prepare([("", material) for material in materials])
+        surfaces = [("", material) for material in materials]
+        self._prepared = bake.prepare(surfaces)
         # A pointer to a material does not survive an undo while the measurement runs.
         self._ids = [material.session_uid for material in materials]
         self._states = [last_measurement.fingerprint(material) for material in materials]
         self._predicted = [_predicted(material) for material in materials]
-        return materials
+        return bake.plan(surfaces, self._prepared)
 
     def take(self, values: Array) -> str:
         """Keep each reading with its material; linked ones are only reported."""
@@ -81,7 +84,8 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
             material = present.get(uid)
             if material is not None and material.is_editable and entry.measured is not None:
                 last_measurement.note(
-                    material, state, entry.measured.rgb, entry.delta_e_00, predicted
+                    *(material, state, entry.measured.rgb, entry.delta_e_00, predicted),
+                    entry.instrument,
                 )
         for entry in entries:
             if entry.fault:
@@ -113,8 +117,11 @@ def _sentence(entries: Any) -> str:
         if entry.fault:
             return rpt_("{material}: measured, but not compared").format(material=entry.material)
         rgb = ", ".join(f"{value:.3f}" for value in entry.measured.rgb)
-        sentence = rpt_("{material}: reads RGB {rgb} at 45°/0°; it has no spectrum to compare with")
-        return sentence.format(material=entry.material, rgb=rgb)
+        where = rpt_(instruments.spoken(entry.instrument))
+        sentence = rpt_(
+            "{material}: reads RGB {rgb} at {where}; it has no spectrum to compare with"
+        )
+        return sentence.format(material=entry.material, rgb=rgb, where=where)
     worst = max(entries, key=lambda entry: entry.delta_e_00 or 0.0)
     if worst.delta_e_00 is None:
         return rpt_("{count} materials measured").format(count=len(entries))

@@ -55,6 +55,7 @@ def _draw_settings(layout: Any, material: Any, shown: redraw.PanelMaterial) -> N
         column.prop(group, "use_scene")
     if not inputs.scene_view:
         column.prop(group, "illuminant")
+    column.prop(group, "read_at")
     column.prop(group, "shader")
     column.prop(group, "model")
     if inputs.model == "auto":

@@ -13,8 +13,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
-from ....core import limits, roughness, white_scale
-from ....core.instruments import REGISTRY
+from ....core import instruments, limits, roughness, white_scale
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
@@ -31,7 +30,7 @@ _KEPT = 1024
 SWATCHES = 98.0
 """Pixels at UI scale 1 that the swatches take beside the numbers."""
 
-_WHERE = ("45°/0°", "All angles", "95 % below")
+_WHERE = ("All angles", "95 % below")
 _BOX = 24.0
 _NOTHING = 0.005
 """ΔE00 that is written as 0.00."""
@@ -88,12 +87,15 @@ def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
-def numbers(apart: Numbers, beside: bool, how: Style) -> tuple[Sentence, ...]:
-    """Tell how far Blender is from the target, beside the swatches or below them."""
+def numbers(apart: Numbers, read_at: str, beside: bool, how: Style) -> tuple[Sentence, ...]:
+    """Tell how far Blender is from the target, beside the swatches or below them.
+
+    `read_at` is the virtual instrument.
+    """
     inset = SWATCHES if beside else 0.0
     return tuple(
         how.format.sentence(_difference(iface_(where), delta_e), "NONE", inset)
-        for where, delta_e in zip(_WHERE, apart, strict=True)
+        for where, delta_e in zip((_instrument(read_at), *_WHERE), apart, strict=True)
     )
 
 
@@ -118,14 +120,17 @@ def difference(found: Snapshot, apart: Numbers | None, how: Style) -> tuple[Sent
 
 @memoized(maxsize=_KEPT)
 def measurement(
-    predicted: float | None, measured: float, current: bool, how: Style
+    predicted: float | None, measured: float, current: bool, read_at: str, how: Style
 ) -> tuple[Sentence, ...]:
     """Put a measured ΔE00 beside the predicted one; `current` unless something changed since.
 
-    There may be no prediction.
+    There may be no prediction. `read_at` is the virtual instrument.
     """
     told = [] if predicted is None else [(_difference(iface_("Predicted"), predicted), "BLANK1")]
-    told.append((_difference(iface_("Measured"), measured), "BLANK1"))
+    where = iface_("Measured")
+    if read_at != instruments.DEFAULT:
+        where = iface_("Measured at {instrument}").format(instrument=_instrument(read_at))
+    told.append((_difference(where, measured), "BLANK1"))
     if not current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
     return tuple(how.format.sentence(text, icon) for text, icon in told)
@@ -175,6 +180,11 @@ def source(
         tuple(write(f"{iface_(label)}: {value}") for label, value in about),
         (write(_white(*white)), *told, *(write(text, "INFO") for text in notes)),
     )
+
+
+def _instrument(name: str) -> str:
+    """Say an instrument; empty in a damaged file, whose material has no numbers."""
+    return iface_(instruments.spoken(name or instruments.DEFAULT))
 
 
 def _slopes(degrees: float) -> str:
@@ -254,7 +264,7 @@ def _set(others: list[dict[str, Any]], gloss: dict[str, float]) -> Iterator[tupl
     """Say which further readings of the surface a material stores."""
     titles = []
     for other in others:
-        menu = REGISTRY[other.get("instrument", "45a:0")].menu
+        menu = instruments.REGISTRY[other.get("instrument", "45a:0")].menu
         titles.append(", ".join(part for part in (menu, other.get("surface", "")) if part))
     if titles:
         yield "Also Read", "; ".join(titles)

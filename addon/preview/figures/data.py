@@ -8,14 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....core import cycles, reading
+from ....core import cycles
+from ....core.cycles import instrument_lobe
 from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb, tristimulus
 from ...colorimetry.rgb_space import WorkingSpace, matrix_of
 from ...matching import scene_match, surface_spectra
 from ...matching.assess import in_directions, under_main_light
-from ...matching.request import VIRTUAL, Request
+from ...matching.request import Request
 from ..drawing.raster import Color
 from . import LIGHT_ANGLE, SHOWN_NM, STEEPEST
 
@@ -29,11 +30,6 @@ _DIRECTIONS = (
     np.where(VIEW_ANGLES < 0, 0.0, np.pi),
 )
 """Polar angles of light and view, and the azimuth between them, radians."""
-_ALL_DIRECTIONS = tuple(
-    np.append(angles, at)
-    for angles, at in zip(_DIRECTIONS, reading.INSTRUMENT_ANGLES[VIRTUAL], strict=True)
-)
-"""The instrument's comes last."""
 
 _OUTSIDE = 0.002
 """How far display-encoded values may leave 0 to 1 before a color counts as outside of the gamut:
@@ -119,7 +115,9 @@ def of_request(
     weights = space.rgb_weights(bands, light)
     luminance = tristimulus.weights(bands, light)[:, 1]
     seen, rho = spectra_of(request)
-    shown = cycles.reflectance(color, np.full(_VIEW.size + 1, roughness), *_ALL_DIRECTIONS)
+    everywhere = instrument_lobe.with_directions(_DIRECTIONS, request.read_at)
+    # The instrument comes last.
+    shown = cycles.reflected(color, cycles.lobe(np.asarray(roughness, float), *everywhere))
     shown, at_instrument = shown[:-1], shown[-1]
     target, blender = seen @ weights, at_instrument
     curve = space.to_xyz(shown, light)[:, 1]

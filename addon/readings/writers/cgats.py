@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Readings as CGATS.17 text, as a real instrument's software writes them.
 
-One table a combination of wavelengths, illuminant, observer and model. Spectral columns are named
-SPECTRAL_NM380 and hold fractions, as that name means to measurement software.
+One table a combination of wavelengths, illuminant, observer, model and instrument. Spectral columns
+are named SPECTRAL_NM380 and hold fractions, as that name means to measurement software.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...support.shown_text import (
     to_cell,
 )
 from ...support.version import version
-from ..document import INSTRUMENT, Readings
+from ..document import Readings
 from .tables import nanometers
 
 NAME = "cgats"
@@ -38,7 +38,7 @@ def files(readings: Readings) -> list[tuple[str, bytes]]:
 
 def predicted(readings: Readings) -> bytes:
     """Give the predicted spectra with their XYZ and Lab."""
-    groups: dict[tuple[tuple[float, ...], str, int, str], list[list[str]]] = {}
+    groups: dict[tuple[tuple[float, ...], str, int, str, str], list[list[str]]] = {}
     for number, entry in enumerate(readings.entries, 1):
         part = entry.predicted
         if part is None:
@@ -46,34 +46,38 @@ def predicted(readings: Readings) -> bytes:
         cells = [str(number), _quoted(entry.material)]
         cells += [f"{value:.4f}" for value in (*part.xyz, *part.lab)]
         cells += [f"{value:.6f}" for value in part.values]
-        key = (part.wavelengths, part.illuminant, part.observer, part.model)
+        key = (part.wavelengths, part.illuminant, part.observer, part.model, entry.instrument)
         groups.setdefault(key, []).append(cells)
     tables = [
         _table(
             f"predicted by the core from the stored spectrum, {model} model",
             illuminant,
             observer,
+            instrument,
             [*_COLOR_FIELDS, *(f"SPECTRAL_NM{nanometers(nm)}" for nm in wavelengths)],
             rows,
         )
-        for (wavelengths, illuminant, observer, model), rows in groups.items()
+        for (wavelengths, illuminant, observer, model, instrument), rows in groups.items()
     ]
     return _file(tables)
 
 
 def measured(readings: Readings) -> bytes:
     """Give the measured XYZ and Lab: an RGB render has no spectrum."""
-    groups: dict[str, list[list[str]]] = {}
+    groups: dict[tuple[str, str], list[list[str]]] = {}
     for number, entry in enumerate(readings.entries, 1):
         part = entry.measured
         if part is None:
             continue
         cells = [str(number), _quoted(entry.material)]
         cells += [f"{value:.4f}" for value in (*part.xyz, *part.lab)]
-        groups.setdefault(part.illuminant, []).append(cells)
+        groups.setdefault((part.illuminant, entry.instrument), []).append(cells)
     quantity = f"measured in a Cycles render, Blender {readings.blender}"
     return _file(
-        [_table(quantity, light, 2, _COLOR_FIELDS, rows) for light, rows in groups.items()]
+        [
+            _table(quantity, light, 2, instrument, _COLOR_FIELDS, rows)
+            for (light, instrument), rows in groups.items()
+        ]
     )
 
 
@@ -81,7 +85,12 @@ _COLOR_FIELDS = ("XYZ_X", "XYZ_Y", "XYZ_Z", "LAB_L", "LAB_A", "LAB_B")
 
 
 def _table(
-    quantity: str, illuminant: str, observer: int, fields: Sequence[str], rows: list[list[str]]
+    quantity: str,
+    illuminant: str,
+    observer: int,
+    instrument: str,
+    fields: Sequence[str],
+    rows: list[list[str]],
 ) -> str:
     names = ["SAMPLE_ID", "SAMPLE_NAME", *fields]
     source = f"Illumination={illuminant}\tObserverAngle={observer}°\tWhiteBase=Abs\tFilter=No"
@@ -91,7 +100,7 @@ def _table(
         'INSTRUMENTATION\t"Rough Spectra virtual spectrophotometer"',
         f'MEASUREMENT_SOURCE\t"{source}"',
         'KEYWORD\t"MEASUREMENT_GEOMETRY"',
-        f'MEASUREMENT_GEOMETRY\t"{INSTRUMENT}"',
+        f'MEASUREMENT_GEOMETRY\t"{instrument}"',
         'KEYWORD\t"ROUGH_SPECTRA_WHITE"',
         'ROUGH_SPECTRA_WHITE\t"perfect diffuser"',
         f'KEYWORD\t"{CELLS}"',

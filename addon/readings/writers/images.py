@@ -119,13 +119,15 @@ def _picture(
     places = np.zeros((height * width, rows.shape[1]))
     places[: len(members)] = rows
     pixels = places.reshape(height, width, -1).repeat(SWATCH, axis=0).repeat(SWATCH, axis=1)
-    names = "; ".join(_caption(readings.entries[i], spectral) for i in members)
-    layout = f"swatches of {SWATCH} px, {COLUMNS} a row, from the top left: {names}"
+    several = len(readings.instruments) > 1
+    names = "; ".join(_caption(readings.entries[i], spectral, several) for i in members)
+    at = ", ".join(readings.instruments)
+    layout = f"read at {at}; swatches of {SWATCH} px, {COLUMNS} a row, from the top left: {names}"
     return Picture(pixels, channels, layout, spectral)
 
 
-def _caption(entry: Reading, spectral: bool) -> str:
-    """Name the material, and in a spectral image the model too."""
-    if spectral and entry.predicted is not None:
-        return f"{entry.material} ({entry.predicted.model})"
-    return entry.material
+def _caption(entry: Reading, spectral: bool, several: bool) -> str:
+    """Name the material, in a spectral image the model too, and the instrument among several."""
+    about = [entry.predicted.model] if spectral and entry.predicted is not None else []
+    about += [entry.instrument] * several
+    return f"{entry.material} ({', '.join(about)})" if about else entry.material

@@ -12,8 +12,6 @@ from collections.abc import Sequence
 from ...support.shown_text import ESCAPED, printable, to_cell
 from ...support.version import version
 from ..document import (
-    APERTURE,
-    INSTRUMENT,
     CyclesReading,
     Predicted,
     Readings,
@@ -40,11 +38,20 @@ def predicted(readings: Readings) -> bytes:
     rows = [(entry, entry.predicted) for entry in readings.entries if entry.predicted is not None]
     bands = sorted({nm for _, part in rows for nm in part.wavelengths})
     lights = {_viewing(part) for _, part in rows}
-    comments = _comments("predicted by the core from the stored spectrum", lights)
+    comments = _comments("predicted by the core from the stored spectrum", lights, readings)
     if scaled := sorted({_white(part) for _, part in rows if part.white != _PERFECT}):
         comments.append(f"stored spectra relative to another white: {'; '.join(scaled)}")
     comments.append("albedo min, albedo max: what the sample's reading leaves open at any sigma")
-    header = ["material", "surface", "sample", "sigma_deg", "model", "illuminant", "observer"]
+    header = [
+        "material",
+        "surface",
+        "sample",
+        "instrument",
+        "sigma_deg",
+        "model",
+        "illuminant",
+        "observer",
+    ]
     header += ["stored_white", "X", "Y", "Z", "L*", "a*", "b*"]
     header += [f"{nanometers(nm)} nm" for nm in bands]
     header += [f"albedo {end} {nanometers(nm)} nm" for nm in bands for end in ("min", "max")]
@@ -59,6 +66,7 @@ def predicted(readings: Readings) -> bytes:
                 to_cell(entry.material),
                 to_cell(entry.surface),
                 to_cell(entry.sample),
+                entry.instrument,
                 f"{part.sigma_degrees:g}",
                 part.model,
                 part.illuminant,
@@ -80,15 +88,29 @@ def measured(readings: Readings) -> bytes:
     """Give the table of measured colors, with the ΔE00 to the prediction where there is one."""
     rows = [(entry, entry.measured) for entry in readings.entries if entry.measured is not None]
     lights = {_viewing(part) for _, part in rows}
-    comments = _comments(f"measured in a Cycles render, Blender {readings.blender}", lights)
+    quantity = f"measured in a Cycles render, Blender {readings.blender}"
+    comments = _comments(quantity, lights, readings)
     comments.append(f"rgb: scene-linear, {readings.working_space}; sd: over the sample's area")
-    header = ["material", "surface", "sample", "illuminant", "R", "G", "B", "sd R", "sd G", "sd B"]
+    header = [
+        "material",
+        "surface",
+        "sample",
+        "instrument",
+        "illuminant",
+        "R",
+        "G",
+        "B",
+        "sd R",
+        "sd G",
+        "sd B",
+    ]
     header += ["X", "Y", "Z", "L*", "a*", "b*", "delta_e_00"]
     lines = [
         [
             to_cell(entry.material),
             to_cell(entry.surface),
             to_cell(entry.sample),
+            entry.instrument,
             part.illuminant,
             *(f"{value:.6f}" for value in (*part.rgb, *part.spread)),
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
@@ -120,7 +142,10 @@ def _viewing(part: Predicted | CyclesReading) -> str:
     return f"{part.illuminant}/{observer}°"
 
 
-def _comments(quantity: str, lights: set[str]) -> list[str]:
+_AND = ", "
+
+
+def _comments(quantity: str, lights: set[str], readings: Readings) -> list[str]:
     return [
         f"creator: Rough Spectra {version()}",
         f"quantity: {quantity}",
@@ -129,8 +154,8 @@ def _comments(quantity: str, lights: set[str]) -> list[str]:
         "units: fraction (reflectance factor, 1 = perfect white diffuser); XYZ with Y = 100",
         "wavelength_unit: nm",
         f"illuminant/observer: {', '.join(sorted(lights)) or 'none'}",
-        f"instrument: {INSTRUMENT}",
-        f"aperture: {APERTURE}",
+        f"instrument: {_AND.join(readings.instruments)}",
+        f"aperture: {readings.aperture}",
         f"cells: {ESCAPED} (names: \\x1b and the like, an apostrophe before = + - @ ')",
     ]
 

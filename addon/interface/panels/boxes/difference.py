@@ -58,5 +58,6 @@ def _draw_swatches(
     row.template_icon(picture, scale=_SWATCH_UNITS)
     apart = shown.apart()
     if apart is not None:
-        text.draw(row.column(align=True), sentences.numbers(apart, beside, here.style))
+        told = sentences.numbers(apart, shown.facts.inputs.read_at, beside, here.style)
+        text.draw(row.column(align=True), told)
     return apart

@@ -50,5 +50,7 @@ def _draw_measured(
     predicted = found.predicted
     if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
         predicted = of_now[0]
-    told = sentences.measurement(predicted, found.delta_e, found.current, here.style)
+    told = sentences.measurement(
+        predicted, found.delta_e, found.current, found.instrument, here.style
+    )
     text.draw(layout.column(align=True), told)
