@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...core.errors import InputError
-from . import library_files, quality, readers, sets, stated_white
+from . import gloss_of_set, library_files, quality, readers, sets, stated_white
 from .library_files import Added
 from .sample import Sample
 
@@ -33,7 +33,9 @@ class Found:
         """Warnings, and what else the reader has to tell."""
         remark = stated_white.remark(self.sample)
         others = sets.sentences(self.sample)
-        return (*self.sample.notes, *others, *((remark,) if remark else ()), *self.warnings)
+        gloss = gloss_of_set.sentences(self.sample)
+        notes = (*self.sample.notes, *others, *gloss)
+        return (*notes, *((remark,) if remark else ()), *self.warnings)
 
 
 @dataclass(frozen=True)

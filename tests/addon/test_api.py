@@ -22,6 +22,7 @@ SIGNATURES = {
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
+    "gloss_readings": "(sample)",
     "keep": "(material)",
     "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
@@ -60,6 +61,7 @@ FIELDS = {
     "directional hemispherical bands warnings",
     "InBand": "name first last directional hemispherical apparent",
     "Filter": "wavelengths response",
+    "GlossReadings": "sphere units",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "

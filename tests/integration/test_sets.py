@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A set of readings shows as one sample, and is used as one."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.interface.operators import assign_file, import_review
 from rough_spectra.addon.interface.operators.library import matching_samples
-from rough_spectra.addon.samples import importing, library, readers, sets
+from rough_spectra.addon.samples import gloss_of_set, importing, library, readers, sets
+from rough_spectra.addon.samples.sample import Sample
 
 NM = np.arange(400, 701, 20)
 LEVELS = np.linspace(0.2, 0.3, NM.size)
@@ -48,6 +51,38 @@ def test_every_reading_is_judged(path):
     assert not any("specular light included" in sentence for sentence in found.sentences)
     assert any("follows from its name" in sentence for sentence in found.sentences)
     assert import_review._about(found).endswith("2 readings")
+
+
+def test_gloss_is_derived_and_told(path):
+    """0.04 between SCI and SCE, but for the band that is below 0; 23.5 GU are 0.0235."""
+    found, board = importing.read([path]).found
+    low = 0.04 - 0.26
+    mean = 0.04 - 0.26 / NM.size
+    told = gloss_of_set.of_sample(found.sample)
+    assert told.sphere.reflectance == pytest.approx(mean, abs=1e-4)
+    assert told.sphere.lowest == pytest.approx(low, abs=1e-4)
+    assert told.units == {60.0: 23.5}
+    assert any("SCI less SCE is 0.0" in sentence for sentence in found.sentences)
+    [meter] = [sentence for sentence in board.sentences if "GU at 60°" in sentence]
+    assert meter.startswith("23.5 GU at 60° are a reflection of 0.0235: F0 is 0.0")
+    assert gloss_of_set.of_sample(board.sample).sphere is None
+
+
+def test_gloss_follows_from_readings_of_other_wavelengths():
+    nm = np.arange(360.0, 741.0, 5.0)
+    slope = nm / 1000
+    sci = Sample("T", nm, slope + 0.04, "reading", instrument="di:8", specular="SCI")
+    few = np.arange(380.0, 781.0, 20.0)
+    sce = Sample("T", few, few / 1000, "reading", instrument="de:8", specular="SCE", others=(sci,))
+    found = gloss_of_set.of_sample(sce).sphere
+    assert found.reflectance == pytest.approx(0.04, abs=1e-12)
+    assert found.index == pytest.approx(1.5, abs=0.001)
+    infrared = replace(sci, wavelengths=nm + 1000)
+    assert gloss_of_set.of_sample(replace(sce, others=(infrared,))) is None
+    # Relative to another white, both are scaled before they are compared.
+    scaled = {"white": "8:d", "white_factor": 1.1}
+    relative = replace(sce, **scaled, others=(replace(sci, **scaled),))
+    assert gloss_of_set.of_sample(relative).sphere.reflectance == pytest.approx(0.044, abs=1e-9)
 
 
 def test_the_lists_of_the_window_tell_a_set(path, monkeypatch, tmp_path):
