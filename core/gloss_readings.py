@@ -12,7 +12,8 @@ follows from several windows of different widths, and from a lobe that is the ta
   window is the gloss trap. A matte surface has a difference, too, where it sends more or less
   toward the trap than elsewhere: that is below `MATTE`.
 - Gloss units are shares of what black glass of the index 1.567 reflects at that angle, in percent
-  (ISO 2813).
+  (ISO 2813). What a matte surface sends into the window is among them: white has 1 unit at 20° and
+  2 at 60°.
 """
 
 from __future__ import annotations
