@@ -38,6 +38,7 @@ from ..core.errors import (
     RoughSpectraError,
 )
 from ..core.estimate import RELATIVE, Estimate
+from ..core.gloss_readings import GlossReadings
 from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
 from ..core.numerics.arrays import Array
@@ -64,7 +65,7 @@ from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings
 from .readings.emission import Emissivity, InBand
-from .samples import filter_response, library, readers, stated_white
+from .samples import filter_response, gloss_of_set, library, readers, stated_white
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
@@ -79,6 +80,7 @@ __all__ = [
     "Emissivity",
     "Estimate",
     "Filter",
+    "GlossReadings",
     "InBand",
     "InputError",
     "MaterialError",
@@ -101,6 +103,7 @@ __all__ = [
     "estimate",
     "find",
     "gloss",
+    "gloss_readings",
     "keep",
     "match_by_measuring",
     "materials",
@@ -211,7 +214,8 @@ def estimate(
     ----------
     materials
         Of each material what was read of a smooth surface (or its albedo, or None), and what was
-        read of the rough one. A list holds readings of several instruments or angles.
+        read of the rough one. A list holds readings of several instruments or angles; a sample
+        with `others` counts as all of its readings that tell σ.
     model
         One of `core.models.NAMES` that knows roughness; None takes the usual one.
     repeatability
@@ -244,6 +248,36 @@ def estimate(
     if model is None:
         return roughness.of_samples(given, relative=repeatability)
     return roughness.of_samples(given, model, repeatability)
+
+
+def gloss_readings(sample: Sample) -> GlossReadings | None:
+    r"""Tell what a sample's set says of its gloss: SCI less SCE, and gloss units.
+
+    Parameters
+    ----------
+    sample
+        With `others` and `gloss`, as files of spheres and gloss meters give them.
+
+    Returns
+    -------
+    None where it has neither. `sphere` has `reflectance`, the mean of the difference, with its
+    `lowest` and `highest`, and `doubt`, why it may be no gloss; `units` are the gloss units by
+    angle; `told` gives what each says: `reflectance` into its window, `f0`, the least reflectance
+    at the normal, and `index`.
+
+    Examples
+    --------
+    >>> text = "name,Gloss 60,400 nm,500 nm,600 nm,700 nm\n"
+    >>> text += "Tile (SCI),50,0.14,0.24,0.34,0.44\nTile (SCE),50,0.10,0.20,0.30,0.40\n"
+    >>> _ = Path("tile.csv").write_text(text)
+    >>> [tile] = read("tile.csv")
+    >>> tile.name, [reading.specular for reading in tile.readings]
+    ('Tile', ['SCE', 'SCI'])
+    >>> found = gloss_readings(tile)
+    >>> [(each.angle, round(each.f0, 3)) for each in found.told]
+    [(8.0, 0.04), (60.0, 0.015)]
+    """
+    return gloss_of_set.of_sample(sample)
 
 
 def emissivity(

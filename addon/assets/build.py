@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import re
 import shutil
@@ -15,12 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...core.errors import OutputError
 from ..blender import blend_file
 from ..blender.background_job import Job
 from ..matching import shaders
+from ..samples.readers.formats import library as library_format
 from ..support import atomic_files, journal
 from . import catalogs
 from .plan import Asset
@@ -127,10 +126,7 @@ class Build(Job):
                         "catalog": asset.catalog,
                         "catalog_id": ids[asset.catalog],
                         "author": settings.author,
-                        "sample": {
-                            field.name: _plain(getattr(asset.sample, field.name))
-                            for field in dataclasses.fields(asset.sample)
-                        },
+                        "sample": library_format.record(asset.sample),
                     }
                     for asset in assets
                 ],
@@ -213,7 +209,3 @@ def _file_name(titles: Sequence[str]) -> str:
     """Name the file after its catalog, so that another collection gets a file beside it."""
     slug = re.sub(r"[^\w]+", "-", titles[0].lower()).strip("-") if len(titles) == 1 else ""
     return f"rough-spectra-{slug}.blend" if slug else "rough-spectra.blend"
-
-
-def _plain(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -13,17 +13,17 @@ import bpy
 from ..instrument.worker import end_if_orphaned, report
 from ..matching.request import Request
 from ..material import derive
-from ..samples.sample import Sample
+from ..samples.readers.formats import library as library_format
 from . import previews
 
 if TYPE_CHECKING:
     from ..matching.solution import Solution
+    from ..samples.sample import Sample
 
 BLEND = "assets.blend"
 RESULT = "result.json"
 """Files that a job leaves; the second is the last one, and holds the warnings by material."""
 
-_LISTS = ("lab", "xyz", "notes", "altered")
 _SUMMARY = 1000
 """Characters of a citation in a description: some libraries cite twenty authors."""
 
@@ -61,10 +61,8 @@ def _material(name: str) -> Any:
 
 
 def _request(entry: dict[str, Any], job: dict[str, Any]) -> Request:
-    fields = entry["sample"]
-    pairs = {name: tuple(fields[name]) for name in _LISTS if fields[name] is not None}
     return Request(
-        sample=Sample(**(fields | pairs)),
+        sample=library_format.sample_of(entry["sample"], entry["name"]),
         sigma=entry["sigma"],
         model=job["model"],
         illuminant=job["illuminant"],

@@ -17,9 +17,10 @@ import numpy as np
 from ...core import instruments
 from ...core.errors import InputError
 from ...core.estimate import Estimate
+from ..matching import roughness
 from ..material import preferences
 from ..readings.writers.tables import nanometers
-from ..samples import library, readers
+from ..samples import library, readers, sets
 from ..samples.sample import Sample
 from ..support.shown_text import to_cell
 from ..support.version import version
@@ -43,10 +44,11 @@ class Surface:
     @property
     def samples(self) -> list[tuple[int, bool, Sample]]:
         """Number of material, whether rough, and sample, in the order of an estimate's readings."""
+        found = [roughness.used(*pair) for pair in self.materials]
         return [
             (number, rough, sample)
-            for number, pair in enumerate(self.materials)
-            for rough, part in zip((False, True), pair, strict=True)
+            for number, each in enumerate(found)
+            for rough, part in ((False, each.smooth), (True, each.rough))
             for sample in part
         ]
 
@@ -126,13 +128,13 @@ def _by_names(files: Sequence[Path], smooth: Sequence[str], rough: Sequence[str]
     if not rough:
         msg = "Name the readings of the rough surface, with --rough NAME; or give --mapping FILE."
         raise InputError(msg)
-    known = {s.name: s for path in reversed(files) for s in reversed(readers.read(path))}
+    known = sets.by_name([sample for path in files for sample in readers.read(path)])
 
     def find(name: str) -> Sample:
         if not files:
             return library.load(name, preferences.user_folder())
         if name not in known:
-            shown = ", ".join(list(reversed(known))[:5]) + (", …" if len(known) > 5 else "")
+            shown = ", ".join(list(known)[:5]) + (", …" if len(known) > 5 else "")
             msg = f"No sample is named {name!r}; the files have {shown}."
             raise InputError(msg)
         return known[name]

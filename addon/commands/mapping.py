@@ -21,7 +21,7 @@ from ...core.errors import InputError, MaterialError
 from .. import api
 from ..blender import shader_nodes
 from ..material import preferences, selection
-from ..samples import library, readers, stated_white
+from ..samples import library, readers, sets, stated_white
 from ..samples.sample import COLORED, Kind, Sample
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
@@ -68,15 +68,16 @@ def rows(options: argparse.Namespace) -> list[Row]:
 
 def _by_name(options: argparse.Namespace) -> list[Row]:
     samples = [sample for path in options.by_name for sample in readers.read(path)]
-    names = dict.fromkeys(sample.name for sample in samples)
+    names, named = dict.fromkeys(sample.name for sample in samples), sets.by_name(samples)
     shown = ", ".join(list(names)[:5]) + (", …" if len(names) > 5 else "")
-    absent = [name for name in options.material if name not in names]
+    absent = [name for name in options.material if name not in named]
     if absent:
         msg = f"No sample is named {absent[0]!r}; the files have {shown}."
         raise InputError(msg)
     known = {material.name for material in bpy.data.materials}
     wanted = set(options.material or (names if options.create else known))
     chosen = [Row(s.name, s) for s in samples if s.name in wanted]
+    chosen += [Row(n, s) for n, s in named.items() if n in wanted and n not in names]
     if not chosen:
         msg = f"No material is named like a sample ({shown}); rename, or use --mapping."
         raise InputError(msg)
@@ -188,11 +189,10 @@ class Samples:
             return self._of_library(where, name)
         source = self._folder / file
         if source not in self._files:
-            samples = reversed(readers.read(source))  # the first of a name counts
-            self._files[source] = {sample.name: sample for sample in samples}
+            self._files[source] = sets.by_name(readers.read(source))
         found = self._files[source]
         if name not in found:
-            names = ", ".join(list(reversed(found))[:5])
+            names = ", ".join(list(found)[:5])
             msg = f"{where}: {source} has no sample {name!r}; it has {names}."
             raise InputError(msg)
         return found[name]

@@ -6,14 +6,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ...core import estimate
 from ...core.errors import DomainError
 from ...core.estimate import Estimate
+from ...core.instruments import HEMISPHERE, REGISTRY
+from ..samples import sets
+from ..samples.readers.parts import joining
 from ..samples.sample import Sample
 
 Readings = Sample | Sequence[Sample] | None
 """One sample, several, or none."""
+
+
+@dataclass(frozen=True)
+class Used:
+    """Readings of one material that are used, and sentences on those that aren't."""
+
+    smooth: list[Sample]
+    rough: list[Sample]
+    notes: tuple[str, ...]
 
 
 def of_samples(
@@ -29,7 +44,7 @@ def of_samples(
     ----------
     materials
         Of each material what was read of a smooth surface, which may be its albedo or None, and of
-        the rough one, by one instrument or by several.
+        the rough one, by one instrument or by several. A set counts as its readings: see `used`.
     model
         One of `core.models.NAMES` that knows roughness.
     relative, absolute
@@ -47,12 +62,47 @@ def of_samples(
             raise DomainError(f"The {what} repeatability is {share:g}; give 0 or more.")
     if relative == absolute == 0:
         raise DomainError("The repeatability is 0; no reading is exact, so give what it is.")
-    readings = []
-    for number, (smooth, rough) in enumerate(materials, 1):
-        name = _material(number, *_listed(smooth), *_listed(rough))
-        readings += [_reading(s, False, name, relative, absolute) for s in _listed(smooth)]
-        readings += [_reading(s, True, name, relative, absolute) for s in _listed(rough)]
-    return estimate.sigma(readings, model, others)
+    readings, notes = [], list[str]()
+    for number, pair in enumerate(materials, 1):
+        found = used(*pair)
+        name = _material(number, *found.smooth, *found.rough)
+        readings += [_reading(s, False, name, relative, absolute) for s in found.smooth]
+        readings += [_reading(s, True, name, relative, absolute) for s in found.rough]
+        notes += found.notes
+    told = estimate.sigma(readings, model, others)
+    return replace(told, notes=(*told.notes, *notes)) if notes else told
+
+
+def used(smooth: Readings, rough: Readings) -> Used:
+    """Give which readings of samples and their sets tell a roughness.
+
+    Of a rough sample's set all count whose geometry is computed as stated, that have no specular
+    light in them as far as their instrument can leave it out, and whose wavelengths are the
+    sample's own; and its smooth readings, where no others are given. Of a smooth sample just the
+    reading that its color is made from counts.
+    """
+    rough_ones: list[Sample] = []
+    own: list[Sample] = []
+    notes: list[str] = []
+    for sample in _listed(rough):
+        if not sample.others:
+            rough_ones.append(sample)
+            continue
+        rough_ones.append(_alone(sample, sample))
+        for other in sample.others:
+            why = _useless(other, sample)
+            if why:
+                notes.append(f"{_named(other, sample)} was left out of the estimate: {why}.")
+            else:
+                (own if sets.is_smooth(other) else rough_ones).append(_alone(other, sample))
+    smooth_ones = [replace(s, others=(), gloss=()) if s.others else s for s in _listed(smooth)]
+    return Used(smooth_ones or own, rough_ones, tuple(notes))
+
+
+def tells(sample: Sample) -> bool:
+    """Return whether a sample's set alone may tell a roughness: it has two readings or more."""
+    found = used(None, sample)
+    return sample.kind == "reading" and len(found.smooth) + len(found.rough) > 1
 
 
 def summary(found: Estimate) -> str:
@@ -70,7 +120,8 @@ def summary(found: Estimate) -> str:
 
 def source(found: Estimate, materials: Iterable[tuple[Readings, Readings]]) -> str:
     """Give the sentence that is kept with a material whose σ was estimated."""
-    of = [sample.name for pair in materials for given in pair for sample in _listed(given)]
+    given = [used(*pair) for pair in materials]
+    of = [sample.name for each in given for sample in (*each.smooth, *each.rough)]
     return (
         f"Estimated from {', '.join(of[:4])}{', …' if len(of) > 4 else ''} "
         f"by the model {found.model}: {_range(found.interval)} by noise (95 %), "
@@ -96,6 +147,26 @@ def _reading(
         sample.wavelengths,
         sample.name,
     )
+
+
+def _useless(other: Sample, main: Sample) -> str:
+    """Say why a reading of a set tells nothing of σ; empty where it does."""
+    if not np.array_equal(other.wavelengths, main.wavelengths):
+        return "its wavelengths are others than those of the rest"
+    instrument = REGISTRY[other.instrument]
+    if instrument.light == HEMISPHERE and not instrument.trap:
+        return "specular light is in it"
+    if not joining.is_exact(other):
+        return "its geometry is not among the instruments"
+    return ""
+
+
+def _named(reading: Sample, sample: Sample) -> str:
+    return f"{sample.name} at {sets.label(reading)}"
+
+
+def _alone(reading: Sample, sample: Sample) -> Sample:
+    return replace(reading, name=_named(reading, sample), called="", others=(), gloss=())
 
 
 def _material(number: int, *samples: Sample) -> str:

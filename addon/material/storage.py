@@ -23,6 +23,7 @@ from ..matching import scene_view
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
+from ..samples.readers.formats import library as library_format
 from ..samples.sample import Sample
 from ..support.version import version
 from . import changes, snapshot, state
@@ -39,9 +40,12 @@ from .snapshot import (
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
-    *("quantity", "geometry", "aperture", "specular"),
+    *("quantity", "geometry", "aperture", "specular", "surface", "called"),
 )
+_NEWER = {"surface", "called"}
+"""Details that are written only where there are any: earlier materials are as they were."""
 _SENTENCES = ("notes", "altered")
+_SET = ("others", "gloss")
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
 _MENUS = (
@@ -70,9 +74,14 @@ def store(material: Any, request: Request, shader: str) -> None:
             {"wavelengths": sample.wavelengths.tolist(), "values": sample.values.tolist()}
         )
         group.details = json.dumps(
-            {key: getattr(sample, key) for key in _DETAILS}
+            {
+                key: getattr(sample, key)
+                for key in _DETAILS
+                if key not in _NEWER or getattr(sample, key)
+            }
             | {key: list(getattr(sample, key)) for key in _SENTENCES}
             | {"white_factor": sample.white_factor}
+            | library_format.set_record(sample)
         )
         group.white, group.plaque, factor = _white_properties(sample)
         if factor is not None:
@@ -204,7 +213,7 @@ def _sample(
         **(plain | pairs),
     )
     tristimulus.weights(sample.wavelengths)  # refuses what holds too little of a color
-    return sample
+    return library_format.with_set(sample, {key: more[key] for key in _SET if key in more})
 
 
 def _white_properties(sample: Sample) -> tuple[str, str, float | None]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...core.errors import InputError
-from . import library_files, quality, readers, stated_white
+from . import gloss_of_set, library_files, quality, readers, sets, stated_white
 from .library_files import Added
 from .sample import Sample
 
@@ -32,7 +32,10 @@ class Found:
     def sentences(self) -> tuple[str, ...]:
         """Warnings, and what else the reader has to tell."""
         remark = stated_white.remark(self.sample)
-        return (*self.sample.notes, *((remark,) if remark else ()), *self.warnings)
+        others = sets.sentences(self.sample)
+        gloss = gloss_of_set.sentences(self.sample)
+        notes = (*self.sample.notes, *others, *gloss)
+        return (*notes, *((remark,) if remark else ()), *self.warnings)
 
 
 @dataclass(frozen=True)

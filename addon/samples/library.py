@@ -27,6 +27,7 @@ from . import (
     presets,
     quality,
     readers,
+    sets,
     swatches,
 )
 from .library_files import (
@@ -82,6 +83,8 @@ class Entry:
         The file that holds it.
     is_preset
         Whether it came with the extension.
+    readings
+        How many of the surface it holds.
     """
 
     id: str
@@ -98,6 +101,12 @@ class Entry:
     warnings: tuple[str, ...]
     path: Path
     is_preset: bool
+    readings: int = 1
+
+    @property
+    def title(self) -> str:
+        """The name, and of a set how many readings it has."""
+        return f"{self.name} ({self.readings} readings)" if self.readings > 1 else self.name
 
 
 @dataclass(frozen=True, eq=False)
@@ -332,6 +341,7 @@ def _read(path: Path, collection: str, is_preset: bool) -> _File:
                 warnings=warnings,
                 path=path,
                 is_preset=is_preset,
+                readings=sets.count(sample),
             )
         )
     return _File(tuple(found), tuple(samples))

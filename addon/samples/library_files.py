@@ -313,7 +313,8 @@ def _merge(
 
 def _identity(sample: Sample) -> tuple[object, ...]:
     spectrum = sample.wavelengths.tobytes(), sample.values.tobytes()
-    return (*spectrum, sample.kind, sample.instrument, sample.scale)
+    alone = (*spectrum, sample.kind, sample.instrument, sample.scale)
+    return (*alone, sample.gloss, tuple(map(_identity, sample.others)))
 
 
 def _is_name(stored: str, name: str) -> bool:

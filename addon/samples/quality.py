@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -21,6 +22,7 @@ from ...core.limits import COLOR_NM, EYE_NM, sigma_fault
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..colorimetry import tristimulus
+from . import sets
 from .sample import Sample
 
 DISAGREEMENT = 0.5
@@ -66,6 +68,8 @@ def check(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
         fault = "" if sample.sigma_degrees is None else sigma_fault(sample.sigma_degrees)
         if fault:
             found[i].append(f"{sample.name!r} states a roughness that no material has: {fault}")
+    for i, sentence in _other_readings(samples):
+        found[i].append(sentence)
     return [tuple(sentences) for sentences in found]
 
 
@@ -308,6 +312,16 @@ def _ultraviolet_effect(samples: Sequence[Sample]) -> _Found:
                     "holds only under its own condition."
                 )
                 yield from ((i, sentence) for i in pair)
+
+
+def _other_readings(samples: Sequence[Sample]) -> _Found:
+    """Judge what else sets hold; that specular light is in one of them is what it is there for."""
+    places = [(i, other) for i, sample in enumerate(samples) for other in sample.others]
+    judged = _judge_all(
+        [replace(o, name=f"{o.name} at {sets.label(o)}", specular="") for _, o in places]
+    )
+    for (i, _), sentences in zip(places, judged, strict=True):
+        yield from ((i, sentence) for sentence in sentences)
 
 
 def _plain_name(sample: Sample) -> str:

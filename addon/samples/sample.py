@@ -43,6 +43,9 @@ BRIGHTEST = 4.0
 """A reading above this is not reflectance: the strongest daylight fluorescent colors reach 3. Nor
 is it an emissivity if most of a spectrum lies above."""
 
+MOST_GLOSS_UNITS = 2100.0
+"""A mirror that loses nothing has 2038 at 20°, where black glass, of 100, reflects 4.9 %."""
+
 
 @dataclass(frozen=True, eq=False)
 class Sample:
@@ -104,6 +107,17 @@ class Sample:
         What `core.white_scale.factor` calls stated; None where it is not.
     plaque
         The white plaque by a name of `core.white_scale`, or empty.
+    surface
+        Which surface of a material that was made rough was read, in the words of the file:
+        ``"smooth"`` and ``"rough"`` count.
+    others
+        Further readings of the same surface by other instruments, or of the smooth one of the same
+        material: readings without others of their own, each with all that its file says of it.
+    called
+        What the file calls this reading, where the set of it has another name.
+    gloss
+        Gloss units by angle, pairs of degrees and units, by increasing angle; ISO 2813 has 20, 60
+        and 85 degrees.
 
     Raises
     ------
@@ -137,6 +151,15 @@ class Sample:
     white: str = white_scale.PERFECT
     white_factor: float | None = None
     plaque: str = ""
+    surface: str = ""
+    called: str = ""
+    others: tuple[Sample, ...] = ()
+    gloss: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def readings(self) -> tuple[Sample, ...]:
+        """All readings of the set: this one, which the color is made from, and the others."""
+        return (self, *self.others)
 
     @property
     def scale(self) -> float:
@@ -228,6 +251,9 @@ class Sample:
         fault = white_scale.fault(self.white, self.instrument, self.white_factor, self.plaque)
         if fault:
             raise InputError(f"{where}: {fault}.")
+        if self.others or self.gloss:
+            object.__setattr__(self, "others", _readings(where, self.others))
+            object.__setattr__(self, "gloss", _gloss_units(where, self.gloss))
 
 
 _HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivity"}
@@ -235,6 +261,7 @@ _HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivi
 _TEXTS = (
     *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
     *("license", "position", "device", "condition", "illuminant", "white", "plaque"),
+    *("surface", "called"),
 )
 _texts_of = attrgetter(*_TEXTS)
 
@@ -301,6 +328,33 @@ def _sentences(where: str, name: str, given: Sequence[str]) -> tuple[str, ...]:
     if isinstance(given, str) or not all(isinstance(sentence, str) for sentence in given):
         raise InputError(f"{where}: the field {name!r} must be a sequence of texts; make it one.")
     return tuple(given)
+
+
+def _readings(where: str, given: Sequence[Sample]) -> tuple[Sample, ...]:
+    if not all(isinstance(other, Sample) for other in given):
+        raise InputError(f"{where}: the field 'others' must be a sequence of samples; make it one.")
+    for other in given:
+        if other.kind != "reading" or other.others or other.gloss:
+            raise InputError(
+                f"{where}: {other.name!r} cannot be another reading of the same surface, as it is "
+                "no reading or a set itself; give single readings."
+            )
+    return tuple(given)
+
+
+def _gloss_units(where: str, given: Sequence[Sequence[float]]) -> tuple[tuple[float, float], ...]:
+    if isinstance(given, str) or not all(isinstance(pair, Sequence) for pair in given):
+        given = [()]
+    pairs = [_finite(where, "gloss", pair, 2) for pair in given]
+    for angle, units in pairs:
+        if not (0.0 < angle < 90.0 and 0.0 <= units <= MOST_GLOSS_UNITS):
+            raise InputError(
+                f"{where}: {units:g} gloss units at {angle:g}° cannot be; give units from 0 to "
+                f"{MOST_GLOSS_UNITS:g} at an angle between 0° and 90°."
+            )
+    if len({angle for angle, _ in pairs}) < len(pairs):
+        raise InputError(f"{where}: an angle has gloss units twice; keep one of the two.")
+    return tuple(sorted((angle, units) for angle, units in pairs))
 
 
 def _read_only(numbers: ArrayLike) -> NDArray[np.float64]:

@@ -59,7 +59,8 @@ def given(sample: Sample, white: Any, factor: Any) -> Sample:
         raise InputError(f"{sample.source or 'Sample'}, {sample.name!r}: {fault}.")
     if not found:
         return sample
-    return replace(sample, **{"white_factor": None, "plaque": ""} | found)
+    others = tuple(given(other, white, factor) for other in sample.others)
+    return replace(sample, others=others, **{"white_factor": None, "plaque": ""} | found)
 
 
 def told(white: str, factor: float | None, plaque: str) -> str:

@@ -80,7 +80,7 @@ def find(angle: float) -> GlossMeter:
     return METERS[int(angle)]
 
 
-def fresnel(theta: npt.ArrayLike, index: float) -> Array:
+def fresnel(theta: npt.ArrayLike, index: npt.ArrayLike) -> Array:
     """Reflectance of a smooth dielectric for unpolarized light, by Fresnel.
 
     Parameters
@@ -88,11 +88,11 @@ def fresnel(theta: npt.ArrayLike, index: float) -> Array:
     theta
         Angle of incidence, radians, any shape.
     index
-        Refractive index, at least 1.
+        Refractive index, at least 1; of a shape that broadcasts with that of `theta`.
 
     Returns
     -------
-    Array of the shape of `theta`.
+    Array of the shape of both.
 
     Examples
     --------
@@ -100,9 +100,10 @@ def fresnel(theta: npt.ArrayLike, index: float) -> Array:
     [0.0488, 0.0491, 0.1001, 0.6191]
     """
     cos = np.cos(np.asarray(theta, float))
-    inside = np.sqrt(index * index - 1 + cos * cos)  # index times the cosine within
+    square = np.asarray(index, float) ** 2
+    inside = np.sqrt(square - 1 + cos * cos)  # index times the cosine within
     across = (cos - inside) / (cos + inside)
-    along = (index * index * cos - inside) / (index * index * cos + inside)
+    along = (square * cos - inside) / (square * cos + inside)
     return np.asarray((across**2 + along**2) / 2)
 
 

@@ -22,6 +22,7 @@ SIGNATURES = {
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
+    "gloss_readings": "(sample)",
     "keep": "(material)",
     "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
@@ -45,7 +46,7 @@ default at the end breaks none; any other change does, and belongs in the change
 FIELDS = {
     "Sample": "name wavelengths values kind quantity instrument geometry aperture specular "
     "sigma_degrees sigma_source source license position device condition illuminant observer lab "
-    "xyz notes altered white white_factor plaque",
+    "xyz notes altered white white_factor plaque surface called others gloss",
     "Request": "sample sigma model illuminant observer scene flat tolerance read_at gloss",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
@@ -60,6 +61,7 @@ FIELDS = {
     "directional hemispherical bands warnings",
     "InBand": "name first last directional hemispherical apparent",
     "Filter": "wavelengths response",
+    "GlossReadings": "sphere units",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "

@@ -30,6 +30,7 @@ from rough_spectra.core.errors import MaterialError
 DEEP = "[" * 20_000
 NUMBERS = {"sigma": (math.nan, math.inf, 1e30, -5.0), "tolerance": (math.nan, -1.0)}
 MENUS = ("kind", "instrument", "illuminant", "observer", "model", "shader")
+SETS = [("others", "5"), ("others", '[{"values": "x"}]'), ("gloss", '{"x": 1}'), ("gloss", "[1]")]
 DAMAGES = [
     *((name, 9_999) for name in MENUS),
     *((name, value) for name, values in NUMBERS.items() for value in values),
@@ -37,6 +38,7 @@ DAMAGES = [
     ("spectrum", '{"wavelengths": [400, 410], "values": [0.5, 0.5]}'),
     ("spectrum", '{"wavelengths": "400 nm", "values": {}}'),
     *(("details", text) for text in ("[1]", DEEP, '{"lab": [1, "x", 3]}', '{"license": 5}')),
+    *(("details", f'{{"{key}": {value}}}') for key, value in SETS),
 ]
 
 each_damage = pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -46,7 +47,15 @@ def sample(name, level=0.4, **fields):
 
 def same(one, two):
     pairs = [(getattr(one, f.name), getattr(two, f.name)) for f in dataclasses.fields(Sample)]
-    return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in pairs)
+    return all(map(same_field, *zip(*pairs, strict=True)))
+
+
+def same_field(one, two):
+    if isinstance(one, np.ndarray):
+        return np.array_equal(one, two)
+    if isinstance(one, tuple) and one and isinstance(one[0], Sample):
+        return len(one) == len(two) and all(map(same, one, two))
+    return one == two
 
 
 def own(folder):
@@ -82,6 +91,13 @@ FULL = Sample(
     altered=("Two scans were averaged.",),
     white="45:0",
     white_factor=1 / 1.03,
+    surface="rough",
+    called="Gips (45/0)",
+    others=(
+        sample("Gips glatt", surface="smooth", notes=("Three.",)),
+        Sample('Gips "rauh"\n石膏 \U0001f9f1', [400.0, 700.0], [0.1, 0.2], "reading", "di:8"),
+    ),
+    gloss=((20.0, 1 / 3), (60.0, 23.5), (85.0, 90.0)),
 )
 
 
@@ -128,6 +144,15 @@ WHITES = st.one_of(
         {"white": st.sampled_from(["45:0", "8:d"]), "white_factor": st.floats(0.5, 2.0)}
     ),
 )
+OTHERS = st.builds(
+    lambda name, spectrum, instrument: Sample(
+        name, *zip(*spectrum, strict=True), "reading", instrument=instrument
+    ),
+    TEXTS,
+    SPECTRA,
+    st.sampled_from(sorted(REGISTRY)),
+)
+GLOSS = st.tuples(st.floats(0.0, 90.0, exclude_min=True, exclude_max=True), st.floats(0.0, 2000.0))
 
 
 @st.composite
@@ -144,6 +169,8 @@ def samples(draw):
         observer=draw(st.none() | st.integers(-(2**53), 2**53)),
         lab=draw(TRIPLES),
         xyz=draw(TRIPLES),
+        others=draw(st.lists(OTHERS, max_size=2).map(tuple)),
+        gloss=draw(st.lists(GLOSS, max_size=3, unique_by=lambda pair: pair[0]).map(tuple)),
         notes=draw(st.lists(TEXTS, max_size=2).map(tuple)),
         altered=draw(st.lists(TEXTS, max_size=2).map(tuple)),
         **draw(WHITES),
@@ -222,6 +249,58 @@ def test_numbers_of_numpy_become_those_of_python():
     assert (type(one.observer), type(one.sigma_degrees)) == (int, float)
     assert one.lab == (1.0, 2.0, 3.0)
     assert {type(number) for number in one.lab} == {float}
+
+
+SET = sample("Tile", others=(sample("Tile", 0.5, instrument="di:8"),), gloss=((60.0, 8.0),))
+
+
+@pytest.mark.parametrize(
+    ("fields", "word"),
+    [
+        ({"others": 5}, "'others'"),
+        ({"others": [1]}, "'others'"),
+        ({"others": [{}]}, "'values'"),
+        ({"others": [{"values": [0.1, 0.2]}]}, "31 wavelengths stand against 2"),
+        ({"others": [{"values": [0.1] * 31, "kind": "albedo"}]}, "no reading"),
+        ({"others": [{"values": [0.1] * 31, "others": [{}]}]}, "a set of its own"),
+        ({"others": [{"values": [0.1] * 31, "instrument": "x"}]}, "'instrument'"),
+        ({"others": [{"values": [1e999] * 31}]}, "400 nm"),
+        ({"gloss": [60, 8]}, "'gloss'"),
+        ({"gloss": {"sixty": 8}}, "'sixty'"),
+        ({"gloss": {"60": "8"}}, "'gloss'"),
+        ({"gloss": {"60": -1}}, "-1 gloss units"),
+        ({"gloss": {"60": 8, "60.0": 9}}, "twice"),
+        ({"gloss": {"90": 8}}, "90°"),
+        ({"gloss": {"nan": 8}}, "must be 2 numbers"),
+    ],
+)
+def test_a_damaged_set_is_a_sentence_that_names_file_and_sample(tmp_path, fields, word):
+    library.add([SET], "mine", tmp_path)
+    path = tmp_path / "mine.json"
+    document = json.loads(path.read_text())
+    document["samples"][0] |= fields
+    path.write_text(json.dumps(document))
+    with pytest.raises(InputError, match=re.escape(word)) as caught:
+        readers.read(path)
+    assert str(path) in str(caught.value)
+    assert "Tile" in str(caught.value)
+
+
+def test_the_same_spectrum_with_a_set_is_another_sample(tmp_path):
+    alone = dataclasses.replace(SET, others=(), gloss=())
+    assert library.add([alone], "mine", tmp_path).names == ("Tile",)
+    assert library.add([SET], "mine", tmp_path).names == ("Tile 2",)
+    assert library.add([SET, alone], "mine", tmp_path).present == ("Tile", "Tile")
+    assert same(library.load("mine/tile-2", tmp_path), dataclasses.replace(SET, name="Tile 2"))
+
+
+def test_a_set_that_is_none_is_no_sample():
+    for others in ((SET,), (sample("a", kind="albedo"),), ("a",)):
+        with pytest.raises(InputError):
+            dataclasses.replace(SET, others=others)
+    for gloss in (((60.0,),), (5.0,), "60", ((60.0, 1.0), (60.0, 2.0))):
+        with pytest.raises(InputError):
+            dataclasses.replace(SET, gloss=gloss)
 
 
 def test_a_file_has_one_sample_a_line_so_that_changes_can_be_seen(tmp_path):

@@ -230,7 +230,7 @@ def test_what_cannot_be_told_changes_nothing(sanded, measured, tmp_path):
     before = stored(sanded)
     file = {"source": "FILE", "filepath": str(measured)}
     assert refusal(OPS.estimate_sigma).startswith("Name the second reading")
-    assert "has 8 samples" in refusal(OPS.estimate_sigma, **file)
+    assert "has 6 samples" in refusal(OPS.estimate_sigma, **file)
     brighter = refusal(OPS.estimate_sigma, **file, name_in_file="Gray sanded")
     assert brighter.startswith("σ can't be told")
     other = write(tmp_path / "other.csv", {"Paper": ALBEDO}, NM + 5)
@@ -259,3 +259,75 @@ def test_the_dialog_says_what_it_found_before_anything_is_written(sanded, measur
     estimate_sigma._show(dialog, bpy.context)
     assert dialog.found.endswith("has no sample 'Wood'; check the name.")
     assert stored(sanded) == before
+
+
+def with_angles(path, names=None):
+    """A rough surface at six angles, SCI, and at 45as20, which no instrument has."""
+    geometries = [
+        *("45as-15", "45as15", "45as25", "45as45", "45as75", "45as110"),
+        "d/8 SCI",
+        "45as20",
+    ]
+    lines = ["name,geometry," + ",".join(f"{nm} nm" for nm in NM)]
+    for k, geometry in enumerate(geometries):
+        known = "di:8" if "/" in geometry else geometry if geometry != "45as20" else "45as15"
+        level = 0.5 if known == "di:8" else 1.0  # what is left out may read anything
+        values = level * read(ALBEDO, known, seed=k)
+        lines.append(f"Wall,{geometry}," + ",".join(f"{value:.6f}" for value in values))
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def test_a_set_of_angles_tells_sigma_by_itself(main, tmp_path):
+    """By name, by a table, by a script, and in the dialog."""
+    from rough_spectra.addon import api
+
+    path, target = with_angles(tmp_path / "wall.csv"), tmp_path / "sigma.csv"
+    told = main("estimate", path, "--rough", "Wall", "--output", target)
+    assert told.status == 0
+    assert "Wall at di:8° was left out of the estimate: specular light is in it" in told.err
+    assert "not among the instruments" in told.err
+    rows = rows_of(target)
+    assert [row["instrument"] for row in rows] == [
+        *("45as45", "45as-15", "45as15", "45as25", "45as75", "45as110")
+    ]
+    for row in rows:
+        assert float(row["sigma_deg"]) == pytest.approx(25, abs=0.3)
+        assert float(row["rms_residual"]) < 0.001
+    table = tmp_path / "which.csv"
+    table.write_text("sample,surface,file\nWall,wall,wall.csv\n")
+    assert main("estimate", "--mapping", table, "--output", target).status == 0
+    assert rows_of(target)[0]["sigma_deg"] == rows[0]["sigma_deg"]
+    [sample] = api.read(path)
+    assert math.degrees(api.estimate([(None, sample)]).sigma) == pytest.approx(25, abs=0.3)
+
+    thing = mesh_object("Wall", rgb_material("Wall"))
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(path))
+    assert OPS.estimate_sigma("EXEC_DEFAULT", source="SET") == {"FINISHED"}
+    group = thing.active_material.rough_spectra
+    assert math.degrees(group.sigma) == pytest.approx(25, abs=0.3)
+    assert group.sigma_source.startswith("Estimated from Wall at 45°:as45°, Wall at 45°:as-15°")
+    assert '"others"' in group.details
+
+
+def test_smooth_and_rough_of_a_set_tell_sigma(tmp_path):
+    from rough_spectra.addon import api
+
+    lines = ["name,surface," + ",".join(f"{nm} nm" for nm in NM)]
+    for surface, values in (("smooth", noisy(ALBEDO, 1)), ("rough", read(ALBEDO, seed=2))):
+        lines.append(f"Card,{surface}," + ",".join(f"{value:.6f}" for value in values))
+    path = tmp_path / "card.csv"
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    [card] = api.read(path)
+    found = api.estimate([(None, card)])
+    assert math.degrees(found.sigma) == pytest.approx(25, abs=0.3)
+    alone = api.estimate([(None, card.others[0])])
+    assert not alone.is_told
+
+
+def test_the_dialog_begins_with_the_set_where_there_is_one(sanded, tmp_path):
+    from rough_spectra.addon.interface.operators import estimate_sigma
+
+    assert not estimate_sigma._has_set(bpy.context)
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(with_angles(tmp_path / "wall.csv")))
+    assert estimate_sigma._has_set(bpy.context)

@@ -119,6 +119,7 @@ def _sample(named: str) -> Sample:
     """Find a sample by what the command line calls it."""
     from ....core.errors import InputError
     from ... import api
+    from ...samples import sets
 
     # A name may hold the sign itself, as a file's may: what is there decides.
     places = [i for i, sign in enumerate(named) if sign == _FILE_AND_SAMPLE]
@@ -127,6 +128,8 @@ def _sample(named: str) -> Sample:
             continue
         samples, wanted = api.read(named[:end]), named[end + 1 :]
         matching = [s for s in samples if s.name == wanted] if wanted else samples
+        if wanted and not matching:
+            matching = [s for name, s in sets.by_name(samples).items() if name == wanted]
         if wanted and matching:
             return matching[0]
         if len(matching) == 1:

@@ -133,6 +133,7 @@ def _spectrum(options: argparse.Namespace) -> Sample | None:
     from ....core.errors import InputError
     from ... import api
     from ...laboratory import readings
+    from ...samples import sets
 
     named = options.sample is not None or options.file is not None
     if named == (options.albedo is not None):
@@ -143,7 +144,9 @@ def _spectrum(options: argparse.Namespace) -> Sample | None:
         return readings.facets(api.find(options.sample))
     found = api.read(options.file)
     if options.sample is not None:
+        known = sets.by_name(found)
         found = [sample for sample in found if sample.name == options.sample]
+        found = found or [s for name, s in known.items() if name == options.sample]
     if len(found) != 1:
         msg = f"{options.file} has {len(found)} such samples; name one of its samples by --sample."
         raise InputError(msg)

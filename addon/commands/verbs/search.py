@@ -14,12 +14,14 @@ from ...support.shown_text import out, tell
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
+    from ...samples.library import Entry
 
 NAME = "search"
 SUMMARY = "find samples of the library and presets, by words or by color"
 DESCRIPTION = (
     "Print id and name of the samples that have all the words in name, collection or source; with "
-    "--near the samples nearest to a color, with their ΔE00 from it. Columns are separated by tabs."
+    "--near the samples nearest to a color, with their ΔE00 from it; last, how many "
+    "readings a set has. Columns are separated by tabs."
 )
 
 
@@ -52,14 +54,19 @@ def run(options: argparse.Namespace) -> int:
         tell(f"warning: {fault}")
     if options.near is None:
         for entry in library.search(" ".join(options.words), folder):
-            out(entry.id, entry.name)
+            out(entry.id, entry.name, *_several(entry))
         return 0
     if options.count < 1:
         msg = f"--count is {options.count}; give 1 or more."
         raise InputError(msg)
     for entry, difference in library.nearest(_lab(options.near), options.count, folder):
-        out(entry.id, entry.name, f"{difference:.2f}")
+        out(entry.id, entry.name, f"{difference:.2f}", *_several(entry))
     return 0
+
+
+def _several(entry: Entry) -> tuple[str, ...]:
+    """Give the last column, which only sets have."""
+    return (f"{entry.readings} readings",) if entry.readings > 1 else ()
 
 
 def _lab(color: str) -> Array:

@@ -59,7 +59,7 @@ class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy
 
     def execute(self, context: Any) -> set[str]:
         """Assign to all materials in scope, or to none; ask which sample if there are several."""
-        from ...samples import readers, stated_white
+        from ...samples import readers, sets, stated_white
 
         try:
             samples = readers.read(bpy.path.abspath(self.filepath))
@@ -74,7 +74,7 @@ class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
-        for note in sample.notes:
+        for note in (*sample.notes, *sets.sentences(sample)):
             self.report({"WARNING"}, f"{sample.name}: {note}")
         common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
@@ -145,6 +145,8 @@ def choose(samples: list[Any], name: str, path: str) -> Any:
     InputError
         If none is called so, or several are there and none is named.
     """
+    from ...samples import sets
+
     if not name:
         if len(samples) == 1:
             return samples[0]
@@ -152,9 +154,9 @@ def choose(samples: list[Any], name: str, path: str) -> Any:
         more = ", …" if len(samples) > 5 else ""
         msg = f"{path} has {len(samples)} samples ({names}{more}); say which with sample=."
         raise InputError(msg)
-    for sample in samples:
-        if sample.name == name:
-            return sample
+    found = sets.by_name(samples)
+    if name in found:
+        return found[name]
     msg = f"{path} has no sample {name!r}; check the name."
     raise InputError(msg)
 

@@ -23,11 +23,12 @@ if TYPE_CHECKING:
     from ...matching.request import Request
     from ...samples.sample import Sample
 
-    Pairs = list[tuple[Sample, Sample]]
+    Pairs = list[tuple[Sample | None, Sample]]
 
 _SOURCE_ITEMS = (
     ("LIBRARY", "Presets and Library", "A sample of the presets or of your library"),
     ("FILE", "File", "A sample of a measurement file"),
+    ("SET", "Its Own Set", "Nothing else: the angles, or smooth and rough, that the sample holds"),
 )
 _WIDTH = 480
 _CHARACTERS_A_LINE = 70
@@ -52,7 +53,9 @@ def _show(fields: Any, context: Any) -> None:
 
 
 def _is_named(fields: Any) -> bool:
-    """Whether the second reading is named yet."""
+    """Whether the second reading is named yet, if one is asked for."""
+    if fields.source == "SET":
+        return True
     return bool(fields.sample if fields.source == "LIBRARY" else fields.filepath)
 
 
@@ -68,10 +71,26 @@ def _estimate(fields: Any, context: Any) -> tuple[Request, Pairs, Estimate]:
     from ...material import storage
 
     request = storage.load(common.active_material(context))
-    stored, other = request.sample, _second(fields)
-    # An albedo is what a smooth surface reads.
-    pairs = [(other, stored) if stored.kind == "reading" else (stored, other)]
+    stored = request.sample
+    pairs: Pairs
+    if fields.source == "SET":
+        pairs = [(None, stored)]
+    else:
+        other = _second(fields)
+        # An albedo is what a smooth surface reads.
+        pairs = [(other, stored) if stored.kind == "reading" else (stored, other)]
     return request, pairs, roughness.of_samples(pairs, relative=fields.repeatability / 100)
+
+
+def _has_set(context: Any) -> bool:
+    """Whether the material's own readings may do; what is damaged is told by the estimate."""
+    from ...matching import roughness
+    from ...material import storage
+
+    try:
+        return roughness.tells(storage.load(common.active_material(context)).sample)
+    except RoughSpectraError:
+        return False
 
 
 def _second(fields: Any) -> Sample:
@@ -141,7 +160,9 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
         return True
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
-        """Ask for the second reading."""
+        """Ask for the second reading, or take the material's own set where it may do."""
+        if not self.properties.is_property_set("source") and _has_set(context):
+            self.source = "SET"
         _show(self, context)
         return context.window_manager.invoke_props_dialog(self, width=_WIDTH, confirm_text="Set σ")
 
@@ -153,13 +174,15 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
         words = iface_("The material's own is the {stored} reading; give the {other} one").format(
             stored=iface_(stored), other=iface_(other)
         )
+        if self.source == "SET":
+            words = iface_("The material's own readings are used, and nothing else")
         layout.label(text=words, translate=False)
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(self, "source")
         if self.source == "LIBRARY":
             layout.prop(self, "sample")
-        else:
+        elif self.source == "FILE":
             layout.prop(self, "filepath")
             layout.prop(self, "name_in_file")
         layout.prop(self, "repeatability")

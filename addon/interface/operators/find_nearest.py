@@ -67,7 +67,7 @@ def _find(operator: Any, _context: Any = None) -> None:
     operator.matches.clear()
     for entry, difference in library.nearest(lab, operator.count, preferences.user_folder()):
         item = operator.matches.add()
-        item.name, item.sample, item.difference = entry.name, entry.id, difference
+        item.name, item.sample, item.difference = entry.title, entry.id, difference
         item.swatch = entry.swatch
     operator.index = min(operator.index, max(len(operator.matches) - 1, 0))
 

@@ -193,6 +193,7 @@ def _about(each: Found) -> str:
     parts = (
         *(sample.kind.capitalize(), sample.geometry or title("instrument", sample.instrument)),
         *(sample.specular, sample.condition, sample.device),
+        iface_("{} readings").format(len(sample.readings)) if sample.others else "",
     )
     return ", ".join(part for part in parts if part)
 

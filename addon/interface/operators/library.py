@@ -21,7 +21,7 @@ def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple
     from ...samples import library
 
     for entry in library.search(text, preferences.user_folder()):
-        yield entry.id, entry.name
+        yield entry.id, entry.title
 
 
 def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
@@ -31,7 +31,7 @@ def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str,
 
     for entry in library.search(text, preferences.user_folder()):
         if not entry.is_preset:
-            yield entry.id, entry.name
+            yield entry.id, entry.title
 
 
 class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import bpy
@@ -253,6 +254,19 @@ def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:
     try:
         data: dict[str, Any] = json.loads(text or "{}")
         shown = [(label, str(data[key])) for key, label in _SHOWN if data.get(key)]
+        shown += _set(data.get("others", ()), data.get("gloss", {}))
         return shown, [*map(str, data.get("altered", ())), *map(str, data.get("notes", ()))]
     except (ValueError, TypeError, AttributeError, RecursionError):
         return [], []
+
+
+def _set(others: list[dict[str, Any]], gloss: dict[str, float]) -> Iterator[tuple[str, str]]:
+    """Say which further readings of the surface a material stores."""
+    titles = []
+    for other in others:
+        menu = instruments.REGISTRY[other.get("instrument", "45a:0")].menu
+        titles.append(", ".join(part for part in (menu, other.get("surface", "")) if part))
+    if titles:
+        yield "Also Read", "; ".join(titles)
+    if gloss:
+        yield "Gloss", ", ".join(f"{units:g} GU at {angle}°" for angle, units in gloss.items())

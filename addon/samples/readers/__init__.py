@@ -10,6 +10,7 @@ A format is one module of `formats/`, and nothing else has to know of it:
     def sniff(document: Document) -> bool           by content; quick, and never raises
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
     REGIONS = True                                  only where it reads `Document.region`
+    SETS = True                                     only where files say what belongs together
 
 What several formats share is in `parts/`.
 """
@@ -24,6 +25,7 @@ from ....core.numerics.memoized import memoized
 from ...support import discovery
 from ..sample import Sample
 from . import formats
+from .parts import joining
 from .parts.document import Document, open_document
 
 __all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
@@ -69,7 +71,7 @@ def read(
             samples = reader.read(document)
             if not samples:
                 raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
-            return samples
+            return samples if getattr(reader, "SETS", False) else joining.joined(samples)
     raise _unrecognized(document)
 
 

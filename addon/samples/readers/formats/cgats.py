@@ -12,6 +12,7 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from ..parts import (
     cgats_columns,
     cgats_tables,
     cgats_words,
+    statements,
 )
 from ..parts import (
     tables as _table,
@@ -106,7 +108,7 @@ def _numbers(document: Document, table: Table, columns: Columns) -> _Read:
         table.rows,
         table.fields,
         wanted,
-        [*texts, *columns.lab, *columns.xyz],
+        [*texts, *columns.keyed, *columns.lab, *columns.xyz],
         decimal_comma=True,
     )
     _table.check_count(document, len(block.lines) * len(columns.spectra))
@@ -139,7 +141,8 @@ def _samples(
     document: Document, one: _Read, left: tuple[str, ...], *, several: bool
 ) -> Iterator[Sample]:
     words, columns, block = one.words, one.columns, one.block
-    notes = (*words.notes, *one.notes, *left)
+    about = (*one.notes, *left)
+    notes = (*words.notes, *about)
     scaled = list(_scaled(document, one))
     alone = len(block.lines) == 1
     for row, line in enumerate(block.lines):
@@ -148,6 +151,7 @@ def _samples(
         name = from_cell(name) if one.escaped else name
         name = name or (document.path.stem if alone else f"{document.path.stem} {row + 1}")
         own = next(texts) if columns.condition is not None else ""
+        stated = _stated(one, [next(texts) for _ in columns.keyed])
         lab = _triple(document, line, texts, one.fields, columns.lab)
         xyz = _triple(document, line, texts, one.fields, columns.xyz)
         for spectrum, nm, values in scaled:
@@ -157,10 +161,12 @@ def _samples(
                 wavelengths=nm if nm.ndim == 1 else nm[row],
                 values=values[row],
                 kind="reading",
-                instrument=words.instrument,
-                geometry=words.geometry,
+                instrument=stated.get("instrument", words.instrument),
+                geometry=stated.get("geometry", words.geometry),
                 aperture=words.aperture,
-                specular=words.specular,
+                specular=stated.get("specular", words.specular),
+                surface=stated.get("surface", ""),
+                gloss=stated.get("gloss", ()),
                 source=str(document.path),
                 position=f"line {line}",
                 device=words.device,
@@ -169,8 +175,24 @@ def _samples(
                 observer=words.observer,
                 lab=lab,
                 xyz=xyz and (xyz[0] / 100, xyz[1] / 100, xyz[2] / 100),  # CGATS: white has Y = 100
-                notes=notes,
+                notes=(*stated["notes"], *about) if stated else notes,
             )
+
+
+def _stated(one: _Read, cells: list[str]) -> dict[str, Any]:
+    """Return fields of `Sample` from the columns of a record, with its notes on the geometry."""
+    keys = [one.fields[i] for i in one.columns.keyed]
+    own: dict[str, Any] = {}
+    for key, cell in zip(keys, cells, strict=True):
+        own.update(statements.stated(key, cell))
+    if not own:
+        return {}
+    words = one.words
+    measured = own.keys() & {"geometry", "specular", "angle", "aspecular"}
+    before = {"geometry": words.geometry, "specular": words.specular} if measured else {}
+    found = statements.finish({k: v for k, v in before.items() if v} | own)
+    notes = found.get("notes", ())
+    return found | {"notes": notes if measured else (*words.notes, *notes)}
 
 
 def _scaled(

@@ -5,8 +5,11 @@
 An object with ``format`` ("rough-spectra-library"), ``schema`` (1) and ``samples``: an array of
 objects with the fields of `Sample`, of which ``name``, ``kind``, ``wavelengths`` (nm) and
 ``values`` (fractions) are needed. ``rdq`` or ``sdq`` may state the roughness instead of
-``sigma_degrees``. A sample's ``id`` tells it from the others of the file. Other fields may stand
-beside them, and stay there when the library is written again.
+``sigma_degrees``. ``others`` holds further readings of the same surface, objects as the samples, of
+which ``values`` are needed: ``name`` and ``wavelengths`` are the sample's where they aren't given.
+``gloss`` holds gloss units by the angle, as in ``{"60": 23.5}``. A sample's ``id`` tells it from
+the others of the file. Other fields may stand beside them, and stay there when the library is
+written again.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ import math
 import re
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -31,6 +35,7 @@ from ..parts.document import Document, quote
 NAME = "Rough Spectra library"
 ENDINGS = ("json",)
 PRIORITY = 100
+SETS = True
 
 FORMAT = "rough-spectra-library"
 SCHEMA = 1
@@ -38,6 +43,9 @@ SCHEMA = 1
 _CHARACTERS_A_BRACKET = 12
 """A file with more brackets than one in so many characters is no library: a sample has three in a
 hundred. Small objects take up to 25 times their text in memory."""
+
+_Grids = dict[tuple[float, ...], np.ndarray]
+"""Wavelengths that samples share."""
 
 _STRING = re.compile(r'"[^"\\]*+(?:\\.[^"\\]*+)*+\\?(?:"|\Z)', re.DOTALL)
 """A string of JSON, or one that is not closed; never looks at a character twice."""
@@ -106,11 +114,35 @@ def samples(document: Document, fields: dict[str, Any]) -> list[Sample]:
     InputError
         A field is missing or of another type than it should be, or a spectrum is none.
     """
-    grids: dict[tuple[float, ...], np.ndarray] = {}
+    grids: _Grids = {}
     return [
-        _sample(document, f"sample {number}", record, grids)
+        _with_set(
+            document,
+            f"sample {number} {quote(str(record.get('name')))}",
+            _sample(document, f"sample {number}", record, grids),
+            record,
+            grids,
+        )
         for number, record in enumerate(fields["samples"], start=1)
     ]
+
+
+def sample_of(record: dict[str, Any], where: str) -> Sample:
+    """Return the sample of one object, as `record` gives it.
+
+    Parameters
+    ----------
+    record
+        The object.
+    where
+        What messages name instead of a file.
+
+    Raises
+    ------
+    InputError
+        See `samples`.
+    """
+    return samples(Document(Path(where), b""), {"samples": [record]})[0]
 
 
 def record(sample: Sample) -> dict[str, Any]:
@@ -122,6 +154,24 @@ def record(sample: Sample) -> dict[str, Any]:
             found[field.name] = list(value) if isinstance(value, tuple) else value
     found["wavelengths"] = _wavelengths(sample.wavelengths.tobytes())
     found["values"] = sample.values.tolist()
+    return found | set_record(sample)
+
+
+def set_record(sample: Sample) -> dict[str, Any]:
+    """Return what an object has of a sample's set beside its own reading; nothing without one."""
+    found: dict[str, Any] = {}
+    if sample.others:
+        found["others"] = [_other_record(other, sample) for other in sample.others]
+    if sample.gloss:
+        found["gloss"] = {repr(angle).removesuffix(".0"): units for angle, units in sample.gloss}
+    return found
+
+
+def _other_record(other: Sample, main: Sample) -> dict[str, Any]:
+    found = record(other)
+    del found["kind"]
+    if np.array_equal(other.wavelengths, main.wavelengths):
+        del found["wavelengths"]
     return found
 
 
@@ -130,11 +180,57 @@ def _wavelengths(data: bytes) -> list[float]:
     return [int(nm) if nm.is_integer() else nm for nm in np.frombuffer(data).tolist()]
 
 
+def with_set(sample: Sample, fields: dict[str, Any]) -> Sample:
+    """Return a sample with the set that `set_record` gave.
+
+    Raises
+    ------
+    InputError
+        It is damaged.
+    """
+    return _with_set(Document(Path(sample.source or sample.name), b""), "set", sample, fields, {})
+
+
+def _with_set(
+    document: Document, place: str, main: Sample, fields: dict[str, Any], grids: _Grids
+) -> Sample:
+    others, gloss = fields.get("others", []), fields.get("gloss", {})
+    if others == [] and gloss == {}:
+        return main
+    if not isinstance(others, list) or not all(isinstance(other, dict) for other in others):
+        raise document.error(place, "the field 'others' must be an array of objects, one a reading")
+    if any(other.get("others") or other.get("gloss") for other in others):
+        raise document.error(place, "one of its 'others' has a set of its own; give readings only")
+    if not isinstance(gloss, dict) or not all(map(_is_number, gloss.values())):
+        raise document.error(place, "the field 'gloss' must hold gloss units by the angle")
+    shared = {"name": main.name, "kind": "reading", "wavelengths": main.wavelengths.tolist()}
+    found = tuple(
+        _sample(document, f"{place}, reading {number},", shared | other, grids)
+        for number, other in enumerate(others, start=2)
+    )
+    units = tuple((_angle(document, place, angle), float(gloss[angle])) for angle in gloss)
+    try:
+        return dataclasses.replace(main, others=found, gloss=units)
+    except InputError as error:
+        # The sample names the file it came from, which is not the one to mend.
+        sentence = str(error).partition(": ")[2].rstrip(".")
+        raise document.error(place, sentence) from None
+
+
+def _angle(document: Document, place: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise document.error(
+            place, f"the field 'gloss' has {quote(text)} for an angle; give degrees"
+        ) from None
+
+
 def _sample(
     document: Document,
     place: str,
     fields: dict[str, Any],
-    grids: dict[tuple[float, ...], np.ndarray],
+    grids: _Grids,
 ) -> Sample:
     name = fields.get("name")
     if isinstance(name, str):
@@ -226,6 +322,5 @@ _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
 }
 """By the annotation of a field of `Sample`: what a value must be."""
 
-_FIELDS = [
-    field for field in dataclasses.fields(Sample) if field.name not in ("wavelengths", "values")
-]
+_APART = ("wavelengths", "values", "others", "gloss")
+_FIELDS = [field for field in dataclasses.fields(Sample) if field.name not in _APART]

@@ -15,6 +15,7 @@ from ..parts.preset_fields import FORMAT, faults, stated_sigma
 NAME = "Rough Spectra preset"
 ENDINGS = ("json",)
 PRIORITY = 100
+SETS = True
 
 _OPTIONAL = (
     *("quantity", "geometry", "aperture", "specular", "device", "condition"),

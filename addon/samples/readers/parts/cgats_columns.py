@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from . import statements
 from .cgats_tables import Table
 from .document import Document, quote
 
@@ -29,6 +30,7 @@ _BARE = re.compile(r"(\d{3,4}(?:\.\d+)?)_?NM", re.IGNORECASE)
 
 # In the order in which they make a name: people's words before places before numbers.
 _NAMES = ("SAMPLENAME", "NAME", "COLORNAME", "PATCHNAME", "SAMPLELOC", "STRING", "SAMPLEID", "ID")
+_SAID_OF_RECORDS = ("geometry", "specular", "aspecular", "angle", "surface", "gloss")
 _LAB = ("LAB_L", "LAB_A", "LAB_B")
 _XYZ = ("XYZ_X", "XYZ_Y", "XYZ_Z")
 
@@ -60,7 +62,10 @@ class Spectrum:
 
 @dataclass
 class Columns:
-    """Where things stand; empty or None what the table does not have."""
+    """Where things stand; empty or None what the table does not have.
+
+    `keyed` are the columns that say how each record was measured, as `statements` knows them.
+    """
 
     spectra: list[Spectrum] = field(default_factory=list)
     name: int | None = None
@@ -68,6 +73,7 @@ class Columns:
     lab: list[int] = field(default_factory=list)
     xyz: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    keyed: list[int] = field(default_factory=list)
 
 
 def find(document: Document, table: Table) -> Columns:
@@ -88,6 +94,11 @@ def find(document: Document, table: Table) -> Columns:
     for label in ("MEASUREMENT_CONDITION", "MEASUREMENTCONDITION"):
         if label in upper:
             found.condition = upper.index(label)
+    found.keyed = [
+        i
+        for i, label in enumerate(table.fields)
+        if statements.field_of(label).partition(" ")[0] in _SAID_OF_RECORDS
+    ]
     found.lab = _triple(upper, _LAB)
     found.xyz = _triple(upper, _XYZ)
     groups: dict[tuple[str, str], list[tuple[float, int]]] = {}

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from ....support.shown_text import ESCAPED
 from ...sample import Kind
 from ...stated_white import fields as white_fields
+from . import name_marks
 from .document import Document, quote
 from .tables import lines
 
@@ -73,9 +74,11 @@ class Comments:
 def band(label: str) -> float | None:
     """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states.
 
-    As it stands, or in nanometers where the name itself says micrometers.
+    As it stands, or in nanometers where the name itself says micrometers. A mark such as ``(SCI)``
+    counts for nothing.
     """
-    match = _BAND.fullmatch(label.strip()[:40])
+    text = label.strip()[:40]
+    match = _BAND.fullmatch(text) or _BAND.fullmatch(name_marks.of_band(text)[0])
     if not match:
         return None
     found = float(match[1].replace(",", "."))
@@ -102,6 +105,16 @@ def bands_of(cells: list[str], least: float) -> list[float]:
         if not together or (len(at) < _LEAST_BARE and at[0] > 1):
             return []
     return [band(cells[i]) or 0.0 for i in at]
+
+
+def are_in_order(cells: list[str], least: float) -> bool:
+    """Return whether the wavelengths of column names rise or fall, those of SCI and SCE apart."""
+    found: dict[str, list[float]] = {}
+    for cell in cells:
+        nm = band(cell) or 0.0
+        if nm >= least:
+            found.setdefault(name_marks.of_band(cell)[1], []).append(nm)
+    return all(nm in (sorted(set(nm)), sorted(set(nm), reverse=True)) for nm in found.values())
 
 
 def is_unit_row(cells: list[str]) -> bool:

@@ -13,11 +13,20 @@ from typing import Any
 
 from .....core.instruments import REGISTRY
 from .....core.numerics.memoized import memoized
-from ...sample import Sample
-from .document import Document
+from ...sample import MOST_GLOSS_UNITS, Sample
+from . import joining, name_marks, tables
+from .document import Document, quote
 from .geometry_words import EMITTED, EMITTING, instrument_of, specular_of
 from .label_words import Comments
 from .series import Bands
+
+_GLOSS = "gloss units"
+_USUAL_GLOSS = "60"  # degrees, of a meter with one angle; ISO 2813 begins with it
+_GLOSS_KEY = re.compile(
+    r"(?:gloss|gu|glossunits)(20|45|60|75|85)(?:deg(?:rees?)?|gu)?|"
+    r"(20|45|60|75|85)(?:deg(?:rees?)?)?(?:gloss|gu)(?:units|gu)?"
+)
+_UNITS = re.compile(r"\s*(\d+(?:[.,]\d*)?)\s*(?:gu|gloss units?)?\s*", re.IGNORECASE)
 
 _KEYS = {
     **dict.fromkeys(("device", "instrument", "instrumentname", "instrumenttype"), "device"),
@@ -33,6 +42,10 @@ _KEYS = {
     **dict.fromkeys(("measuringmode", "measuremode", "filter", "uvfilter"), "condition"),
     **dict.fromkeys(("specular", "specularcomponent", "specularmode", "scisce"), "specular"),
     **dict.fromkeys(("spex", "sci", "sce", "gloss", "reflectancemode", "viewing"), "specular"),
+    **dict.fromkeys(("surface", "surfacestate"), "surface"),
+    **dict.fromkeys(("aspecular", "aspecularangle", "effectangle"), "aspecular"),
+    **dict.fromkeys(("angle", "measurementangle", "measuringangle", "viewingangle"), "angle"),
+    **dict.fromkeys(("gu", "glossunits", "glossvalue", "glossunit"), _GLOSS),
     **dict.fromkeys(("sample", "samplename", "name", "sampleid", "dataname", "target"), "name"),
 }
 _CONDITION = re.compile(r"\bM[0-3]\b", re.IGNORECASE)
@@ -43,8 +56,14 @@ _COLOR = re.compile(r"(?:cie[ _-]*)?([lab])(?:\s*\*)?\s*(?:[\[(](.*)[\])])?", re
 
 
 def field_of(key: str) -> str:
-    """Return the field that a key names, ``"light"`` for illuminant and observer, or nothing."""
-    return _KEYS.get(re.sub(r"[^a-z0-9]", "", key.lower()), "")
+    """Return the field that a key names, or nothing.
+
+    ``"light"`` is illuminant and observer; ``"gloss units 60"`` and its like, ``"aspecular"`` and
+    ``"angle"`` become fields in `finish`.
+    """
+    plain = re.sub(r"[^a-z0-9]", "", key.lower())
+    gloss = _GLOSS_KEY.fullmatch(plain)
+    return f"{_GLOSS} {gloss[1] or gloss[2]}" if gloss else _KEYS.get(plain, "")
 
 
 @memoized(maxsize=1024)
@@ -66,6 +85,8 @@ def stated(key: str, value: str) -> Mapping[str, Any]:
         condition = _CONDITION.search(value)
         specular = specular_of(value)
         return {"condition": condition[0].upper()} if condition else _specular(specular)
+    if field == "specular" and _UNITS.fullmatch(value) and "gloss" in key.lower():
+        field = _GLOSS  # a column "Gloss" has one or the other
     if field == "specular":
         # A key such as "SCI" has a value such as "yes"; the words of both say it together.
         return _specular(specular_of(value) or specular_of(f"specular {value}"))
@@ -104,13 +125,57 @@ def color_columns(header: list[str]) -> tuple[list[int], dict[str, Any]]:
 def finish(fields: dict[str, Any]) -> dict[str, Any]:
     """Return arguments for `Sample`: the instrument and its note follow from the geometry."""
     found = dict(fields)
+    notes = _take_gloss(found)
+    _take_angle(found)
     geometry, specular = found.get("geometry", ""), found.get("specular", "")
-    if not geometry and not specular:
-        return found
-    found["instrument"], note, found["specular"] = _instrument(geometry, specular)
-    if note:
-        found["notes"] = (note,)
+    if geometry or specular:
+        found["instrument"], note, found["specular"] = _instrument(geometry, specular)
+        notes = [note, *notes] if note else notes
+    if notes:
+        found["notes"] = tuple(notes)
     return found
+
+
+def _take_angle(found: dict[str, Any]) -> None:
+    """Turn an angle that is stated by itself into words of the geometry."""
+    aspecular, angle = found.pop("aspecular", ""), found.pop("angle", "")
+    said = aspecular or angle
+    if not said:
+        return
+    degrees = name_marks.aspecular_of(said)
+    if degrees is None and aspecular:
+        degrees = name_marks.angle_of(said)
+    words = f"{joining.ANGLE}{said}" if degrees is None else f"45as{degrees}"
+    geometry = found.get("geometry", "")
+    if degrees is None:
+        found["geometry"] = f"{geometry}, {words}" if geometry else words
+    else:
+        found["geometry"] = f"{words}, {geometry}" if geometry else words
+
+
+def _take_gloss(found: dict[str, Any]) -> list[str]:
+    """Turn gloss units by angle into the field `gloss`; return what is to be said of them."""
+    notes = []
+    units: dict[float, float] = {}
+    for key in [key for key in found if key.startswith(_GLOSS)]:
+        said = found.pop(key)
+        if tables.is_missing(said):
+            continue
+        angle = key.removeprefix(_GLOSS).strip()
+        match = _UNITS.fullmatch(said)
+        value = float(match[1].replace(",", ".")) if match else -1.0
+        if not 0.0 <= value <= MOST_GLOSS_UNITS:
+            where = f" at {angle}°" if angle else ""
+            notes.append(f"The gloss{where}, {quote(said)}, cannot be gloss units; left out.")
+            continue
+        if not angle:
+            angle = _USUAL_GLOSS
+            notes.append(f"The gloss units have no angle; {angle}° is taken, as is usual.")
+        if units.setdefault(float(angle), value) != value:
+            notes.append(f"The gloss at {angle}° stands twice; {quote(said)} was left out.")
+    if units:
+        found["gloss"] = tuple(units.items())
+    return notes
 
 
 @memoized(maxsize=256)

@@ -124,7 +124,7 @@ def _names_bands(line: str, following: str, *, first: bool) -> bool:
         if len(found) < 2 or (not first and _is_number(cells[0])):
             continue
         plain = all(_is_number(cell) for cell in cells[1:])
-        ordered = found == sorted(set(found)) or found == sorted(set(found), reverse=True)
+        ordered = label_words.are_in_order(cells, LEAST_BAND)
         # Two numbers may be a date: the row below has to have as many fields.
         fits = first and len(_cells(following, mark)) in (len(cells), len(cells) + 1)
         if ordered and (len(found) > 2 or fits or not plain):

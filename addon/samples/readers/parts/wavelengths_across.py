@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from .....core.numerics.arrays import Array
 from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import (
     label_words,
+    name_marks,
     series,
     statements,
     tables,
@@ -28,6 +30,9 @@ _NAME_COLUMN = re.compile(
     r"(?:(?:sample|data)[ _-]?)?(?:name|label)|user color name|sample", re.IGNORECASE
 )
 _ID_COLUMN = re.compile(r"(?:sample[ _-]?)?(?:id|index|no\.?|number)", re.IGNORECASE)
+_Part = tuple[str, list[int], Array, Array]
+"""What the bands' names say of specular light, the places among the bands, wavelengths, values."""
+
 _NAMED = 8  # how many of the columns not read a note names
 
 
@@ -71,15 +76,16 @@ def read(
     texts = [*([] if name is None else [name]), *keyed, *color]
     unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]
     block = tables.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
-    tables.check_count(document, len(block.lines))
-    nm = np.array([label_words.band(header[i]) for i in bands], dtype=np.float64)
+    marked = {name_marks.of_band(header[i])[1] for i in bands}
+    tables.check_count(document, len(block.lines) * len(marked))
+    every = np.array([label_words.band(header[i]) for i in bands], dtype=np.float64)
     stated = [header[0]] if 0 not in bands else []
     if label_words.unit_of_wavelengths(header[bands[0]]) == "":
-        nm = nanometers(document, said, nm, stated)
+        every = nanometers(document, said, every, stated)
     # Of the other columns' names only the corner's is about the values below.
     values = block.values
     values /= scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
-    nm.flags.writeable = values.flags.writeable = False  # so that no sample copies them
+    parts = _parts([header[i] for i in bands], every, values)
     samples = []
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
@@ -90,25 +96,42 @@ def read(
         lab = _lab(document, row, header, color, cells[named + len(keyed) :])
         if lab:
             own["lab"] = lab
-        found = series.bands(
-            nm,
-            values[i],
-            f"{document.path}, line {row}",
-            lambda band: f"column {quote(header[bands[band]])}",
-        )
         alone = document.path.stem if len(block.lines) == 1 else f"{document.path.stem} {i + 1}"
-        samples.append(
-            statements.make(
-                document,
-                said,
-                own,
-                found,
-                name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
-                position=f"line {row}",
-                notes=not_read(unread),
+        for specular, columns, nm, rows in parts:
+            found = series.bands(
+                nm,
+                rows[i],
+                f"{document.path}, line {row}",
+                lambda band: f"column {quote(header[bands[columns[band]]])}",  # noqa: B023
             )
-        )
+            samples.append(
+                statements.make(
+                    document,
+                    said,
+                    own | ({"specular": specular} if specular else {}),
+                    found,
+                    name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
+                    position=f"line {row}",
+                    notes=not_read(unread),
+                )
+            )
     return samples
+
+
+def _parts(labels: list[str], nm: Array, values: Array) -> list[_Part]:
+    """Return the spectra of which each row has one: with specular light and without, or just one.
+
+    So that no sample copies them, the arrays are read-only.
+    """
+    marks = [name_marks.of_band(label)[1] for label in labels]
+    found: list[_Part] = []
+    for mark in dict.fromkeys(marks):
+        at = [i for i, own in enumerate(marks) if own == mark]
+        whole = len(at) == len(marks)
+        part = (mark, at, nm if whole else nm[at], values if whole else values[:, at])
+        part[2].flags.writeable = part[3].flags.writeable = False
+        found.append(part)
+    return found
 
 
 def not_read(labels: list[str]) -> tuple[str, ...]:
