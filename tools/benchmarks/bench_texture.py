@@ -48,16 +48,14 @@ def main() -> None:
             path = make(Path(folder), kind, options.size, options.bands)
             size = sum(each.stat().st_size for each in Path(folder).glob("image*")) / 1e9
             for holds in options.holds or ("albedo", "color"):
-                bare, whole, memory = [], [], 0.0
-                for _ in range(ROUNDS):
-                    bare.append(ask("bare", path, holds)[0])
-                    seconds, memory = ask("whole", path, holds)
-                    whole.append(seconds)
-                ratio = min(whole) / min(bare)
-                times = f"{min(bare):.1f} s | {min(whole):.1f} s | {ratio:.2f}"
-                print(
-                    f"| {kind}, {size:.2f} GB | {holds} | {times} | {memory:.2f} GB |", flush=True
-                )
+                rounds = [
+                    (ask("bare", path, holds), ask("whole", path, holds)) for _ in range(ROUNDS)
+                ]
+                bare, whole = (np.min(each, axis=0) for each in zip(*rounds, strict=True))
+                times = zip(bare[:2], whole[:2], strict=True)
+                told = [f"{kind}, {size:.2f} GB", holds]
+                told += [f"{b:.1f} → {w:.1f} s, {w / b:.2f}" for b, w in times]
+                print(f"| {' | '.join(told)} | {whole[2]:.2f} GB |", flush=True)
             for each in Path(folder).iterdir():
                 each.unlink()
 
