@@ -15,8 +15,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-SIDE = 512
-"""Pixels of a side, each a place in the texture."""
+SIDE = 251
+"""Pixels of a side, a place in the texture each. A prime: beside the texels of an image, whose number
+is no multiple of it, the places lie in all ways, and not on the middle of each."""
+SHIFTS = ((0.0, 0.0), (0.5, 0.25), (0.25, 0.75), (0.75, 0.5))
+"""Of the picture, in pixels: so often it is taken."""
 
 
 def main(job_path: Path, measuring: Any) -> None:
@@ -24,16 +27,20 @@ def main(job_path: Path, measuring: Any) -> None:
     job = json.loads(job_path.read_text(encoding="utf-8"))
     folder = job_path.parent
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
-    found = np.empty((len(job["materials"]), SIDE * SIDE, 3), np.float32)
+    found = np.empty((len(job["materials"]), len(SHIFTS), SIDE * SIDE, 3), np.float32)
     scene, square = build(measuring)
     for number, (name, node, socket) in enumerate(job["materials"]):
         measuring.end_if_orphaned(job["asked_by"], folder)
         material = measuring.find(name, None)
         glow(material.node_tree, material.node_tree.nodes[node].inputs[socket])
         square.material_slots[0].material = material
-        found[number] = measuring.render(scene, folder / "render.exr").reshape(-1, 3)
+        for shift, (x, y) in enumerate(SHIFTS):
+            # Of one ray a pixel, Cycles sends it through the middle.
+            scene.camera.location[:2] = (x - 0.5) / SIDE, (y - 0.5) / SIDE
+            pixels = measuring.render(scene, folder / "render.exr")
+            found[number, shift] = pixels.reshape(-1, 3)
         measuring.report(folder, number + 1, len(found))
-    np.save(folder / "colors.npy", found)
+    np.save(folder / "colors.npy", found.reshape(len(found), -1, 3))
 
 
 def glow(tree: Any, socket: Any) -> None:

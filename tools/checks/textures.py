@@ -27,7 +27,8 @@ def pictures() -> dict[str, NDArray[np.float64]]:
     wave = np.sin(x / 23 + 3 * np.sin(y / 61))[..., np.newaxis]
     wood = np.array([0.55, 0.36, 0.2]) + wave * np.array([0.15, 0.12, 0.08]) + noise(0.03)
     checker = np.where(((x // 32 + y // 32) % 2)[..., np.newaxis], 0.95, 0.05) + noise(0.0, 3)
-    leaves = np.array([0.25, 0.45, 0.15]) + noise(0.15, 3)
+    spots = np.kron(random.normal(0, 0.15, (SIDE // 8, SIDE // 8, 3)), np.ones((8, 8, 1)))
+    leaves = np.array([0.25, 0.45, 0.15]) + spots
     ramp = np.stack((x / SIDE, y / SIDE, (x + y) / (2 * SIDE)), axis=-1)
     found = {"bricks": bricks, "wood": wood, "checker": checker, "leaves": leaves, "ramp": ramp}
     return {name: np.clip(values, 0, 1) for name, values in found.items()}
