@@ -16,8 +16,8 @@ import bpy
 import numpy as np
 
 SIDE = 251
-"""Pixels of a side, a place in the texture each. A prime: beside the texels of an image, whose number
-is no multiple of it, the places lie in all ways, and not on the middle of each."""
+"""Pixels of a side, a place in the texture each. A prime: beside the texels of an image the places
+then lie in all ways, and not on the middle of each."""
 SHIFTS = ((0.0, 0.0), (0.5, 0.25), (0.25, 0.75), (0.75, 0.5))
 """Of the picture, in pixels: so often it is taken."""
 

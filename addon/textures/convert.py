@@ -441,7 +441,7 @@ def _times(values: Pixels, matrix: Pixels) -> Pixels:
     out = np.empty((len(values), matrix.shape[1]), np.float32)
     whole = len(values) // _PIXELS_AT_ONCE * _PIXELS_AT_ONCE
     stacked = values[:whole].reshape(-1, _PIXELS_AT_ONCE, len(matrix))
-    np.matmul(stacked, matrix, out=out[:whole].reshape(len(stacked), _PIXELS_AT_ONCE, -1))
+    np.matmul(stacked, matrix, out=out[:whole].reshape(*stacked.shape[:2], matrix.shape[1]))
     np.matmul(values[whole:], matrix, out=out[whole:])
     return out
 

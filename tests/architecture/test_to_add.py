@@ -397,7 +397,10 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
     assert found["waved"] == [["FINISHED"], "Wave"]
     menu = found["drawn"][: found["drawn"].index("rough_spectra.bake") + 1]
     groups = " ".join(name.removeprefix("rough_spectra.") for name in menu).split(" - ")
-    assert groups[1:] == ["analyze_scene renew keep estimate_sigma remove_scale wave", "measure bake"]
+    assert groups[1:] == [
+        "analyze_scene renew keep estimate_sigma remove_scale wave",
+        "measure bake",
+    ]
 
 
 def test_a_box_of_one_file_is_found_everywhere(found):
