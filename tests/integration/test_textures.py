@@ -75,3 +75,26 @@ def test_the_operator_makes_and_assigns(cube):
 def test_the_operator_says_what_is_wrong(tmp_path):
     with pytest.raises(RuntimeError, match="is no file; check the path"):
         OPS.make_texture("EXEC_DEFAULT", filepath=str(tmp_path / "none.exr"))
+
+
+def test_the_scale_of_a_texture_is_removed(monkeypatch):
+    """The node goes, the texture stays."""
+    from rough_spectra.addon.blender import texture_colors
+
+    monkeypatch.setattr(texture_colors, "seen", lambda sockets: [np.full((9, 3), 0.4)])
+    material = bpy.data.materials.new("Wall")
+    if material.node_tree is None:
+        material.use_nodes = True
+    tree = material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], shader.inputs[0])
+    thing = bpy.data.objects.new("Plane", bpy.data.meshes.new("Plane"))
+    bpy.context.scene.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    thing.active_material = material
+    assert OPS.assign_preset("EXEC_DEFAULT", preset="everyday/brick") == {"FINISHED"}
+    assert "Rough Spectra Scale" in tree.nodes
+    assert OPS.remove_scale("EXEC_DEFAULT") == {"FINISHED"}
+    assert "Rough Spectra Scale" not in tree.nodes
+    assert shader.inputs[0].links[0].from_node.type == "TEX_NOISE"
+    assert OPS.remove_scale("EXEC_DEFAULT") == {"CANCELLED"}
