@@ -41,6 +41,7 @@ from ..core.estimate import RELATIVE, Estimate
 from ..core.gloss_readings import GlossReadings
 from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
+from ..core.models import TARGET
 from ..core.numerics.arrays import Array
 from .blender import colors, working_space
 from .instrument import adjustment
@@ -69,6 +70,9 @@ from .samples import filter_response, gloss_of_set, library, readers, stated_whi
 from .samples import presets as preset_files
 from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
+from .textures import convert
+from .textures import material as material_of_texture
+from .textures.convert import Made
 
 __all__ = [
     "Adjusted",
@@ -83,6 +87,7 @@ __all__ = [
     "GlossReadings",
     "InBand",
     "InputError",
+    "Made",
     "MaterialError",
     "Measured",
     "OutputError",
@@ -105,6 +110,7 @@ __all__ = [
     "gloss",
     "gloss_readings",
     "keep",
+    "make_texture",
     "match_by_measuring",
     "materials",
     "measure_rough",
@@ -117,6 +123,7 @@ __all__ = [
     "rough_sample",
     "settle",
     "state",
+    "texture_material",
     "write",
     "write_emissivity",
 ]
@@ -1055,6 +1062,102 @@ def measure_rough(
         samples=samples,
         progress=progress,
     )
+
+
+def make_texture(
+    source: str | os.PathLike[str],
+    target: str | os.PathLike[str],
+    sigma: float,
+    *,
+    instrument: str = DEFAULT,
+    illuminant: str = "D65",
+    model: str = TARGET,
+    holds: str = "albedo",
+    scale: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Made:
+    r"""Turn an image of what was read of a rough surface into a texture, in half floats.
+
+    Parameters
+    ----------
+    source
+        A spectral OpenEXR, an ENVI cube or its header, or red, green and blue.
+    target
+        The texture, an EXR in the working space of the open file.
+    sigma
+        Roughness σ, **radians**, 0 to π/3.
+    instrument
+        That the image was taken with.
+    illuminant
+        The light under which the texture is right; of RGB, the one that the image was taken for.
+    model
+        One of `core.models.NAMES`.
+    holds
+        "albedo" of the facets, or "color" that Cycles' Diffuse needs to read as was measured.
+    scale
+        Of an ENVI cube, the number that stands for a reflectance of 1; None takes the header's.
+    progress
+        Called with lines done and lines in all; may raise to stop.
+
+    Returns
+    -------
+    Its `path`, `width` and `height`; the `roughness` that goes with it in Cycles; the `mean`
+    reading as a `Sample`, None of RGB; the shares of pixels that are `infeasible` (they read more
+    than white facets) and `outside` 0 to 1; and `notes`.
+
+    Raises
+    ------
+    InputError
+        The image cannot be read, has pixels that are not numbers, or lacks bands.
+    OutputError
+        The texture cannot be written.
+    DomainError
+        An argument is none of these.
+    CancelledError
+        On an interrupt from the keyboard. Nothing was written.
+
+    Examples
+    --------
+    >>> header = "ENVI\nsamples = 2\nlines = 1\nbands = 4\ndata type = 1\ninterleave = bip\n"
+    >>> header += "wavelength units = nm\nwavelength = {400, 500, 600, 700}\n"
+    >>> _ = Path("wall.hdr").write_text(header + "reflectance scale factor = 200")
+    >>> _ = Path("wall.img").write_bytes(bytes([100, 100, 100, 100, 40, 40, 40, 40]))
+    >>> made = make_texture("wall.img", "wall.exr", radians(20), holds="color")
+    >>> made.width, made.mean.values.round(2).tolist(), made.infeasible
+    (2, [0.35, 0.35, 0.35, 0.35], 0.0)
+    """
+    _check_enabled()
+    wanted = convert.Wanted(sigma, instrument, illuminant, model, holds, scale)
+    conversion = convert.Conversion(Path(source), Path(target), wanted, working_space.current())
+    return conversion.finish(progress)
+
+
+def texture_material(made: Made, name: str = "") -> Any:
+    """Make a material that shows a texture, so that each of its pixels reads what was measured.
+
+    Parameters
+    ----------
+    made
+        What `make_texture` gave, of colors.
+    name
+        Of the material; empty for that of the texture's file.
+
+    Raises
+    ------
+    MaterialError
+        There is a material of this name, or the texture holds albedo.
+
+    Examples
+    --------
+    >>> from rough_spectra.addon.support import png
+    >>> import numpy as np
+    >>> _ = Path("scan.png").write_bytes(png.encode(np.full((2, 2, 3), 128, np.uint8)))
+    >>> made = make_texture("scan.png", "scan.exr", radians(20), holds="color")
+    >>> texture_material(made, "Wall").node_tree.nodes["Image Texture"].image.name
+    'scan.exr'
+    """
+    _check_enabled()
+    return material_of_texture.make(made, name)
 
 
 def _checked(material: Any) -> Any:

@@ -18,13 +18,13 @@ from ...core.errors import MaterialError
 from ...core.gloss import Gloss
 from ...core.numerics.memoized import kept
 from ..matching import shaders
+from . import texture_scale
+from .links import comparable, link_to
 from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
 from .surface import (
     Surface,
-    comparable,
     disturbing_sockets,
     gloss_of,
-    link_to,
     output_node,
     shader_node,
     surface,
@@ -48,6 +48,7 @@ __all__ = [
     "roughness_socket",
     "shader_node",
     "surface",
+    "unscale",
     "write",
     "written",
 ]
@@ -71,11 +72,14 @@ class SocketTarget:
         or an empty string where one has to be made.
     make
         Type of the node to link to the output, or an empty string where it is.
+    texture
+        The socket that a texture reaches, which is to be scaled; None where there is one color.
     """
 
     material: Any
     node_name: str
     make: str
+    texture: Any = None
 
 
 def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> SocketTarget:
@@ -118,14 +122,28 @@ def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> 
     if shader != shaders.AUTO and node.bl_idname != wanted:
         return _place_for(material, wanted)
     _refuse_unpredictable(material, node, keep_gloss)
-    return SocketTarget(material, node.name, "")
+    return SocketTarget(material, node.name, "", _texture(node))
 
 
-def write(place: SocketTarget, color: tuple[float, float, float], roughness: float) -> str:
-    """Set color and roughness at a place that `find` gave; returns the node's name."""
+def write(
+    place: SocketTarget,
+    color: tuple[float, float, float],
+    roughness: float,
+    palette: texture_scale.Palette | None = None,
+) -> str:
+    """Set color and roughness at a place that `find` gave; returns the node's name.
+
+    Where that has a texture, `color` is its scale and `palette` what it was found from; None
+    leaves the one that is kept.
+    """
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
     sockets = OF_NODE[node.bl_idname]
-    _set_sockets(node, {sockets.color: color, sockets.roughness: (roughness,)})
+    values = {sockets.roughness: (roughness,)}
+    if place.texture is None:
+        values[sockets.color] = color
+    else:
+        texture_scale.put(node.inputs[sockets.color], color, palette)
+    _set_sockets(node, values)
     # What setting a socket would have done, but for looking through all trees of the file.
     place.material.node_tree.update_tag()
     place.material.update_tag()
@@ -192,6 +210,29 @@ def _layout(node: Any) -> tuple[dict[str, int], int]:
 _layouts: dict[str, tuple[dict[str, int], int]] = kept(__name__, "_layouts")
 
 
+def _texture(node: Any | None) -> Any | None:
+    """Give the socket that a texture reaches before it is scaled; None without a texture."""
+    if node is None:
+        return None
+    color = color_socket(node)
+    if not color.is_linked or link_to(color).is_muted:
+        return None
+    return texture_scale.source(color)
+
+
+def unscale(material: Any) -> bool:
+    """Let a material's texture reach the shader as it is; returns whether it was scaled.
+
+    Raises
+    ------
+    MaterialError
+        If the material is linked or read-only.
+    """
+    refuse_read_only(material)
+    node = shader_node(material)
+    return node is not None and texture_scale.remove(color_socket(node))
+
+
 def refuse_read_only(material: Any) -> None:
     """Refuse a material whose nodes cannot be set.
 
@@ -227,6 +268,8 @@ def _refuse_unpredictable(material: Any, node: Any, keep_gloss: bool = True) -> 
         raise MaterialError(msg)
     sockets = OF_NODE[node.bl_idname]
     for name in (sockets.color, sockets.roughness):
+        if name == sockets.color and _texture(node) is not None:
+            continue
         if node.inputs[name].is_linked:
             msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
             raise MaterialError(msg)
@@ -290,15 +333,18 @@ def _place_for(material: Any, kind: str) -> SocketTarget:
     The one that was set aside keeps what the user chose in it, and no tree grows with each change.
     One that the user linked anywhere since, or that cannot be set, is left alone.
     """
+    texture = _texture(shader_node(material))
     for node in material.node_tree.nodes if uses_nodes(material) else ():
+        if node.bl_idname == kind and color_socket(node).is_linked:
+            continue
         if node.bl_idname != kind or node.get(_SET_ASIDE) != node.name or not _is_loose(node):
             continue
         try:
             _refuse_unpredictable(material, node)
         except MaterialError:
             continue
-        return SocketTarget(material, str(node.name), kind)
-    return SocketTarget(material, "", kind)
+        return SocketTarget(material, str(node.name), kind, texture)
+    return SocketTarget(material, "", kind, texture)
 
 
 def _is_loose(node: Any) -> bool:
@@ -338,11 +384,18 @@ def _make(place: SocketTarget) -> Any:
 
 
 def _carry_over(before: Any, node: Any) -> None:
-    """Let a shader node show what the one before it did, beyond what is derived: bump and alpha."""
+    """Let a shader node show what the one before it did, beyond what is derived.
+
+    Bump, alpha, and a texture, whose link goes over: the node that is set aside stays loose.
+    """
     color_socket(node).default_value[3] = color_socket(before).default_value[3]
     old = before.inputs[OF_NODE[before.bl_idname].normal]
     new = node.inputs[OF_NODE[node.bl_idname].normal]
     links = node.id_data.links
+    if _texture(before) is not None:
+        link = link_to(color_socket(before))
+        links.new(link.from_socket, color_socket(node))
+        links.remove(link)
     if new.is_linked:
         links.remove(link_to(new))
     if old.is_linked:

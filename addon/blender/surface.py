@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from array import array
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
@@ -13,6 +12,8 @@ import bpy
 
 from ...core.gloss import WHITE, Gloss, Tint
 from ...core.numerics.memoized import kept
+from . import texture_scale
+from .links import comparable, link_to
 from .sockets import OF_NODE, Sockets
 
 _DISPLACEMENT = "Displacement"
@@ -41,6 +42,8 @@ class Surface(NamedTuple):
         displacement.
     gloss
         What of gloss lies over the diffuse lobe, or None.
+    scaled
+        Whether the color is a texture that a scale of ours multiplies; `color` is then that scale.
     """
 
     node: str
@@ -54,12 +57,14 @@ class Surface(NamedTuple):
     values: tuple[float, ...]
     bumped: bool
     gloss: Gloss | None = None
+    scaled: bool = False
 
     @property
     def linked(self) -> list[str]:
-        """Names of those of color and roughness that another node sets."""
+        """Names of those of color and roughness that another node sets, other than a scale."""
         sockets = OF_NODE[self.shader]
-        return [sockets.color] * self.color_linked + [sockets.roughness] * self.roughness_linked
+        by_another = self.color_linked and not self.scaled
+        return [sockets.color] * by_another + [sockets.roughness] * self.roughness_linked
 
 
 def shader_node(material: Any) -> Any | None:
@@ -76,7 +81,8 @@ def surface(material: Any) -> Surface | None:
     shader, inputs = node.bl_idname, node.inputs
     color_at, roughness_at, normal_at, of_gloss, neutral = _places(node, shader)
     color, roughness = inputs[color_at], inputs[roughness_at]
-    red, green, blue, _ = color.default_value
+    scale = _scale(color) if color.is_linked else None
+    red, green, blue = color.default_value[:3] if scale is None else scale
     gloss, used = _gloss(node, of_gloss)
     disturbing = tuple(used + _in_use(inputs, neutral))
     return Surface(
@@ -91,6 +97,7 @@ def surface(material: Any) -> Surface | None:
         tuple(_values(inputs)) if disturbing else (),
         inputs[normal_at].is_linked or output.inputs[_DISPLACEMENT].is_linked,
         gloss,
+        scale is not None,
     )
 
 
@@ -103,9 +110,9 @@ def written(before: Surface, color: Iterable[float], roughness: float) -> Surfac
     return before._replace(color=(red, green, blue), roughness=rough)
 
 
-def comparable(value: float) -> float:
-    """Give NaN as `math.nan` itself: no other is equal to itself in a tuple."""
-    return math.nan if math.isnan(value) else value
+def _scale(color: Any) -> tuple[float, float, float] | None:
+    node = texture_scale.node_of(color)
+    return None if node is None else texture_scale.factors(node)
 
 
 def _shader_of(output: Any | None) -> Any | None:
@@ -284,12 +291,3 @@ def surface_link(output: Any | None) -> Any | None:
             return link
         socket = link.from_node.inputs[0]
     return None
-
-
-def link_to(socket: Any) -> Any:
-    """Give the link that ends in a socket. `socket.links` would look twice at each of the tree."""
-    for link in socket.id_data.links:
-        if link.to_socket == socket:
-            return link
-    msg = f"{socket.name!r} is not linked"
-    raise ValueError(msg)

@@ -10,12 +10,13 @@ from typing import Any
 
 from ...core.errors import MaterialError, RoughSpectraError
 from ..blender import shader_nodes, working_space
+from ..blender.texture_scale import Palette
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import snapshot, storage
+from . import snapshot, storage, textures
 from .changes import Derived, Solved
 from .snapshot import Snapshot
 
@@ -55,10 +56,11 @@ def assign(
         for material, request in pairs
     ]
     space, solutions = _solve(work)
-    for (place, request), solution in zip(work, solutions, strict=True):
+    palettes, solutions, written = textures.scaled(work, solutions, space)
+    for (place, request), solution, palette in zip(work, written, palettes, strict=True):
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
-        node = _write(place, solution)
+        node = _write(place, solution, palette)
         storage.store(place.material, request, shader)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
@@ -73,7 +75,9 @@ def remove_gloss(materials: Iterable[Any]) -> list[Solution]:
     MaterialError, DomainError
         As in `renew`; nothing was changed then.
     """
-    return _renew([(material, material) for material in materials], keep_gloss=False)
+    return _renew(
+        [(material, material) for material in materials], keep_gloss=False, look_again=False
+    )
 
 
 def renew(materials: Iterable[Any]) -> list[Solution]:
@@ -99,8 +103,9 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
     """
     requests = [_stored(material, material, view) for material, view in views.items()]
     space, solutions = _solve(requests)
-    for (place, request), solution in zip(requests, solutions, strict=True):
-        node = _write(place, solution)
+    palettes, solutions, written = textures.scaled(requests, solutions, space)
+    for (place, request), solution, palette in zip(requests, written, palettes, strict=True):
+        node = _write(place, solution, palette)
         storage.store(place.material, request, place.material.rough_spectra.shader)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
@@ -135,7 +140,7 @@ def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
         as it was evaluated.
     """
     try:
-        _renew(pairs)
+        _renew(pairs, look_again=False)
     except RoughSpectraError as error:
         if len(pairs) == 1:
             pairs[0][0].rough_spectra.error = str(error)
@@ -158,27 +163,34 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     try:
         place, request = _stored(material, material)
         space, [solution] = _solve([(place, request)])
+        work = [(place, request)]
+        [palette], [solution], [written] = textures.scaled(work, [solution], space, False)
     except RoughSpectraError as error:
         material.rough_spectra.error = str(error)
         return Derived(material, snapshot.of(material), None)
-    node = _write(place, solution)
-    text = storage.set_stamp(material, solution, space.name, node, known.inputs, request.gloss)
+    node = _write(place, written, palette)
+    text = storage.set_stamp(material, written, space.name, node, known.inputs, request.gloss)
     if place.make or known.surface is None:
         known = snapshot.of(material)
     else:
-        surface = shader_nodes.written(known.surface, solution.color, solution.roughness)
+        surface = shader_nodes.written(known.surface, written.color, written.roughness)
         known = known._replace(stamp=text, error="", surface=surface)
     request = replace(request, model=solution.model)
     return Derived(material, known, Solved(request, solution, space))
 
 
-def _renew(pairs: Sequence[tuple[Any, Any]], keep_gloss: bool = True) -> list[Solution]:
+def _renew(
+    pairs: Sequence[tuple[Any, Any]], keep_gloss: bool = True, look_again: bool = True
+) -> list[Solution]:
     work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
     space, solutions = _solve(work)
-    for (place, request), solution, (_, source) in zip(work, solutions, pairs, strict=True):
+    palettes, solutions, written = textures.scaled(work, solutions, space, look_again)
+    together = zip(work, written, palettes, pairs, strict=True)
+    for (place, request), solution, palette, (_, source) in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
-        node, inputs = _write(place, solution), snapshot.inputs(source.rough_spectra)
+        inputs = snapshot.inputs(source.rough_spectra)
+        node = _write(place, solution, palette)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
 
@@ -213,6 +225,6 @@ def _solve(
     return space, solve.solve([request for _, request in work], space)
 
 
-def _write(place: shader_nodes.SocketTarget, solution: Solution) -> str:
+def _write(place: shader_nodes.SocketTarget, solution: Solution, palette: Palette | None) -> str:
     red, green, blue = solution.color.tolist()
-    return shader_nodes.write(place, (red, green, blue), solution.roughness)
+    return shader_nodes.write(place, (red, green, blue), solution.roughness, palette)

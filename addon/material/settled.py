@@ -111,6 +111,8 @@ def numbers(found: Snapshot, flat: bool) -> Differences | None:
     """
     known = state.evaluate(found)
     last = known.stamp
+    if found.surface is not None and found.surface.scaled:
+        return None  # of a texture there is no one color to compare
     if last is None or known.kind != "fresh" or (flat and not found.inputs.scene_view):
         return None
     return last.delta_e_instrument, last.delta_e_mean, last.delta_e_95

@@ -244,9 +244,11 @@ def _gloss(surface: shader_nodes.Surface) -> tuple[float, ...]:
 
 
 def _edited(surface: shader_nodes.Surface, stamp: Stamp) -> bool:
-    if surface.color_linked or surface.roughness_linked:
+    if surface.linked:
         return True
     written, found = (*stamp.color, stamp.roughness), (*surface.color, surface.roughness)
     # Sockets may hold NaN, which is near to nothing.
-    near = (abs(a - b) <= _SOCKET_TOLERANCE for a, b in zip(written, found, strict=True))
+    # A texture's scale may be above 1, with a last digit as much larger.
+    near = (abs(a - b) <= _SOCKET_TOLERANCE * max(abs(a), 1.0)
+            for a, b in zip(written, found, strict=True))  # fmt: skip
     return not all(near)

@@ -24,6 +24,8 @@ SIGNATURES = {
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "gloss_readings": "(sample)",
     "keep": "(material)",
+    "make_texture": "(source, target, sigma, *, instrument='45a:0', illuminant='D65', "
+    "model='surface', holds='albedo', scale=None, progress=None)",
     "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
     "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
@@ -37,6 +39,7 @@ SIGNATURES = {
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
     "state": "(material)",
+    "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
@@ -67,6 +70,7 @@ FIELDS = {
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
     "warnings fault instrument",
     "RoughSample": "kind mesh length asked seed",
+    "Made": "path wanted width height roughness mean infeasible outside notes",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

@@ -24,6 +24,7 @@ VERBS = (
     "lab",
     "merge",
     "search",
+    "texture",
 )
 
 

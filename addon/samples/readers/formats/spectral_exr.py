@@ -2,18 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral images in OpenEXR: the mean of a region, or of the whole image.
 
-Channels ``T.400,000000nm`` hold reflectance. Channels ``S0.400,000000nm`` hold emitted radiance,
-``S1`` to ``S3`` its polarization, and ``T.380,000000nm.420,000000nm`` what light of one wavelength
-becomes at another; these are refused.
-
-Source: A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral Images" (JCGT 10,
-2021).
+Channels of reflectance are read, by the names of `parts.spectral_channels`; others are refused.
 """
 
 from __future__ import annotations
 
 import os
-import re
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +18,7 @@ from ..parts import (
     exr_header,
     exr_pixels,
     geometry_words,
+    spectral_channels,
 )
 from ..parts.document import Document, open_document, quote
 from ..parts.exr_image import Image
@@ -35,13 +30,6 @@ REGIONS = True
 
 UNEVEN = 0.02
 """Standard deviation over the pixels above which a mean stands for no single color."""
-
-_SPEED_OF_LIGHT = 299_792_458.0  # m/s
-_NUMBER = r"(\d{1,12}(?:,\d{0,12})?(?:[eE][+-]?\d{1,2})?)"
-_UNIT = r"([YZEPTGMkhdcmunp]|da)?(m|Hz)"
-_CHANNEL = re.compile(rf"(?:(.*)\.)?(S[0-3]|T)\.{_NUMBER}{_UNIT}(?:\.({_NUMBER}{_UNIT}))?")
-_PREFIXES = dict(zip("YZEPTGMkhdcmunp", (24, 21, 18, 15, 12, 9, 6, 3, 2, -1, -2, -3, -6, -9, -12),
-                     strict=True)) | {"da": 1, "": 0}  # fmt: skip
 
 
 def sniff(document: Document) -> bool:
@@ -123,42 +111,35 @@ def _reflective(document: Document, image: Image) -> tuple[dict[int, float], boo
     layers = set()
     emits = False
     for index, channel in enumerate(image.channels):
-        match = _CHANNEL.fullmatch(channel.name)
-        if not match:
+        found = spectral_channels.parse(channel.name)
+        if found is None:
             continue
-        if match[6]:
+        if found.bispectral:
             raise document.not_reflectance(
                 f"channel {quote(channel.name)}",
                 "bispectral (of a fluorescent surface, by the light's wavelength and by its own)",
             )
-        if match[2] != "T":
+        if found.emits:
             emits = True
             continue
         if channel.form.kind == "u":
             raise document.error(
                 f"channel {quote(channel.name)}", "its pixels are whole numbers; save it as floats"
             )
-        layers.add(match[1])
-        bands[index] = _nanometers(match[3], match[4], match[5])
+        layers.add(found.layer)
+        bands[index] = found.nm
     if not bands and emits:
         raise document.not_reflectance("", "radiance (an image of light, channels S0)")
     if not bands:
-        found = ", ".join(channel.name for channel in image.channels[:4])
+        names = ", ".join(channel.name for channel in image.channels[:4])
         raise document.error(
             "",
-            f"the image has no channels such as 'T.400,000000nm' but {quote(found)}; save its "
+            f"the image has no channels such as 'T.400,000000nm' but {quote(names)}; save its "
             "spectra with it",
         )
     if len(layers) > 1:
         raise document.error("", f"{len(layers)} layers hold spectra; save one of them alone")
     return bands, emits
-
-
-def _nanometers(number: str, prefix: str | None, unit: str) -> float:
-    value = float(number.replace(",", ".")) * 10.0 ** _PREFIXES[prefix or ""]
-    if unit == "Hz":
-        value = _SPEED_OF_LIGHT / value if value else np.inf
-    return round(value * 1e9, 9)
 
 
 def _region(document: Document, image: Image) -> tuple[int, int, int, int]:

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`texture`: an image of readings becomes a texture of albedo, or of color with its material."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...support.shown_text import tell
+
+NAME = "texture"
+SUMMARY = "turn a spectral image of a rough surface into a texture"
+DESCRIPTION = (
+    "Turn what a spectral camera or a scanner read of a rough surface into a texture in the file's "
+    "working space: of the facets' albedo, or of the color with which Cycles reads the same."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `texture`."""
+    from ....core.models import NAMES, TARGET
+    from ....core.reading import INSTRUMENTS
+    from ...colorimetry.tristimulus import ILLUMINANTS
+    from ...textures.convert import HOLDS
+
+    parser.add_argument(
+        "image",
+        type=Path,
+        metavar="IMAGE",
+        help="spectral OpenEXR, an ENVI cube or its header, or RGB as PNG, TIFF or EXR",
+    )
+    parser.add_argument(
+        "--sigma", type=float, required=True, metavar="DEGREES", help="roughness of the surface"
+    )
+    parser.add_argument(
+        "--instrument",
+        choices=INSTRUMENTS,
+        default=INSTRUMENTS[0],
+        help=f"that the image was taken with; {INSTRUMENTS[0]}",
+    )
+    parser.add_argument(
+        "--illuminant",
+        choices=ILLUMINANTS,
+        default="D65",
+        help="light under which the colors are right; of RGB, the one it was taken for",
+    )
+    parser.add_argument("--model", choices=NAMES, default=TARGET, help=f"usually {TARGET}")
+    parser.add_argument(
+        "--scale",
+        type=float,
+        metavar="NUMBER",
+        help="of an ENVI cube, the number that stands for a reflectance of 1",
+    )
+    parser.add_argument(
+        "--holds", choices=HOLDS, help="albedo, or color if there is a material to be made"
+    )
+    parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="an EXR")
+    parser.add_argument(
+        "--material", metavar="NAME", help="make this material of it, and save the open file"
+    )
+    parser.add_argument(
+        "--save", type=Path, metavar="FILE", help="save the material here, not over the open file"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the texture, and the material if one is asked for; exit status 0."""
+    import math
+
+    from ....core.errors import InputError
+    from ... import api
+    from ...blender.blend_file import destination, save
+    from ..progress import ProgressLine
+
+    holds = options.holds or ("albedo" if options.material is None else "color")
+    if options.material is None and options.save is not None:
+        raise InputError("There is nothing to save without --material; leave --save out.")
+    if options.material is not None:
+        destination(options.save)  # before the work that could not be saved
+    progress = ProgressLine("lines")
+    try:
+        made = api.make_texture(
+            options.image,
+            options.output,
+            math.radians(options.sigma),
+            instrument=options.instrument,
+            illuminant=options.illuminant,
+            model=options.model,
+            holds=holds,
+            scale=options.scale,
+            progress=progress,
+        )
+    finally:
+        progress.close()
+    for note in made.notes:
+        tell(f"note: {options.image.name}: {note}")
+    told = f"{made.width} × {made.height} pixels of {holds}; wrote {made.path.name}"
+    if options.material is not None:
+        api.texture_material(made, options.material)
+        told += f"; material {options.material!r}, saved {save(options.save)}"
+    tell(told)
+    return 0
