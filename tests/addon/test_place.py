@@ -5,6 +5,7 @@
 import bpy
 import numpy as np
 import pytest
+from rough_spectra.addon.instrument import arrangement, gloss
 from rough_spectra.addon.instrument.measure import measure
 
 COORDINATES = ("Generated", "UV", "Object", "Position", "In a group")
@@ -88,3 +89,17 @@ def test_the_whole_square_is_measured_and_nothing_beyond_it(make_material):
     np.testing.assert_allclose(mean[:, :2], 0.5, atol=1.5e-4)
     # Pixels are means over a quarter of the square: 1/8, 3/8, 5/8, 7/8.
     np.testing.assert_allclose(spread[:, :2], np.std([1, 3, 5, 7]) / 8, atol=1.5e-4)
+
+
+def test_views_from_aside_and_glowing_hemispheres_read_even_materials_alike_anywhere(make_material):
+    colors = np.random.default_rng(4).random((SPARE, 4))
+    work = [make_material(f"Even {i}", Color=c, Roughness=0.6) for i, c in enumerate(colors)]
+    shiny = {"Roughness": 0.3, "Base_Color": (0.2, 0.4, 0.1, 1)}
+    work += [make_material(f"Shiny {i}", "ShaderNodeBsdfPrincipled", **shiny) for i in range(4)]
+    geometries = [arrangement.of(name) for name in ("0:45a", "45as110", "di:8", "de:8")]
+    geometries.append(gloss.arrangement(60))
+    together = measure(work, geometries, rays=64)
+    np.testing.assert_array_equal(measure(work[::-1], geometries, rays=64)[:, ::-1], together)
+    np.testing.assert_array_equal(measure(work[2::5], geometries, rays=64), together[:, 2::5])
+    # All pixels go through the same random numbers.
+    np.testing.assert_array_equal(together[:, SPARE:], together[:, [SPARE] * 4])

@@ -161,6 +161,7 @@ USE = """
     import numpy as np
     from rough_spectra.addon.blender import shader_nodes
     from rough_spectra.addon.commands import command_line
+    from rough_spectra.addon.instrument import arrangement
     from rough_spectra.addon.interface import registration
     from rough_spectra.addon.material import properties, settled, storage
     from rough_spectra.addon.readings import writers
@@ -241,8 +242,12 @@ USE = """
             reads(m, "60a:0"), 0.5, m, "60a:0").tolist()] for m in models.NAMES],
         "directions_at_60": ladder.reflectance("reference", [0.6], np.pi / 3, 0, 0, 0.5).tolist(),
         "angles": np.degrees(reading.INSTRUMENT_ANGLES["60a:0"]).tolist(),
+        "renders": [
+            [*np.degrees(shot.light).round(6).tolist(), shot.view]
+            for shot in arrangement.of("60a:0").shots
+        ],
         "cycles": instrument_lobe.reflectance([0.5], 1.0, "60a:0").tolist(),
-        "menus": {name: menu(name) for name in ("model", "instrument", "shader")},
+        "menus": {name: menu(name) for name in ("model", "instrument", "read_at", "shader")},
         "operator_shaders": list(menu("shader", bpy.ops.rough_spectra.assign_file.get_rna_type())),
         "titles": [
             properties.title(*pair)
@@ -263,7 +268,8 @@ USE = """
         "endings": endings.endings(),
         "dropped": bpy.types.ROUGHSPECTRA_FH_import.bl_file_extensions.split(";"),
         "help": {
-            verb: main(verb, "--help")[1] for verb in ("assign", "assets", "bake", "check", "merge")
+            verb: main(verb, "--help")[1]
+            for verb in ("assign", "assets", "bake", "check", "compare", "merge")
         },
         "greeted": [main("--help"), main("greet", "--help"), main("greet", "--name", "Ada")],
         "waved": [
@@ -360,6 +366,9 @@ def test_an_instrument_of_one_record_is_found_everywhere(found):
     menu = found["menus"]["instrument"]
     assert list(menu)[-1] == "60a:0"
     assert menu["60a:0"] == [14, "60°a:0°", "Ring light at 60°, view along the normal"]
+    assert found["menus"]["read_at"] == menu
+    assert found["renders"] == [[60, 45 * k, 0] for k in range(8)]
+    assert all("60a:0" in found["help"][verb] for verb in ("assign", "bake", "check", "compare"))
     assert found["titles"][1] == "60°a:0°"
     assert found["told"] == ["60a:0"] * 3
     assert (found["stored"][1], found["stored"][3]) == ("60a:0", "60a:0")
