@@ -128,6 +128,26 @@ def test_45_0_makes_the_color_beside_a_sphere(tmp_path):
     assert [s.instrument for s in sample.readings] == ["45a:0", "di:8", "de:8"]
 
 
+def test_comments_say_how_all_were_measured(tmp_path):
+    comments = "# geometry: d/8\n# specular: SCI\n# aperture: 8 mm\n# gloss 60: 8.5\n"
+    [sample] = read(tmp_path, comments + table(("Tile", 0.3)))
+    assert (sample.instrument, sample.specular, sample.geometry) == ("di:8", "SCI", "d/8")
+    assert (sample.aperture, sample.gloss) == ("8 mm", ((60.0, 8.5),))
+    # What is said of one sample counts more.
+    rows = ("Tile", "SCI", 0.34), ("Tile", "SCE", 0.3)
+    [sample] = read(tmp_path, "# geometry: 45/0\n" + table(*rows, head="name,specular"))
+    assert told(sample) == SPHERE
+
+
+def test_a_comment_may_name_the_device_as_instrument(tmp_path):
+    rows = [(f"Car {angle}°", 0.3) for angle in (15, 45)]
+    [sample] = read(tmp_path, "# instrument: BYK-mac i\n" + table(*rows))
+    assert [s.instrument for s in sample.readings] == ["45as45", "45as15"]
+    assert sample.device == "BYK-mac i"
+    [sample] = read(tmp_path, "# instrument: de:8\n" + table(("Tile", 0.3)))
+    assert (sample.instrument, sample.device) == ("de:8", "")
+
+
 def test_smooth_belongs_to_the_rough_one(tmp_path):
     rows = ("T", "smooth", 0.4), ("T", "rough", 0.3)
     [sample] = read(tmp_path, table(*rows, head="name,surface"))

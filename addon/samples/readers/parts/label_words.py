@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from .....core.instruments import REGISTRY
 from ....support.shown_text import ESCAPED
 from ...sample import Kind
 from ...stated_white import fields as white_fields
@@ -61,7 +62,8 @@ _WAVELENGTH_UNITS = {
 class Comments:
     """What the comment lines state; `scale` is None where they say nothing of percent.
 
-    `escaped` tells whether names are as `shown_text.to_cell` writes them.
+    `escaped` tells whether names are as `shown_text.to_cell` writes them. `others` are all further
+    keys and values, which `statements` knows, as those of lines above a table.
     """
 
     kind: Kind = "reading"
@@ -69,6 +71,7 @@ class Comments:
     wavelength_unit: str = ""
     texts: dict[str, Any] = field(default_factory=dict)
     escaped: bool = False
+    others: list[tuple[str, str]] = field(default_factory=list)
 
 
 def band(label: str) -> float | None:
@@ -184,6 +187,8 @@ def comments(document: Document) -> Comments:
             found.escaped = value.startswith(ESCAPED)
         elif key in ("white", "white_factor"):
             white[key], white_line = value, number
+        elif key == "instrument" and value and value not in REGISTRY:
+            found.texts["device"] = value
         elif key in ("instrument", "source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value
@@ -191,6 +196,8 @@ def comments(document: Document) -> Comments:
             found.scale = 100.0
         elif _OPTICAL.search(text):
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
+        elif pair and value:
+            found.others.append((pair[1], value))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))
     if fault:
         raise document.error(f"line {white_line}", fault)

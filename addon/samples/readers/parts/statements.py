@@ -48,6 +48,8 @@ _KEYS = {
     **dict.fromkeys(("gu", "glossunits", "glossvalue", "glossunit"), _GLOSS),
     **dict.fromkeys(("sample", "samplename", "name", "sampleid", "dataname", "target"), "name"),
 }
+_GEOMETRIES = {"geometry", "specular", "aspecular", "angle"}
+_OF_MEASUREMENTS = {*_GEOMETRIES, "aperture", "surface", "gloss"}
 _CONDITION = re.compile(r"\bM[0-3]\b", re.IGNORECASE)
 _OBSERVER = re.compile(r"(?<![\d.])(2|10)\s*(?:°|º|deg\w*|\b)", re.IGNORECASE)
 # Names of CIE illuminants: A, C, D50, D65, D75, F2 … F12 (also FL2), LED-B1.
@@ -196,8 +198,12 @@ def make(
     position: str,
     notes: tuple[str, ...] = (),
 ) -> Sample:
-    """Return a sample with what comments and keys say of it; comments come first."""
-    known = finish(fields)
+    """Return a sample with what comments and keys say of it.
+
+    Comments come first, but for how it was measured: there they stand for all samples of the file,
+    and what is said of one of them counts more.
+    """
+    known = finish(_measured(said, fields) | fields)
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
@@ -214,6 +220,17 @@ def make(
         altered=found.altered,
         **texts,
     )
+
+
+def _measured(said: Comments, fields: dict[str, Any]) -> dict[str, Any]:
+    """Return what comments say of the measurement, nothing of what a sample's own geometry says."""
+    found: dict[str, Any] = {}
+    for key, value in said.others:
+        if field_of(key).partition(" ")[0] in _OF_MEASUREMENTS:
+            found |= stated(key, value)
+    if fields.keys() & _GEOMETRIES:
+        found = {key: value for key, value in found.items() if key not in _GEOMETRIES}
+    return found
 
 
 def _specular(found: str) -> dict[str, Any]:
