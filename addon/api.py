@@ -811,6 +811,7 @@ def bake(
     measure: bool = True,
     progress: Callable[[int, int], None] | None = None,
     read_at: str | Iterable[str] | None = None,
+    with_gloss: bool = False,
 ) -> Readings:
     """Predict the readings of materials at virtual instruments, and measure them in Cycles.
 
@@ -827,6 +828,8 @@ def bake(
         Called with renders done and renders in all.
     read_at
         Instruments instead of each material's own, one or several.
+    with_gloss
+        Whether to measure gloss units, too, as `gloss` does; they are in each reading's `gloss`.
 
     Returns
     -------
@@ -859,7 +862,7 @@ def bake(
     named = [surface if isinstance(surface, tuple) else ("", surface) for surface in surfaces]
     found = [(name, _checked(material)) for name, material in named]
     at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
-    return instrument_bake.bake(found, measure, progress, at)
+    return instrument_bake.bake(found, measure, progress, at, with_gloss)
 
 
 def gloss(

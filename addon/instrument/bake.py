@@ -40,7 +40,7 @@ from ..readings.document import (
     Triple,
 )
 from ..samples import stated_white
-from . import arrangement, measure, rendered
+from . import arrangement, gloss, measure, rendered
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -178,6 +178,7 @@ def bake(
     with_measurement: bool = True,
     progress: Callable[[int, int], None] | None = None,
     read_at: Sequence[str] = (),
+    with_gloss: bool = False,
 ) -> Readings:
     """Predict the readings of materials and measure them in Cycles.
 
@@ -191,6 +192,8 @@ def bake(
         As in `measure.measure`.
     read_at
         As in `prepare`.
+    with_gloss
+        Whether to measure gloss units, too, where there is a measurement.
 
     Raises
     ------
@@ -205,7 +208,16 @@ def bake(
     if not with_measurement:
         return compare(prepared, None, each)
     wanted = plan(surfaces, prepared)
-    return compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
+    found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
+    if not with_gloss:
+        return found
+    materials, _ = wanted.work
+    units = gloss.measured(materials, working_space.current(), progress=progress)
+    entries = tuple(
+        replace(entry, gloss=tuple(round(value, 2) + 0.0 for value in units[place].tolist()))
+        for entry, place in zip(found.entries, wanted.rows[1], strict=True)
+    )
+    return replace(found, entries=entries)
 
 
 @dataclass(frozen=True)
@@ -248,7 +260,10 @@ def plan(surfaces: Sequence[tuple[str, Any]], prepared: Sequence[Prepared]) -> P
 
 
 def digest(
-    surfaces: Sequence[tuple[str, Any]], with_measurement: bool, read_at: Sequence[str] = ()
+    surfaces: Sequence[tuple[str, Any]],
+    with_measurement: bool,
+    read_at: Sequence[str] = (),
+    with_gloss: bool = False,
 ) -> str:
     """Tell bakes apart: by what is read, the spectra and settings stored in it, and its nodes."""
     told = [
@@ -258,7 +273,7 @@ def digest(
         )
         for surface, material in surfaces
     ]
-    whole = (told, with_measurement, tuple(read_at))
+    whole = (told, with_measurement, tuple(read_at), with_gloss)
     return hashlib.sha256(repr(whole).encode()).hexdigest()[:16]
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from ...core import instruments
 from ...core.errors import InputError
+from ...core.instruments.gloss import METERS
 from ..support import user_files
 from ..support.version import version
 
@@ -19,6 +20,9 @@ FORMAT = "rough-spectra-readings"
 SCHEMA = 1
 APERTURE = "none: parallel beams on a flat sample"
 APERTURES = "those of the instrument, over a flat sample"
+
+GLOSS = tuple(METERS)
+"""Angles of the gloss meter, degrees."""
 
 Triple = tuple[float, float, float]
 
@@ -75,7 +79,8 @@ class Reading:
     material is Lambertian or rough, and why; empty where that was not derived here. `fault` says
     why a prediction or a measurement that was asked for is missing; else it is empty.
     `instrument` is the virtual one, a name in `core.instruments.REGISTRY`, of both prediction and
-    measurement.
+    measurement. `gloss` has the gloss units at 20°, 60° and 85°; empty where they were not asked
+    for.
     """
 
     material: str
@@ -89,6 +94,7 @@ class Reading:
     warnings: tuple[str, ...]
     fault: str = ""
     instrument: str = instruments.DEFAULT
+    gloss: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -193,6 +199,7 @@ def to_json(readings: Readings) -> bytes:
             "wavelengths": "nm",
             "xyz": "Y = 100 for the perfect diffuser",
             "measured": "CIE 1931 2° observer",
+            "gloss": "GU at 20°, 60° and 85°, ISO 2813",
         },
         "shard": readings.shard,
         "shards": readings.shards,
@@ -265,4 +272,7 @@ def _entry(data: dict[str, Any]) -> Reading:
     known["predicted"] = whole(Predicted, data["predicted"])
     known["measured"] = whole(CyclesReading, data["measured"])
     known["warnings"] = tuple(data["warnings"])
+    known["gloss"] = tuple(map(float, data.get("gloss", ())))
+    if len(known["gloss"]) not in (0, len(GLOSS)):
+        raise ValueError("there is not one gloss an angle")
     return Reading(**known)

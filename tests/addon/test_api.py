@@ -14,7 +14,7 @@ from rough_spectra.addon import api
 
 SIGNATURES = {
     "assign": "(pairs, shader='auto', gloss='keep')",
-    "bake": "(surfaces, measure=True, progress=None, read_at=None)",
+    "bake": "(surfaces, measure=True, progress=None, read_at=None, with_gloss=False)",
     "compare": "(first, second)",
     "differences": "(material)",
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
@@ -68,7 +68,7 @@ FIELDS = {
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
-    "warnings fault instrument",
+    "warnings fault instrument gloss",
     "RoughSample": "kind mesh length asked seed",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "Measured": "albedos reflectance noise spread spot_noise spot",

@@ -9,6 +9,7 @@ import re
 import bpy
 import numpy as np
 import pytest
+from rough_spectra.addon.readings.document import from_json
 from rough_spectra.addon.samples import readers
 from rough_spectra.core import reading
 from rough_spectra.core.instruments import REGISTRY
@@ -114,3 +115,22 @@ def test_compare_reads_both_at_the_instrument(main, tmp_path):
         told[name] = float(line.split("\t")[2])  # lightness
     # Darker along the normal, lighter toward the light.
     assert told["45a:0"] < 0 < told["45as110"]
+
+
+def test_gloss_units_stand_beside_what_is_measured(main, scene, tmp_path):
+    base = tmp_path / "shiny"
+    words = ("--material", "Alpha", "--material", "Plain", "--gloss")
+    assert main("bake", "--blend", scene, "--output", base, *words).status == 0
+    document = json.loads(base.with_name("shiny.json").read_text(encoding="utf-8"))
+    told = {entry["material"]: entry["gloss"] for entry in document["readings"]}
+    # Matte: what the windows see of an even surface falls with the cosine, less than a black glass.
+    assert 0 < told["Plain"][2] < told["Plain"][0] < told["Plain"][1] < 2
+    assert from_json(base.with_name("shiny.json")).entries[0].gloss == tuple(told["Alpha"])
+    text = base.with_name("shiny.measured.csv").read_text(encoding="utf-8")
+    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    for row in rows:
+        found = [float(row[f"gloss_{angle}"]) for angle in (20, 60, 85)]
+        assert found == pytest.approx(told[row["material"]])
+    refused = main("bake", "--blend", scene, "--output", base, *words, "--predicted-only")
+    assert refused.status == 2
+    assert "--predicted-only" in refused.err

@@ -36,7 +36,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="folder and base name: BASE.json, BASE.predicted.csv, BASE.measured.csv …",
     )
     add_format_argument(parser)
-    parser.add_argument("--predicted-only", action="store_true", help="do not render")
+    wanted = parser.add_mutually_exclusive_group()
+    wanted.add_argument("--predicted-only", action="store_true", help="do not render")
+    wanted.add_argument(
+        "--gloss", action="store_true", help="measure gloss units at 20°, 60° and 85°, too"
+    )
     parser.add_argument(
         "--shard",
         type=_shard,
@@ -108,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
     result = measure(options, not options.predicted_only)
     if count > 1:
         surfaces = selection.surfaces(options.material, options.object)
-        whole = bake.digest(surfaces, not options.predicted_only, options.read_at)
+        whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
         part = replace(result, shard=index, shards=count, whole=whole)
         with atomic_files.publication() as files:
             files.write(target, document.to_json(part))
@@ -144,7 +148,8 @@ def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readi
     progress = ProgressLine("measuring")
     try:
         mine = surfaces[index - 1 :: count]
-        return api.bake(mine, with_measurement, progress, options.read_at)
+        gloss = getattr(options, "gloss", False)
+        return api.bake(mine, with_measurement, progress, options.read_at, gloss)
     finally:
         progress.close()
 

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from ...support.shown_text import ESCAPED, printable, to_cell
 from ...support.version import version
 from ..document import (
+    GLOSS,
     CyclesReading,
     Predicted,
     Readings,
@@ -105,6 +106,10 @@ def measured(readings: Readings) -> bytes:
         "sd B",
     ]
     header += ["X", "Y", "Z", "L*", "a*", "b*", "delta_e_00"]
+    shiny = any(entry.gloss for entry, _ in rows)
+    if shiny:
+        comments.append("gloss: GU of ISO 2813, 100 = black glass of the index 1.567")
+        header += [f"gloss_{angle}" for angle in GLOSS]
     lines = [
         [
             to_cell(entry.material),
@@ -115,6 +120,7 @@ def measured(readings: Readings) -> bytes:
             *(f"{value:.6f}" for value in (*part.rgb, *part.spread)),
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
             "" if entry.delta_e_00 is None else f"{entry.delta_e_00:.4f}",
+            *(f"{value:.2f}" for value in entry.gloss),
         ]
         for entry, part in rows
     ]
