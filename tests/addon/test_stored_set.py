@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.interface.panels import sentences
-from rough_spectra.addon.material import derive, storage
+from rough_spectra.addon.material import derive, snapshot, storage
 from rough_spectra.addon.samples.sample import Sample
 
 NM = np.arange(400.0, 701.0, 10.0)
@@ -83,6 +83,26 @@ def test_without_a_set_the_stored_text_is_as_before(make_material, request_for):
         *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
         *("quantity", "geometry", "aperture", "specular", "notes", "altered", "white_factor"),
     ]
+
+
+def test_the_panel_tells_what_the_set_says_of_gloss(make_material, request_for):
+    sci = Sample("T", NM, SET.values + 0.04, "reading", instrument="di:8", specular="SCI")
+    fields = {"instrument": "de:8", "specular": "SCE", "others": (sci,), "gloss": ((60.0, 23.5),)}
+    material = make_material("Wall")
+    derive.assign([(material, request_for(Sample("T", NM, SET.values, "reading", **fields)))])
+    group = material.rough_spectra
+    white = (*snapshot.white(group), group.instrument)
+    wanted = [
+        "SCI less SCE is 0.0400 (0.0400 to 0.0400 over the bands): F0 is 0.0400 at least, as of an "
+        "index of 1.500.",
+        # Fresnel at 60° and 1.152: 0.0425 across and 0.0046 along the plane of incidence.
+        "23.5 GU at 60° are a reflection of 0.0235: F0 is 0.0050 at least, as of an index of "
+        "1.152.",
+    ]
+    assert sentences._gloss(group.details, group.spectrum, white) == wanted
+    for damaged in ("{", '{"others": 5}', '{"gloss": [1]}', '{"others": [[]]}'):
+        assert sentences._gloss(damaged, group.spectrum, white) == []
+        assert sentences._gloss(group.details, damaged, white) == []
 
 
 def test_the_panel_tells_the_set(material):

@@ -14,11 +14,14 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_tip as tip_
 
 from ....core import instruments, limits, roughness, white_scale
+from ....core.errors import RoughSpectraError
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
 from ...material import derivation, settled, state
 from ...material.snapshot import Snapshot
-from ...samples import stated_white
+from ...samples import gloss_of_set, stated_white
+from ...samples.readers.formats import library as library_format
+from ...samples.sample import Sample
 from .text import Format, Sentence
 
 Numbers = tuple[float, float, float]
@@ -37,6 +40,12 @@ _NOTHING = 0.005
 _GAMUT = 0.05
 """ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
 _ANGLES = "Limited by the angles: one roughness has to fit all of them"
+_DAMAGED = (
+    *(ValueError, TypeError, AttributeError, KeyError, RecursionError, OverflowError),
+    RoughSpectraError,
+)
+"""What reading damaged text ends in."""
+
 _SHOWN = (
     *(("device", "Device"), ("geometry", "Geometry"), ("aperture", "Aperture")),
     *(("condition", "Condition"), ("specular", "Specular"), ("license", "License")),
@@ -163,13 +172,15 @@ def source(
     sigma: tuple[float, str],
     white: tuple[str, float | None, str, str],
     how: Style,
+    spectrum: str = "",
 ) -> tuple[tuple[Sentence, ...], ...]:
     """Say where a spectrum and its σ come from; what the file says of itself stands together.
 
     `sigma` is σ in degrees and its source; `white` what `core.white_scale.factor` takes: white,
-    stated factor, plaque, and instrument.
+    stated factor, plaque, and instrument. `spectrum` is stored text, for what a set says of gloss.
     """
     about, notes = _details(details)
+    notes += _gloss(details, spectrum, white)
     write, (degrees, stated) = how.format.sentence, sigma
     told = [write(f"{iface_('σ from')}: {stated}", "FORCE_TURBULENCE")] if stated else []
     slopes = _slopes(degrees)
@@ -256,8 +267,32 @@ def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:
         shown = [(label, str(data[key])) for key, label in _SHOWN if data.get(key)]
         shown += _set(data.get("others", ()), data.get("gloss", {}))
         return shown, [*map(str, data.get("altered", ())), *map(str, data.get("notes", ()))]
-    except (ValueError, TypeError, AttributeError, RecursionError):
+    except _DAMAGED:
         return [], []
+
+
+def _gloss(details: str, spectrum: str, white: tuple[str, float | None, str, str]) -> list[str]:
+    """Say what a set tells of gloss; nothing where it is damaged, which the panel tells itself."""
+    if not spectrum or not ('"others"' in details or '"gloss"' in details):
+        return []
+    relative_to, factor, plaque, instrument = white
+    try:
+        bands, data = json.loads(spectrum), json.loads(details)
+        sample = Sample(
+            name="",
+            wavelengths=bands["wavelengths"],
+            values=bands["values"],
+            kind="reading",
+            instrument=instrument,
+            specular=data.get("specular", ""),
+            white=relative_to,
+            white_factor=factor,
+            plaque="" if factor is not None else plaque,
+        )
+        held = {key: data[key] for key in ("others", "gloss") if key in data}
+        return list(gloss_of_set.sentences(library_format.with_set(sample, held)))
+    except _DAMAGED:
+        return []
 
 
 def _set(others: list[dict[str, Any]], gloss: dict[str, float]) -> Iterator[tuple[str, str]]:

@@ -35,6 +35,7 @@ def draw(layout: Any, context: Any) -> None:
         (snapshot.sigma_degrees(group), group.sigma_source),
         (*white, group.instrument),
         here.style,
+        group.spectrum,
     )
     text.draw(layout, cited)
     text.draw(layout.column(align=True), about)
