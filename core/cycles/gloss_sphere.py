@@ -72,6 +72,12 @@ def through(
     Returns
     -------
     Shapes (views, 3): its share of the light of a hemisphere that glows evenly where it is lit.
+
+    Examples
+    --------
+    >>> found = through(Gloss(roughness=0.2), np.array([0.0]), np.array([0.0]))
+    >>> np.round(found.shine, 3).tolist()
+    [[0.04, 0.04, 0.04]]
     """
     cosine = np.cos(theta)
 
