@@ -50,9 +50,9 @@ def differences(
         return float(apart), float(np.average(over, weights=view.place_weights)), high
     angles = direction_grid.hemisphere(MATCH_GEOMETRIES)
     reflected = np.vstack((in_directions(request, albedo, angles), seen))
-    *targets, read = reflected @ space.rgb_weights(bands, request.illuminant)
-    targets = glossy.target(gloss, read, np.array(targets), angles, read_at)
-    wanted = space.to_lab(np.vstack((targets, read)), request.illuminant)
+    rgb = reflected @ space.rgb_weights(bands, request.illuminant)
+    targets = glossy.target(gloss, rgb[-1], rgb[:-1], angles, read_at)
+    wanted = space.to_lab(np.vstack((targets, rgb[-1])), request.illuminant)
     shown = cycles.reflectance(color, np.full(MATCH_GEOMETRIES, roughness), *angles)
     shown = glossy.over(gloss, shown, angles)
     found = space.to_lab(np.vstack((shown, at_instrument)), request.illuminant)

@@ -458,7 +458,7 @@ def _ways(view: SceneView) -> tuple[Array, Array, Array]:
         (ways,); and the part of each way in the light of each place, shape (places, ways).
     """
     count = len(view.lights)
-    angles = np.concatenate((view.angles, direction_grid.hemisphere(_ELSEWHERE)), axis=1)
+    angles: Array = np.concatenate((view.angles, direction_grid.hemisphere(_ELSEWHERE)), axis=1)
     elsewhere = np.zeros(_ELSEWHERE, int)
     lights = np.concatenate((view.light_indices, elsewhere, np.arange(count)))
     # Beyond the view each way has a place of its own.

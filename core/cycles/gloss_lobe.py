@@ -64,7 +64,7 @@ class Lobe(NamedTuple):
     ----------
     roughness
         As its socket has it.
-    index
+    refraction
         Index of refraction.
     at_normal
         Reflection at the normal, shape (3,).
@@ -73,7 +73,7 @@ class Lobe(NamedTuple):
     """
 
     roughness: float
-    index: float
+    refraction: float
     at_normal: Array
     multiscatter: bool
 
@@ -191,7 +191,7 @@ def reflection(lobe: Lobe, half: Array) -> Array:
     >>> np.round(reflection(lobe, np.array([0.0, 1.0])), 4)[:, 0].tolist()
     [1.0, 0.04]
     """
-    bent = _remapped(_fresnel(half, lobe.index), lobe.index)[..., np.newaxis]
+    bent = _remapped(_fresnel(half, lobe.refraction), lobe.refraction)[..., np.newaxis]
     return np.asarray(lobe.at_normal + (1 - lobe.at_normal) * bent)
 
 
@@ -202,7 +202,7 @@ def gained(lobe: Lobe, view: Array) -> Array:
     --------
     >>> white = Lobe(1.0, 1.5, np.ones(3), True)
     >>> np.round(gained(white, np.array(1.0)), 2).tolist()
-    [1.78, 1.78, 1.78]
+    [3.26, 3.26, 3.26]
     """
     if not lobe.multiscatter:
         return np.ones((*view.shape, 3))
@@ -212,7 +212,7 @@ def gained(lobe: Lobe, view: Array) -> Array:
 
 def _albedo(lobe: Lobe, view: Array) -> Array:
     """Give what Cycles takes a lobe to send on in all, (..., 3)."""
-    share = _over_view("share", view, lobe.roughness, _place(lobe.index))[..., np.newaxis]
+    share = _over_view("share", view, lobe.roughness, _place(lobe.refraction))[..., np.newaxis]
     albedo = lobe.at_normal + (1 - lobe.at_normal) * share
     return np.asarray(albedo * _kept(lobe, view)[1] if lobe.multiscatter else albedo)
 
@@ -222,7 +222,7 @@ def _kept(lobe: Lobe, view: Array) -> tuple[Array, Array]:
     kept = _over_view("kept", view, lobe.roughness)[..., np.newaxis]
     mean_kept = float(_between(_TABLES["mean kept"], lobe.roughness))
     missing = (1 - kept) / kept
-    share = _remapped(np.asarray(_mean_fresnel(lobe.index)), lobe.index)
+    share = _remapped(np.asarray(_mean_fresnel(lobe.refraction)), lobe.refraction)
     single = lobe.at_normal + (1 - lobe.at_normal) * share
     multiple = single * mean_kept / (1 - single * (1 - mean_kept))
     return 1 + missing, (1 + multiple * missing) / (1 + missing)

@@ -47,7 +47,7 @@ def layer(gloss: Gloss, instrument: Instrument) -> Layer:
     dark = np.array([-math.sin(tilt), 0.0, math.cos(tilt)])
 
     def lit(light: Array) -> Array:
-        return light @ dark < math.cos(trap)
+        return np.asarray(light @ dark < math.cos(trap))
 
     found = through(gloss, theta, phi, lit if trap else None)
     # A white reads 1 all the same.
