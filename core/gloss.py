@@ -65,6 +65,11 @@ def from_numbers(row: tuple[float, ...]) -> Gloss:
     ------
     ValueError
         If these are not the numbers of a gloss.
+
+    Examples
+    --------
+    >>> from_numbers(Gloss(coat=1.0).numbers()).coat
+    1.0
     """
     if len(row) != len(Gloss().numbers()) or not all(map(math.isfinite, row)):
         raise ValueError("no gloss")

@@ -290,7 +290,8 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
     promised, difference = item.promised, None
     if promised is not None and scene is not None and seen is not None:
         shader = promised.color, promised.roughness
-        lab = scene_match.promised(*shader, scene, space, item.read_at, request and request.gloss)
+        gloss = None if request is None else request.gloss
+        lab = scene_match.promised(*shader, scene, space, item.read_at, gloss)
         difference = round(float(color_difference.delta_e(lab, np.array(seen.lab))), 4)
     elif request is not None and seen is not None:
         wavelengths, wanted = request.sample.wavelengths, solve.target_reading(request)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import cycles, ladder
 from ...core.color import color_difference
-from ...core.cycles import gloss_lobe, instrument_lobe
+from ...core.cycles import gloss_reading, instrument_lobe
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry.rgb_space import WorkingSpace
@@ -40,7 +40,7 @@ def differences(
     bands = request.sample.wavelengths
     gloss, read_at = request.gloss, request.read_at
     diffuse = instrument_lobe.reflectance(color, roughness, read_at)
-    at_instrument = gloss_lobe.reading(diffuse, gloss, read_at)
+    at_instrument = gloss_reading.reading(diffuse, gloss, read_at)
     if request.scene is not None:
         view, light = request.scene, request.scene.lights[0]
         wanted = color_difference.xyz_to_lab(seen @ light.weights(bands), light.white)
@@ -50,9 +50,9 @@ def differences(
         return float(apart), float(np.average(over, weights=view.place_weights)), high
     angles = direction_grid.hemisphere(MATCH_GEOMETRIES)
     reflected = np.vstack((in_directions(request, albedo, angles), seen))
-    *targets, read = reflected @ space.rgb_weights(bands, request.illuminant)
-    targets = glossy.target(gloss, read, np.array(targets), angles, read_at)
-    wanted = space.to_lab(np.vstack((targets, read)), request.illuminant)
+    rgb = reflected @ space.rgb_weights(bands, request.illuminant)
+    targets = glossy.target(gloss, rgb[-1], rgb[:-1], angles, read_at)
+    wanted = space.to_lab(np.vstack((targets, rgb[-1])), request.illuminant)
     shown = cycles.reflectance(color, np.full(MATCH_GEOMETRIES, roughness), *angles)
     shown = glossy.over(gloss, shown, angles)
     found = space.to_lab(np.vstack((shown, at_instrument)), request.illuminant)

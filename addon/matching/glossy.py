@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.cycles import gloss_lobe, instrument_lobe
+from ...core.cycles import gloss_lobe, gloss_reading, instrument_lobe
 from ...core.cycles.gloss_lobe import Layer
 from ...core.gloss import Gloss
 from ...core.numerics.arrays import Array
@@ -62,7 +62,7 @@ def target(
     """
     if gloss is None:
         return targets
-    _, below = body(gloss_lobe.at_instrument(gloss, instrument), reading, targets)
+    _, below = body(gloss_reading.at_instrument(gloss, instrument), reading, targets)
     return gloss_lobe.layer(gloss, *angles).over(below)
 
 
@@ -78,7 +78,10 @@ def with_instrument(
 
     The second is that of the instrument alone.
     """
-    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, instrument)
+    elsewhere, there = (
+        gloss_lobe.layer(gloss, *angles),
+        gloss_reading.at_instrument(gloss, instrument),
+    )
     return Layer(*(np.vstack(pair) for pair in zip(elsewhere, there, strict=True))), there
 
 
@@ -109,7 +112,7 @@ def warning(
     white = instrument_lobe.reflectance(np.ones(3), roughness, instrument)
     if missing <= _ENOUGH or not ((reading > 0) & (reading <= white * (1 + _ENOUGH))).all():
         return ""
-    alone = gloss_lobe.at_instrument(gloss, instrument)
+    alone = gloss_reading.at_instrument(gloss, instrument)
     if color[channel] < 0:
         why = (
             f"reads {reading[channel]:.4f} in {_CHANNELS[channel]}, and its gloss alone "
@@ -128,12 +131,12 @@ def too_much(name: str, gloss: Gloss | None, reading: Array, instrument: str) ->
     """Say the same of a reading that is one aim among others, as in a scene."""
     if gloss is None:
         return ""
-    below = gloss_lobe.at_instrument(gloss, instrument).below(reading)
+    below = gloss_reading.at_instrument(gloss, instrument).below(reading)
     return warning(name, gloss, reading, below, 0.0, instrument)
 
 
 def _possible(gloss: Gloss, reading: Array, white: Array, instrument: str) -> str:
-    found = gloss_lobe.largest(gloss, reading, instrument, white)
+    found = gloss_reading.largest(gloss, reading, instrument, white)
     if found is None:
         return "remove the gloss"
     told = []

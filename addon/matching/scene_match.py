@@ -18,6 +18,7 @@ from ...core.color import color_difference
 from ...core.cycles import (
     derivatives,
     gloss_lobe,
+    gloss_reading,
     instrument_lobe,
     least_mean_fit,
     matching,
@@ -238,7 +239,7 @@ def promised(
 ) -> Array:
     """Lab at an instrument of a shader under the view's main light, shape (3,)."""
     diffuse = instrument_lobe.reflectance(color, roughness, read_at)
-    seen = gloss_lobe.reading(diffuse, gloss, read_at)
+    seen = gloss_reading.reading(diffuse, gloss, read_at)
     return to_lab(seen, view.lights[0], space)
 
 
@@ -391,7 +392,7 @@ class _Under:
 
 def _layer(gloss: Gloss, angles: Array, read_at: str, lights: int) -> gloss_lobe.Layer:
     """Give what lies over all ways and, for each of the lights, over the instrument."""
-    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, read_at)
+    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_reading.at_instrument(gloss, read_at)
     shine, passed = (
         np.vstack((all_ways, np.tile(at, (lights, 1))))
         for all_ways, at in zip(elsewhere, there, strict=True)
@@ -427,7 +428,7 @@ def _places(
     under = None
     if gloss is not None and layer is not None:
         under = _Under(
-            gloss_lobe.at_instrument(gloss, read_at),
+            gloss_reading.at_instrument(gloss, read_at),
             gloss_lobe.Layer(layer.shine[:ways], layer.passed[:ways]),
             np.einsum("pc,pcx->px", mixing @ (rgb * layer.shine), to_xyz),
             light_rgb(np.stack([light.white for light in view.lights]), matrix),

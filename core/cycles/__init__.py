@@ -4,6 +4,9 @@
 
 lobe             the Diffuse BSDF, and the Principled BSDF without gloss
 gloss_lobe       what the gloss of a Principled BSDF adds to that, and what it takes
+gloss_sphere     the same where light comes from a hemisphere
+gloss_reading    what instruments read of it, and how much of it a reading allows
+gloss_estimate   level and roughness from what instruments read
 derivatives      its slopes over color and roughness
 matching         color and roughness for a reading and other directions
 least_mean_fit   the same where several lights and directions contradict each other

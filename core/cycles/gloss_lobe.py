@@ -23,7 +23,6 @@ import numpy.typing as npt
 
 from ..closure.packing import unpack
 from ..gloss import Gloss
-from ..instruments import HEMISPHERE, find, quadrature
 from ..numerics.arrays import Array
 from . import gloss_data
 
@@ -33,7 +32,6 @@ width does not show in that."""
 _FAINT = 1e-5
 """Weight up to which Cycles leaves a layer out."""
 _GRAZING = 1e-6
-_HALVINGS = 24
 
 
 class Layer(NamedTuple):
@@ -66,7 +64,7 @@ class Lobe(NamedTuple):
     ----------
     roughness
         As its socket has it.
-    index
+    refraction
         Index of refraction.
     at_normal
         Reflection at the normal, shape (3,).
@@ -75,7 +73,7 @@ class Lobe(NamedTuple):
     """
 
     roughness: float
-    index: float
+    refraction: float
     at_normal: Array
     multiscatter: bool
 
@@ -128,6 +126,12 @@ def compose(gloss: Gloss, view: Array, seen: Callable[[Lobe], Array]) -> Layer:
         Cosine of the view, any shape (...).
     seen
         Gives what one lobe reads, shape (..., 3): of a direction of light, or of many together.
+
+    Examples
+    --------
+    >>> found = compose(Gloss(), np.ones(2), lambda lobe: np.full((2, 3), 0.5))
+    >>> found.shine.tolist()
+    [[0.5, 0.5, 0.5], [0.5, 0.5, 0.5]]
     """
     shine, weight = np.zeros((*view.shape, 3)), np.ones((*view.shape, 3))
     if gloss.coat > _FAINT:
@@ -148,94 +152,6 @@ def compose(gloss: Gloss, view: Array, seen: Callable[[Lobe], Array]) -> Layer:
         shine += weight * seen(lobe)
         weight *= np.clip(1 - _albedo(lobe, view).max(axis=-1, keepdims=True), 0, 1)
     return Layer(shine, weight)
-
-
-def at_instrument(gloss: Gloss, instrument: str) -> Layer:
-    """Give the same for an instrument: the means over its directions, each of shape (3,).
-
-    Exact where the instrument looks in one direction, since `passed` depends on the view alone.
-
-    Raises
-    ------
-    DomainError
-        If the instrument is unknown.
-
-    Examples
-    --------
-    >>> np.round(at_instrument(Gloss(level=1), "45a:0").shine, 4).tolist()
-    [0.0444, 0.0444, 0.0444]
-    """
-    return Layer(*_at_instrument(gloss, instrument))
-
-
-def reading(diffuse: Array, gloss: Gloss | None, instrument: str) -> Array:
-    """Put gloss over what an instrument reads of the diffuse lobe, shape (..., 3)."""
-    return diffuse if gloss is None else at_instrument(gloss, instrument).over(diffuse)
-
-
-def largest(
-    gloss: Gloss, wanted: npt.ArrayLike, instrument: str, white: npt.ArrayLike = 1.0
-) -> Gloss | None:
-    """Find how much gloss leaves a reading possible.
-
-    Parameters
-    ----------
-    gloss
-        What is there.
-    wanted
-        The whole reading in scene-linear RGB, shape (3,).
-    instrument
-        One of `core.instruments.REGISTRY`.
-    white
-        Reading of the diffuse lobe alone at color 1.
-
-    Returns
-    -------
-    The same gloss if some color below it gives the reading: if the gloss alone reads no more, and
-    over a white no less. Else with the largest level that does, or, where even level 0 does not,
-    level 0 with the largest weight of the coat. None where the reading fits no gloss, nor none.
-
-    Examples
-    --------
-    >>> found = largest(Gloss(level=0.8), [0.02, 0.03, 0.03], "45a:0")
-    >>> round(found.level, 3)
-    0.45
-    """
-    goal = np.asarray(wanted, np.float64)
-    most = np.broadcast_to(np.asarray(white, np.float64), goal.shape)
-    if not ((goal > 0) & (goal <= most)).all():
-        return None
-
-    def fits(tried: Gloss) -> bool:
-        found = at_instrument(tried, instrument)
-        return bool(((found.shine <= goal) & (goal <= found.over(most))).all())
-
-    if fits(gloss):
-        return gloss
-    level_free = gloss._replace(level=0.0)
-    if fits(level_free):
-        return _most(lambda share: gloss._replace(level=share * gloss.level), fits)
-    return _most(lambda share: level_free._replace(coat=share * gloss.coat), fits)
-
-
-def _most(of_share: Callable[[float], Gloss], fits: Callable[[Gloss], bool]) -> Gloss:
-    low, high = 0.0, 1.0
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if fits(of_share(middle)) else (low, middle)
-    return of_share(low)
-
-
-def _at_instrument(gloss: Gloss, instrument: str) -> tuple[Array, Array]:
-    if find(instrument).light == HEMISPHERE:
-        from . import gloss_sphere  # which is built on this
-
-        return gloss_sphere.layer(gloss, find(instrument))
-    of = quadrature.of(instrument)
-    if of.angles is not None:
-        return layer(gloss, *of.angles)
-    found = layer(gloss, of.theta_i, of.theta_r, of.delta_phi)
-    return np.asarray(of.weights @ found.shine), np.asarray(of.weights @ found.passed)
 
 
 class _Geometry(NamedTuple):
@@ -267,13 +183,27 @@ def _seen(lobe: Lobe, at: _Geometry) -> Array:
 
 
 def reflection(lobe: Lobe, half: Array) -> Array:
-    """Reflection of facets (..., 3) at cosines of the angle to them, of any shape (...)."""
-    bent = _remapped(_fresnel(half, lobe.index), lobe.index)[..., np.newaxis]
+    """Reflection of facets (..., 3) at cosines of the angle to them, of any shape (...).
+
+    Examples
+    --------
+    >>> lobe = Lobe(0.5, 1.5, np.full(3, 0.04), True)
+    >>> np.round(reflection(lobe, np.array([0.0, 1.0])), 4)[:, 0].tolist()
+    [1.0, 0.04]
+    """
+    bent = _remapped(_fresnel(half, lobe.refraction), lobe.refraction)[..., np.newaxis]
     return np.asarray(lobe.at_normal + (1 - lobe.at_normal) * bent)
 
 
 def gained(lobe: Lobe, view: Array) -> Array:
-    """Give by how much a lobe is scaled for what its facets send to each other, (..., 3)."""
+    """Give by how much a lobe is scaled for what its facets send to each other, (..., 3).
+
+    Examples
+    --------
+    >>> white = Lobe(1.0, 1.5, np.ones(3), True)
+    >>> np.round(gained(white, np.array(1.0)), 2).tolist()
+    [3.26, 3.26, 3.26]
+    """
     if not lobe.multiscatter:
         return np.ones((*view.shape, 3))
     scale, dimming = _kept(lobe, view)
@@ -282,7 +212,7 @@ def gained(lobe: Lobe, view: Array) -> Array:
 
 def _albedo(lobe: Lobe, view: Array) -> Array:
     """Give what Cycles takes a lobe to send on in all, (..., 3)."""
-    share = _over_view("share", view, lobe.roughness, _place(lobe.index))[..., np.newaxis]
+    share = _over_view("share", view, lobe.roughness, _place(lobe.refraction))[..., np.newaxis]
     albedo = lobe.at_normal + (1 - lobe.at_normal) * share
     return np.asarray(albedo * _kept(lobe, view)[1] if lobe.multiscatter else albedo)
 
@@ -292,7 +222,7 @@ def _kept(lobe: Lobe, view: Array) -> tuple[Array, Array]:
     kept = _over_view("kept", view, lobe.roughness)[..., np.newaxis]
     mean_kept = float(_between(_TABLES["mean kept"], lobe.roughness))
     missing = (1 - kept) / kept
-    share = _remapped(np.asarray(_mean_fresnel(lobe.index)), lobe.index)
+    share = _remapped(np.asarray(_mean_fresnel(lobe.refraction)), lobe.refraction)
     single = lobe.at_normal + (1 - lobe.at_normal) * share
     multiple = single * mean_kept / (1 - single * (1 - mean_kept))
     return 1 + missing, (1 + multiple * missing) / (1 + missing)
@@ -337,7 +267,13 @@ def _mean_fresnel(index: float) -> float:
 
 
 def shadowing(square: float, cosine: Array) -> Array:
-    """Smith's Λ for GGX."""
+    """Smith's Λ for GGX, of α² and cosines.
+
+    Examples
+    --------
+    >>> shadowing(0.25, np.array([1.0, 0.5])).round(4).tolist()
+    [0.0, 0.1614]
+    """
     return np.asarray((np.sqrt(1 + square * (1 / cosine**2 - 1)) - 1) / 2)
 
 

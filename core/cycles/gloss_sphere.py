@@ -47,7 +47,7 @@ def layer(gloss: Gloss, instrument: Instrument) -> Layer:
     dark = np.array([-math.sin(tilt), 0.0, math.cos(tilt)])
 
     def lit(light: Array) -> Array:
-        return light @ dark < math.cos(trap)
+        return np.asarray(light @ dark < math.cos(trap))
 
     found = through(gloss, theta, phi, lit if trap else None)
     # A white reads 1 all the same.
@@ -72,6 +72,12 @@ def through(
     Returns
     -------
     Shapes (views, 3): its share of the light of a hemisphere that glows evenly where it is lit.
+
+    Examples
+    --------
+    >>> found = through(Gloss(roughness=0.2), np.array([0.0]), np.array([0.0]))
+    >>> np.round(found.shine, 3).tolist()
+    [[0.04, 0.04, 0.04]]
     """
     cosine = np.cos(theta)
 

@@ -21,7 +21,7 @@ from rough_spectra.addon.material import (
 )
 from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.core import cycles
-from rough_spectra.core.cycles import gloss_lobe
+from rough_spectra.core.cycles import gloss_lobe, gloss_reading
 
 
 def sockets(material):
@@ -320,11 +320,11 @@ def test_gloss_set_by_hand_is_followed_at_once(wall, name):
     assert sockets(wall) == pytest.approx(derived(storage.load(wall)), abs=1e-6)
     *color, roughness = sockets(wall)
     gloss = shader_nodes.surface(wall).gloss
-    read = gloss_lobe.at_instrument(gloss, "45a:0").over(
+    read = gloss_reading.at_instrument(gloss, "45a:0").over(
         cycles.reflectance(color, roughness, math.pi / 4, 0.0, 0.0)
     )
     target = heard[0].solved.solution.target
-    least = gloss_lobe.at_instrument(gloss, "45a:0").shine
+    least = gloss_reading.at_instrument(gloss, "45a:0").shine
     np.testing.assert_allclose(read, np.maximum(target, least), atol=1e-6)
     told = [text for text in state.state(wall).stamp.warnings if "cannot have this gloss" in text]
     assert bool(told) == bool((least > target).any())

@@ -17,7 +17,7 @@ from rough_spectra.addon.preview import data
 from rough_spectra.addon.samples import presets
 from rough_spectra.core import cycles, ladder, reading
 from rough_spectra.core.color import color_difference
-from rough_spectra.core.cycles import gloss_lobe
+from rough_spectra.core.cycles import gloss_lobe, gloss_reading
 from rough_spectra.core.errors import DomainError
 from rough_spectra.core.gloss import Gloss
 from rough_spectra.core.numerics import direction_grid
@@ -100,7 +100,7 @@ def test_numbers_of_all_angles_are_of_the_body_through_its_gloss():
     [(request, _)] = solve.settle([request_of("brick", gloss)])
     [seen], [albedo] = surface_spectra.readings_and_albedos([request])
     rgb = space.rgb_weights(request.sample.wavelengths, "D65")
-    there = gloss_lobe.at_instrument(gloss, AT)
+    there = gloss_reading.at_instrument(gloss, AT)
     at = direction_grid.hemisphere(solve.MATCH_GEOMETRIES)
     told = assess.differences(request, (seen, albedo), (found.color, found.roughness), space)
     assert told == pytest.approx(
@@ -151,7 +151,7 @@ def test_in_a_scene_what_is_left_over_is_what_the_shader_does(gloss):
     matte = ladder.reflectance(request.model, albedo, *angles, request.sigma)
     wanted = matte @ light.weights(bands)
     if gloss is not None:
-        layer, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, AT)
+        layer, there = gloss_lobe.layer(gloss, *angles), gloss_reading.at_instrument(gloss, AT)
         shown = layer.over(shown)
         whole = read @ light.weights(bands) @ space.from_xyz.T / lamp
         share = (whole - there.shine) / there.passed / whole
@@ -165,7 +165,7 @@ def test_in_a_scene_what_is_left_over_is_what_the_shader_does(gloss):
     told = solve.differences(request, view, found.color, found.roughness, space)
     np.testing.assert_allclose(told, apart, atol=1e-6)
     seen = cycles.reflectance(found.color, found.roughness, *reading.INSTRUMENT_ANGLES[AT])
-    lab = scene_match.to_lab(gloss_lobe.reading(seen, gloss, AT), light, space)
+    lab = scene_match.to_lab(gloss_reading.reading(seen, gloss, AT), light, space)
     goal = color_difference.xyz_to_lab(read @ light.weights(bands), light.white)
     assert found.delta_e_instrument == pytest.approx(
         float(color_difference.delta_e(lab, goal)), abs=1e-6

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from core.cycles import gloss_lobe
+from core.cycles import gloss_lobe, gloss_reading
 from core.gloss import Gloss, from_numbers
 from core.instruments.gloss import fresnel
 
@@ -16,7 +16,9 @@ AT = "45a:0"
     ("level", "shine"), [(0.5, 0.0222), (1.0, 0.0444)]
 )  # rendered by Blender 5.2, at roughness 0.5
 def test_reading_of_the_lobe_alone(level, shine):
-    np.testing.assert_allclose(gloss_lobe.at_instrument(Gloss(level), AT).shine, shine, atol=5e-5)
+    np.testing.assert_allclose(
+        gloss_reading.at_instrument(Gloss(level), AT).shine, shine, atol=5e-5
+    )
 
 
 def test_no_level_and_no_coat_is_no_gloss():
@@ -46,15 +48,15 @@ def test_what_is_taken_from_below_is_what_the_lobe_sends_on(roughness, polar):
 
 def test_a_sphere_reads_what_fresnel_says_and_a_trap_takes_the_mirror():
     smooth = Gloss(level=0.5, roughness=0.0)
-    found = gloss_lobe.at_instrument(smooth, "di:8").shine
+    found = gloss_reading.at_instrument(smooth, "di:8").shine
     np.testing.assert_allclose(found, fresnel(np.radians(8), 1.5), rtol=2e-3)
-    np.testing.assert_array_equal(gloss_lobe.at_instrument(smooth, "de:8").shine, 0)
+    np.testing.assert_array_equal(gloss_reading.at_instrument(smooth, "de:8").shine, 0)
 
 
 def test_a_lobe_that_absorbs_nothing_reads_white_in_a_sphere():
     """What multiscatter GGX is for; its table is Cycles' own."""
     for roughness in (0.2, 0.6, 1.0):
-        found = gloss_lobe.at_instrument(Gloss(roughness=roughness, ior=1e6), "di:8").shine
+        found = gloss_reading.at_instrument(Gloss(roughness=roughness, ior=1e6), "di:8").shine
         np.testing.assert_allclose(found, 1, atol=3e-3)
 
 
@@ -63,27 +65,27 @@ def test_nothing_depends_on_the_azimuth_at_the_normal():
     found = gloss_lobe.layer(Gloss(coat=0.5), np.pi / 4, 0.0, around)
     assert np.ptp(found.shine, axis=0).max() < 1e-12
     np.testing.assert_allclose(
-        found.shine[0], gloss_lobe.at_instrument(Gloss(coat=0.5), AT).shine, rtol=1e-12
+        found.shine[0], gloss_reading.at_instrument(Gloss(coat=0.5), AT).shine, rtol=1e-12
     )
 
 
 def test_below_undoes_over():
-    found = gloss_lobe.at_instrument(Gloss(level=0.8, coat=1.0, coat_tint=(0.9, 0.5, 0.2)), AT)
+    found = gloss_reading.at_instrument(Gloss(level=0.8, coat=1.0, coat_tint=(0.9, 0.5, 0.2)), AT)
     read = np.array([[0.2, 0.5, 0.8], [0.0, 0.01, 1.0]])
     np.testing.assert_allclose(found.below(found.over(read)), read, atol=1e-15)
 
 
 def test_largest_gloss_reads_the_darkest_channel():
     black = [0.031, 0.032, 0.033]
-    found = gloss_lobe.largest(Gloss(level=0.9), black, AT)
-    read = gloss_lobe.at_instrument(found, AT).shine
+    found = gloss_reading.largest(Gloss(level=0.9), black, AT)
+    read = gloss_reading.at_instrument(found, AT).shine
     assert 0 < found.level < 0.9
     assert read.max() == pytest.approx(0.031, abs=1e-6)
-    assert gloss_lobe.largest(found, black, AT) == found
-    coated = gloss_lobe.largest(Gloss(level=0.9, coat=1.0, coat_roughness=0.5), [0.01] * 3, AT)
+    assert gloss_reading.largest(found, black, AT) == found
+    coated = gloss_reading.largest(Gloss(level=0.9, coat=1.0, coat_roughness=0.5), [0.01] * 3, AT)
     assert coated.level == 0
     assert 0 < coated.coat < 1
-    assert gloss_lobe.largest(Gloss(), [0.5, 0.0, 0.5], AT) is None
+    assert gloss_reading.largest(Gloss(), [0.5, 0.0, 0.5], AT) is None
 
 
 def test_a_mirror_shows_no_light_without_width():

@@ -20,6 +20,7 @@ VERBS = (
     "emissivity",
     "estimate",
     "experiment",
+    "gloss",
     "import",
     "lab",
     "merge",

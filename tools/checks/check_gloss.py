@@ -153,7 +153,8 @@ def principled(level: float, roughness: float, coat: float) -> Any:
 
 def set_gloss(material: Any, level: float, roughness: float, coat: float) -> None:
     """Set the gloss of a material by hand."""
-    inputs = shader_nodes.shader_node(material).inputs
+    node: Any = shader_nodes.shader_node(material)
+    inputs = node.inputs
     inputs["Specular IOR Level"].default_value = level
     inputs["Roughness"].default_value = roughness
     inputs["Coat Weight"].default_value = coat
