@@ -129,7 +129,7 @@ def write(
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
     sockets = OF_NODE[node.bl_idname]
     zeros = dict.fromkeys(sockets.zeroed, (0.0,))
-    values = {sockets.roughness: (roughness,), **zeros}
+    values: dict[str, Sequence[float]] = {sockets.roughness: (roughness,), **zeros}
     if place.texture is None:
         values[sockets.color] = color
     else:

@@ -69,7 +69,14 @@ def scaled(
         request, solution, palette = work[i][1], solutions[i], palettes[i] or known[i]
         assert palette is not None
         target = instrument_lobe.reflectance(solution.color, solution.roughness, VIRTUAL)
-        scale = solving.solve(*palette, target, solution.roughness, space, request.illuminant)
+        scale = solving.solve(
+            palette.colors,
+            palette.weights,
+            target,
+            solution.roughness,
+            space,
+            request.illuminant,
+        )
         found[i] = replace(
             solution,
             delta_e_instrument=max(solution.delta_e_instrument, scale.delta_e),
