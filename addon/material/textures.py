@@ -70,6 +70,7 @@ def scaled(
         assert palette is not None
         target = instrument_lobe.reflectance(solution.color, solution.roughness, VIRTUAL)
         scale = solving.solve(
+            palette.channels,
             palette.colors,
             palette.weights,
             target,
