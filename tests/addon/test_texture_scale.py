@@ -110,6 +110,18 @@ def test_another_blender_sees_the_colors_of_an_image(make_material):
     assert counts == pytest.approx(np.full(4, len(found) / 4), rel=0.01)
 
 
+def test_it_looks_between_the_texels_too(make_material):
+    """Black and white columns: of 8 bits Cycles interpolates what is encoded, and then decodes."""
+    material = textured(make_material)
+    columns = np.zeros((4, 512, 3))
+    columns[:, ::2] = 1
+    material.node_tree.nodes["Image Texture"].image = image("columns", columns)
+    [found] = texture_colors.seen([socket(material)])
+    evenly = (np.arange(10_000) + 0.5) / 10_000
+    between = np.where(evenly <= 0.04045, evenly / 12.92, ((evenly + 0.055) / 1.055) ** 2.4)
+    assert found.mean(axis=0) == pytest.approx(np.full(3, between.mean()), rel=0.005)
+
+
 def test_dragging_scales_anew_without_looking_again(make_material, looks):
     material = textured(make_material)
     derive.assign([(material, request())])
