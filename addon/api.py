@@ -72,7 +72,8 @@ from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
 from .textures import convert
 from .textures import material as material_of_texture
-from .textures.convert import Made
+from .textures.wanted import Made
+from .textures.wanted import Wanted as _Wanted
 
 __all__ = [
     "Adjusted",
@@ -1130,7 +1131,7 @@ def make_texture(
     (2, [0.35, 0.35, 0.35, 0.35], 0.0)
     """
     _check_enabled()
-    wanted = convert.Wanted(sigma, instrument, illuminant, model, holds, scale)
+    wanted = _Wanted(sigma, instrument, illuminant, model, holds, scale)
     conversion = convert.Conversion(Path(source), Path(target), wanted, working_space.current())
     return conversion.finish(progress)
 

@@ -138,7 +138,7 @@ def write(
     """
     node = _make(place) if place.make else place.material.node_tree.nodes[place.node_name]
     sockets = OF_NODE[node.bl_idname]
-    values = {sockets.roughness: (roughness,)}
+    values: dict[str, Sequence[float]] = {sockets.roughness: (roughness,)}
     if place.texture is None:
         values[sockets.color] = color
     else:

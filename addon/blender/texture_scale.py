@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 NAME = "Rough Spectra Scale"
 _MARK = "rough_spectra_scale"
+_CHANNELS = "rough_spectra_channels"
 _COLORS = "rough_spectra_colors"
 _SOURCE = "rough_spectra_source"
 _A, _B, _RESULT = "A_Color", "B_Color", "Result_Color"
@@ -26,16 +27,18 @@ _NODE_DISTANCE = 200.0
 
 
 class Palette(NamedTuple):
-    """Colors that stand for a texture.
+    """Colors that stand for a texture, scene-linear.
 
     Parameters
     ----------
-    colors
-        Scene-linear, shape (colors, 3).
-    weights
-        The share of the surface that each stands for, shape (colors,).
+    channels
+        Values of each channel from small to large, each of as large a share of the surface, shape
+        (values, 3): what stands in a row is of no one color.
+    colors, weights
+        Colors, shape (colors, 3), and the share of the surface that each stands for.
     """
 
+    channels: Array
     colors: Array
     weights: Array
 
@@ -89,6 +92,7 @@ def put(color_socket: Any, scale: tuple[float, float, float], palette: Palette |
     node.inputs[0].default_value = 1.0
     _socket(node, _B).default_value = (*scale, 1.0)
     if palette is not None:
+        node[_CHANNELS] = palette.channels.ravel().tolist()
         node[_COLORS] = [*palette.colors.ravel().tolist(), *palette.weights.tolist()]
         node[_SOURCE] = _told(_socket(node, _A))
     return node
@@ -99,15 +103,19 @@ def kept_palette(color_socket: Any) -> Palette | None:
     import numpy as np
 
     node = node_of(color_socket)
-    if node is None or _COLORS not in node or not _socket(node, _A).is_linked:
+    if node is None or not _socket(node, _A).is_linked:
         return None
     if node.get(_SOURCE) != _told(_socket(node, _A)):
         return None
-    values = np.array(node[_COLORS], np.float64)
-    if values.size % 4 or not values.size or not np.isfinite(values).all():
+    channels = np.array(node.get(_CHANNELS, ()), np.float64)
+    values = np.array(node.get(_COLORS, ()), np.float64)
+    whole = channels.size and values.size and not (channels.size % 3 or values.size % 4)
+    if not whole or not (np.isfinite(channels).all() and np.isfinite(values).all()):
         return None
     count = values.size // 4
-    return Palette(values[: 3 * count].reshape(count, 3), values[3 * count :])
+    return Palette(
+        channels.reshape(-1, 3), values[: 3 * count].reshape(count, 3), values[3 * count :]
+    )
 
 
 def remove(color_socket: Any) -> bool:

@@ -69,7 +69,16 @@ def scaled(
         assert palette is not None
         color, roughness, read_at = solution.color, solution.roughness, request.read_at
         target = instrument_lobe.reflectance(color, roughness, read_at)
-        scale = solving.solve(*palette, target, roughness, space, request.illuminant, read_at)
+        scale = solving.solve(
+            palette.channels,
+            palette.colors,
+            palette.weights,
+            target,
+            roughness,
+            space,
+            request.illuminant,
+            read_at,
+        )
         found[i] = replace(
             solution,
             delta_e_instrument=max(solution.delta_e_instrument, scale.delta_e),

@@ -19,17 +19,15 @@ import math
 import os
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...core import cycles, ladder, limits, reading
+from ...core import cycles, ladder, reading
 from ...core.cycles import matching
 from ...core.errors import CancelledError, DomainError, InputError, OutputError
 from ...core.instruments import DEFAULT
-from ...core.models import TARGET
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry import srgb
@@ -37,100 +35,20 @@ from ..colorimetry.rgb_space import WorkingSpace
 from ..matching.solve import MATCH_GEOMETRIES
 from ..samples.sample import Sample
 from ..support import atomic_files
-from ..support.openimageio import openimageio
-from ..support.version import version
 from .envi import Cube, header_of
+from .exr_file import Writer
 from .image import BandImage, Pixels
 from .picture import Picture
-
-HOLDS = ("albedo", "color")
-"""What a texture may hold: the facets' albedo, or the color that Cycles' Diffuse needs."""
+from .products import times, total
+from .wanted import Made, Wanted
 
 _NUMBERS_AT_ONCE = 4_000_000
 """Of a block: 16 MB, and some such arrays at once."""
 _PLACES = 12
 """Blocks, spread over the image, of whose mean the roughness is matched."""
-_PIXELS_AT_ONCE = 512
-"""Of a product of matrices."""
 _MOST_THREADS = 8
 _ENOUGH = 1e-5
 """Overshoot that is rounding of single precision."""
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What to make of an image.
-
-    Parameters
-    ----------
-    sigma
-        Roughness σ of the surface, radians.
-    instrument
-        That the image was taken with, one of `core.reading.INSTRUMENTS`.
-    illuminant
-        The light under which the texture is right; of an image in RGB, the one it was taken for.
-    model
-        One of `core.models.NAMES`.
-    holds
-        One of `HOLDS`.
-    scale
-        Of an ENVI cube, the number that stands for a reflectance of 1; None takes the header's.
-
-    Raises
-    ------
-    DomainError
-        If σ is none that materials have, or `holds` is neither.
-    """
-
-    sigma: float
-    instrument: str = DEFAULT
-    illuminant: str = "D65"
-    model: str = TARGET
-    holds: str = "albedo"
-    scale: float | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse what no image could be read with."""
-        if fault := limits.sigma_fault(math.degrees(self.sigma)):
-            raise DomainError(fault)
-        if self.holds not in HOLDS:
-            msg = f"A texture holds {' or '.join(HOLDS)}, not {self.holds!r}."
-            raise DomainError(msg)
-
-
-@dataclass(frozen=True, eq=False)
-class Made:
-    """A texture that was written.
-
-    Parameters
-    ----------
-    path
-        Of the texture.
-    wanted
-        What was asked for.
-    width, height
-        In pixels.
-    roughness
-        With which a Diffuse BSDF shows it: Cycles' diffuse roughness.
-    mean
-        The mean reading over all pixels as a sample; None of an image in RGB.
-    infeasible
-        Share of pixels of which a band reads more than white facets; their albedo is above 1.
-    outside
-        Share of pixels with a channel below 0 or above 1.
-    notes
-        Sentences.
-    """
-
-    path: Path
-    wanted: Wanted
-    width: int
-    height: int
-    roughness: float
-    mean: Sample | None
-    infeasible: float
-    outside: float
-    notes: tuple[str, ...]
 
 
 def open_image(path: Path, scale: float | None = None) -> BandImage:
@@ -193,7 +111,9 @@ class Conversion:
         image = self._image
         with atomic_files.publication() as files:
             try:
-                writer = _Writer(files.stage(self.target), self.target, self._spec())
+                size = image.width, image.height
+                part = files.stage(self.target)
+                writer = Writer(part, self.target, size, self._told())
                 yield 0, image.height
                 yield from self._convert(writer)
             finally:
@@ -277,9 +197,9 @@ class Conversion:
         )
         return float(roughness[0])
 
-    def _convert(self, writer: _Writer) -> Iterator[tuple[int, int]]:
+    def _convert(self, writer: Writer) -> Iterator[tuple[int, int]]:
         image, matrix = self._image, self._matrix.astype(np.float32)
-        total = np.zeros(len(matrix))
+        added = np.zeros(len(matrix))
         self._infeasible = self._outside = 0
         count = min(os.cpu_count() or 1, _MOST_THREADS)
         with ThreadPoolExecutor(count) as threads:  # numpy computes without Python's lock
@@ -294,15 +214,15 @@ class Conversion:
                     ),
                     [part for part in parts if part.start < part.stop],
                 )
-                for finite, added, infeasible, outside in counted:
+                for finite, share, infeasible, outside in counted:
                     if not finite:
                         self._check(values, first)
-                    total += added
+                    added += share
                     self._infeasible += infeasible
                     self._outside += outside
                 writer.write(first, last, rgb.reshape(last - first, image.width, 3))
                 yield last, image.height
-        self._mean = total / (image.width * image.height)
+        self._mean = added / (image.width * image.height)
 
     def _part(self, values: Pixels, out: Pixels, matrix: Pixels) -> tuple[bool, Array, int, int]:
         """Write RGB of pixels to `out`.
@@ -319,7 +239,7 @@ class Conversion:
         if not (lowest >= -_ENOUGH and highest <= 1 + _ENOUGH):
             red, green, blue = ((out < -_ENOUGH) | (out > 1 + _ENOUGH)).T
             outside = int(np.count_nonzero(red | green | blue))
-        added = _total(values)
+        added = total(values)
         return math.isfinite(lowest + highest), added, infeasible, outside
 
     def _blocks(self) -> Iterator[tuple[int, int]]:
@@ -336,12 +256,10 @@ class Conversion:
     def _texture(self, values: Pixels, matrix: Pixels) -> Pixels:
         wanted = self.wanted
         if wanted.holds == "albedo":
-            return _times(self._albedo(values), matrix)
+            return times(self._albedo(values), matrix)
         if wanted.instrument != DEFAULT:
             values = reading.from_albedo(self._albedo(values), wanted.sigma, wanted.model, DEFAULT)
-        return cycles.color_for_reading(
-            _times(values, matrix), np.float32(self._roughness), DEFAULT
-        )
+        return cycles.color_for_reading(times(values, matrix), np.float32(self._roughness), DEFAULT)
 
     def _check(self, values: Pixels, first: int) -> None:
         """Refuse the first pixel of a block that is no reflectance.
@@ -366,25 +284,18 @@ class Conversion:
             "such pixels, or crop the image to where it was measured"
         )
 
-    def _spec(self) -> Any:
-        oiio, wanted = openimageio(), self.wanted
-        spec = oiio.ImageSpec(self._image.width, self._image.height, 3, oiio.HALF)
-        spec.channelnames = ("R", "G", "B")
-        spec.attribute("compression", "zip")
-        spec.attribute("Software", f"Rough Spectra {version()}")
-        told = {
+    def _told(self) -> dict[str, str | float]:
+        wanted = self.wanted
+        return {
             "holds": wanted.holds,
             "source": self._image.path.name,
             "instrument": wanted.instrument,
             "illuminant": wanted.illuminant,
             "model": wanted.model,
             "workingSpace": self.space.name,
+            "sigmaDegrees": round(math.degrees(wanted.sigma), 6),
+            "cyclesRoughness": self._roughness,
         }
-        for name, text in told.items():
-            spec.attribute(f"roughSpectra:{name}", text)
-        spec.attribute("roughSpectra:sigmaDegrees", round(math.degrees(wanted.sigma), 6))
-        spec.attribute("roughSpectra:cyclesRoughness", self._roughness)
-        return spec
 
     def _result(self) -> Made:
         image, wanted = self._image, self.wanted
@@ -430,52 +341,6 @@ class Conversion:
             outside,
             tuple(notes),
         )
-
-
-def _times(values: Pixels, matrix: Pixels) -> Pixels:
-    """Multiply (pixels, bands) by (bands, 3), some pixels at a time.
-
-    Of all at once OpenBLAS gives a part to each core, and these wait for each other by spinning: up
-    to twenty times as long where another program has a core.
-    """
-    out = np.empty((len(values), matrix.shape[1]), np.float32)
-    whole = len(values) // _PIXELS_AT_ONCE * _PIXELS_AT_ONCE
-    stacked = values[:whole].reshape(-1, _PIXELS_AT_ONCE, len(matrix))
-    np.matmul(stacked, matrix, out=out[:whole].reshape(*stacked.shape[:2], matrix.shape[1]))
-    np.matmul(values[whole:], matrix, out=out[whole:])
-    return out
-
-
-def _total(values: Pixels) -> Array:
-    """Add pixels up, shape (bands,), for the reason of `_times` some at a time."""
-    whole = len(values) // _PIXELS_AT_ONCE * _PIXELS_AT_ONCE
-    stacked = values[:whole].reshape(-1, _PIXELS_AT_ONCE, values.shape[1])
-    sums = np.ones((1, _PIXELS_AT_ONCE), np.float32) @ stacked
-    rest = values[whole:].sum(axis=0, dtype=np.float64)
-    return np.asarray(sums.sum(axis=(0, 1), dtype=np.float64) + rest)
-
-
-class _Writer:
-    """An EXR of half floats, written from its top down."""
-
-    def __init__(self, part: Path, target: Path, spec: Any) -> None:
-        self._target = target
-        self._out = openimageio().ImageOutput.create("openexr")
-        if self._out is None or not self._out.open(str(part), spec):
-            raise self._fault()
-
-    def write(self, first: int, last: int, pixels: Pixels) -> None:
-        if not self._out.write_scanlines(first, last, 0, np.ascontiguousarray(pixels)):
-            raise self._fault()
-
-    def close(self) -> None:
-        if not self._out.close():
-            raise self._fault()
-
-    def _fault(self) -> OutputError:
-        said = " ".join(self._out.geterror().split()) if self._out is not None else "no OpenEXR"
-        msg = f"{self._target} cannot be written ({said}); free the disk or choose another place."
-        return OutputError(msg)
 
 
 def _percent(share: float) -> str:

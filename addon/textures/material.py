@@ -12,7 +12,7 @@ import bpy
 from ...core.errors import MaterialError
 from ..blender import working_space
 from ..blender.sockets import color_socket, roughness_socket
-from .convert import Made
+from .wanted import Made
 
 _APART = 300.0
 """Between nodes."""

@@ -110,6 +110,18 @@ def test_another_blender_sees_the_colors_of_an_image(make_material):
     assert counts == pytest.approx(np.full(4, len(found) / 4), rel=0.01)
 
 
+def test_it_looks_between_the_texels_too(make_material):
+    """Black and white columns: of 8 bits Cycles interpolates what is encoded, and then decodes."""
+    material = textured(make_material)
+    columns = np.zeros((4, 512, 3))
+    columns[:, ::2] = 1
+    material.node_tree.nodes["Image Texture"].image = image("columns", columns)
+    [found] = texture_colors.seen([socket(material)])
+    evenly = (np.arange(10_000) + 0.5) / 10_000
+    between = np.where(evenly <= 0.04045, evenly / 12.92, ((evenly + 0.055) / 1.055) ** 2.4)
+    assert found.mean(axis=0) == pytest.approx(np.full(3, between.mean()), rel=0.005)
+
+
 def test_dragging_scales_anew_without_looking_again(make_material, looks):
     material = textured(make_material)
     derive.assign([(material, request())])
@@ -213,20 +225,31 @@ def colors(count=3000, highest=0.9):
 
 
 def test_a_palette_keeps_mean_and_readings():
-    """Colors fill the whole cube, the worst for it."""
-    every = colors(50_000)
-    few, weights = solving.palette(every)
-    assert len(few) <= solving.MOST_COLORS
+    """Also of what is clipped, and where much is black."""
+    every = colors(50_000) * (np.random.default_rng(2).uniform(size=(50_000, 1)) > 0.13)
+    channels, few, weights = solving.palette(every)
+    assert len(channels) == solving.MOST_VALUES
+    assert channels.mean(axis=0) == pytest.approx(every.mean(axis=0), rel=1e-12)
     assert weights @ few == pytest.approx(every.mean(axis=0), rel=1e-12)
-    for roughness in (0.3, 1.0):
-        exact = instrument_lobe.reflectance(every, roughness, "45a:0").mean(axis=0)
-        assert weights @ instrument_lobe.reflectance(few, roughness, "45a:0") == pytest.approx(
-            exact, rel=1e-3
+    for roughness, factor in ((0.3, 1), (1.0, 1), (0.5, 50)):
+        shown = (np.minimum(each * factor, 1) for each in (every, channels))
+        exact, found = (
+            instrument_lobe.reflectance(each, roughness, "45a:0").mean(axis=0) for each in shown
         )
+        assert found == pytest.approx(exact, rel=1e-3 if factor > 1 else 1e-5)
+
+
+@pytest.mark.parametrize("count", [1, 7, 513, 1000])
+def test_a_palette_of_any_number_of_colors(count):
+    every = colors(count)
+    channels, few, weights = solving.palette(every)
+    assert channels.mean(axis=0) == pytest.approx(every.mean(axis=0))
+    assert weights @ few == pytest.approx(every.mean(axis=0))
 
 
 def test_the_palette_of_few_colors_is_these():
-    few, weights = solving.palette(np.repeat([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]], [30, 10], axis=0))
+    some = np.repeat([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]], [30, 10], axis=0)
+    _, few, weights = solving.palette(some)
     few = few.round(9)
     shares = {tuple(c.tolist()): weights[(few == c).all(axis=1)].sum() for c in few}
     assert shares == pytest.approx({(0.1, 0.2, 0.3): 0.75, (0.4, 0.5, 0.6): 0.25})
@@ -237,7 +260,7 @@ def test_the_scale_is_right_where_it_clips_too(roughness):
     every, target = colors(), np.array([0.5, 0.7, 0.1])
     weights = np.full(len(every), 1 / len(every))
     found = solving.solve(
-        every, weights, target, roughness, working_space.current(), "D65", "45a:0"
+        every, every, weights, target, roughness, working_space.current(), "D65", "45a:0"
     )
     shown = np.minimum(every * found.factors, 1)
     read = instrument_lobe.reflectance(shown, roughness, "45a:0").mean(axis=0)
@@ -252,7 +275,9 @@ def test_a_channel_that_is_black_is_told():
     every = colors() * [1, 1, 0]
     weights = np.full(len(every), 1 / len(every))
     target = np.array([0.2, 0.2, 0.2])
-    found = solving.solve(every, weights, target, 0.5, working_space.current(), "D65", "45a:0")
+    found = solving.solve(
+        every, every, weights, target, 0.5, working_space.current(), "D65", "45a:0"
+    )
     assert found.factors[2] == 1
     assert found.delta_e > 5
     assert any("too dark in blue" in note for note in found.notes)

@@ -12,6 +12,7 @@ from rough_spectra.addon.samples.readers.parts import spectral_channels
 from rough_spectra.addon.support import png
 from rough_spectra.addon.support.openimageio import openimageio
 from rough_spectra.addon.textures import convert, material
+from rough_spectra.addon.textures.wanted import Wanted
 from rough_spectra.core import reading
 from rough_spectra.core.errors import (
     CancelledError,
@@ -89,7 +90,7 @@ def pixels(path):
 def make(source, target, space=None, **settings):
     settings.setdefault("sigma", SIGMA)
     space = space or working_space.current()
-    return convert.Conversion(source, target, convert.Wanted(**settings), space).finish()
+    return convert.Conversion(source, target, Wanted(**settings), space).finish()
 
 
 def expected(values, instrument="45a:0", illuminant="D65"):
@@ -354,9 +355,9 @@ def test_where_it_may_not_be_written(tmp_path):
 
 def test_what_nobody_can_make(tmp_path):
     with pytest.raises(DomainError, match="σ is 80°"):
-        convert.Wanted(math.radians(80))
+        Wanted(math.radians(80))
     with pytest.raises(DomainError, match="holds albedo or color"):
-        convert.Wanted(0.1, holds="heights")
+        Wanted(0.1, holds="heights")
     made = make(fichet(tmp_path / "wall.exr", readings()), tmp_path / "out.exr")
     with pytest.raises(MaterialError, match="holds albedo"):
         material.make(made)
@@ -369,7 +370,7 @@ def test_an_interrupt_leaves_what_was_there(tmp_path):
         raise KeyboardInterrupt
 
     conversion = convert.Conversion(
-        source, tmp_path / "out.exr", convert.Wanted(SIGMA), working_space.current()
+        source, tmp_path / "out.exr", Wanted(SIGMA), working_space.current()
     )
     with pytest.raises(CancelledError, match="nothing was written"):
         conversion.finish(interrupt)

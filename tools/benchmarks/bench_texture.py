@@ -124,6 +124,7 @@ def work(what: str, path: str, holds: str) -> None:
     load_extension()
     from rough_spectra.addon.blender import working_space
     from rough_spectra.addon.textures import convert
+    from rough_spectra.addon.textures.wanted import Wanted
 
     source, target = Path(path), Path(path).with_name("texture.exr")
     space = working_space.current()
@@ -132,7 +133,7 @@ def work(what: str, path: str, holds: str) -> None:
     if what == "bare":
         bare(source, target)
     else:
-        wanted = convert.Wanted(float(SIGMA), holds=holds)
+        wanted = Wanted(float(SIGMA), holds=holds)
         convert.Conversion(source, target, wanted, space).finish()
     seconds = [time.perf_counter() - start[0], time.process_time() - start[1]]
     # The system's own figure for a process begins with that of the one that started it.

@@ -22,13 +22,14 @@ def pictures() -> dict[str, NDArray[np.float64]]:
     def noise(sigma: float, count: int = 1) -> Any:
         return random.normal(0, sigma, (SIDE, SIDE, count))
 
-    mortar = ((y % 64 < 7) | ((x + 64 * (y // 64 % 2)) % 128 < 7))[..., np.newaxis]
+    # Of lengths that don't fit the pixels of a measurement, which would see the same in each.
+    mortar = ((y % 61 < 7) | ((x + 55 * (y // 61 % 2)) % 110 < 7))[..., np.newaxis]
     bricks = np.where(mortar, 0.75, np.array([0.65, 0.3, 0.22]) + noise(0.06))
     wave = np.sin(x / 23 + 3 * np.sin(y / 61))[..., np.newaxis]
     wood = np.array([0.55, 0.36, 0.2]) + wave * np.array([0.15, 0.12, 0.08]) + noise(0.03)
-    checker = np.where(((x // 32 + y // 32) % 2)[..., np.newaxis], 0.95, 0.05) + noise(0.0, 3)
-    spots = np.kron(random.normal(0, 0.15, (SIDE // 8, SIDE // 8, 3)), np.ones((8, 8, 1)))
-    leaves = np.array([0.25, 0.45, 0.15]) + spots
+    checker = np.where(((x // 37 + y // 41) % 2)[..., np.newaxis], 0.95, 0.05) + noise(0.0, 3)
+    spots = np.kron(random.normal(0, 0.1, (SIDE // 8, SIDE // 8, 3)), np.ones((8, 8, 1)))
+    leaves = np.maximum(np.array([0.3, 0.45, 0.2]) + spots, 0.05)
     ramp = np.stack((x / SIDE, y / SIDE, (x + y) / (2 * SIDE)), axis=-1)
     found = {"bricks": bricks, "wood": wood, "checker": checker, "leaves": leaves, "ramp": ramp}
     return {name: np.clip(values, 0, 1) for name, values in found.items()}

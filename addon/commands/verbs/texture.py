@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from ....core.models import NAMES, TARGET
     from ....core.reading import INSTRUMENTS
     from ...colorimetry.tristimulus import ILLUMINANTS
-    from ...textures.convert import HOLDS
+    from ...textures.wanted import HOLDS
 
     parser.add_argument(
         "image",

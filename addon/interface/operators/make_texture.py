@@ -115,13 +115,14 @@ class ROUGHSPECTRA_OT_make_texture(InBackground, bpy.types.Operator):
         from ...blender import working_space
         from ...material import snapshot
         from ...textures import convert
+        from ...textures.wanted import Wanted
 
         if not self.filepath:
             raise InputError("No image is named; choose one.")
         source = Path(bpy.path.abspath(self.filepath))
         output = bpy.path.abspath(self.output)
         target = Path(output) if output else source.with_name(f"{source.stem}.texture.exr")
-        wanted = convert.Wanted(
+        wanted = Wanted(
             radians(snapshot.entered_degrees(self.sigma)),
             self.instrument,
             self.illuminant,
@@ -144,7 +145,7 @@ class ROUGHSPECTRA_OT_make_texture(InBackground, bpy.types.Operator):
         name = made.path.name.removesuffix(".exr").removesuffix(".texture")
         material = of_texture.make(made, of_texture.free_name(name))
         thing = bpy.data.objects.get((self._object, None)) if self._object else None
-        if hasattr(getattr(thing, "data", None), "materials"):
+        if thing is not None and hasattr(thing.data, "materials"):
             thing.active_material = material
         for note in made.notes:
             self.report({"WARNING"}, note)
