@@ -448,16 +448,6 @@ def _places(
     )
 
 
-def _layer(gloss: Gloss, angles: Array, read_at: str, count: int) -> gloss_lobe.Layer:
-    """Give what gloss does in single directions and, as often as there are lights, at the end."""
-    elsewhere, there = gloss_lobe.layer(gloss, *angles), gloss_lobe.at_instrument(gloss, read_at)
-    shine, passed = (
-        np.vstack((single, np.tile(mean, (count, 1))))
-        for single, mean in zip(elsewhere, there, strict=True)
-    )
-    return gloss_lobe.Layer(shine, passed)
-
-
 def _ways(view: SceneView) -> tuple[Array, Array, Array]:
     """Give the ways of light to all places of `_ShadingPoints`.
 
