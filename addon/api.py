@@ -40,8 +40,10 @@ from ..core.errors import (
 from ..core.estimate import RELATIVE, Estimate
 from ..core.limits import TOLERANCE
 from ..core.models import TARGET
-from .blender import working_space
+from .blender import colors, working_space
+from .instrument import adjustment
 from .instrument import bake as instrument_bake
+from .instrument.adjustment import Adjusted
 from .laboratory import experiment, kinds
 from .laboratory.experiment import Measured
 from .laboratory.kinds import RoughSample
@@ -71,6 +73,7 @@ from .textures.wanted import Made
 from .textures.wanted import Wanted as _Wanted
 
 __all__ = [
+    "Adjusted",
     "Apart",
     "CancelledError",
     "Comparison",
@@ -103,6 +106,7 @@ __all__ = [
     "find",
     "keep",
     "make_texture",
+    "match_by_measuring",
     "materials",
     "measure_rough",
     "paused",
@@ -527,6 +531,59 @@ def assign(
         for material, what in pairs
     ]
     return derive.assign(wanted, _node(shader))
+
+
+def match_by_measuring(
+    material: bpy.types.Material,
+    sample: Sample | Request | None = None,
+    color: str = "",
+    progress: Callable[[int, int], None] | None = None,
+) -> Adjusted:
+    """Set one color of a material so that what Cycles shows at 45°/0° is the sample's reading.
+
+    For what no formula tells: mixes, groups, sheen, layers, bump. Several colors are tried at once
+    in a second Blender, up to five times, and this call waits for it. Nothing but that color is
+    changed, and it is kept: it does not follow σ.
+
+    Parameters
+    ----------
+    sample
+        What it is to read; None for what the material stores.
+    color
+        Node and name of a socket, as in "Diffuse BSDF: Color"; a group's input; or an RGB node.
+        Empty takes the one that is most likely meant.
+    progress
+        Called with measurements done and how many there are at most; may raise to stop.
+
+    Returns
+    -------
+    `color` and `reading`, shape (3,); `delta_e` between reading and sample; `is_met`, whether
+    that is at most 0.1; `measurements`; and a `sentence` for a person, which tells what can be had
+    where the sample cannot.
+
+    Raises
+    ------
+    MaterialError
+        The material cannot be written, has no such color, or does not change with it; nothing was
+        changed.
+    OutputError
+        The second Blender failed; nothing was changed.
+    CancelledError
+        On an interrupt from the keyboard; nothing was changed.
+
+    Examples
+    --------
+    >>> velvet = bpy.data.materials.new("Velvet")
+    >>> _ = assign([(velvet, find("green"))], "principled")
+    >>> velvet.node_tree.nodes["Principled BSDF"].inputs["Sheen Weight"].default_value = 0.3
+    >>> found = match_by_measuring(velvet)
+    >>> found.is_met, state(velvet).kind
+    (True, 'kept')
+    """
+    _checked(material)
+    asked = storage.load(material) if sample is None else sample
+    wanted = request(asked) if isinstance(asked, Sample) else asked
+    return adjustment.adjust(material, wanted, colors.find(material, color), progress)
 
 
 def materials() -> list[bpy.types.Material]:

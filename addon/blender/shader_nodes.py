@@ -96,7 +96,7 @@ def find(material: Any, shader: str = shaders.AUTO) -> SocketTarget:
         If no target shader has this name.
     """
     wanted = OF_SHADER[shaders.find(shader).name].node
-    _refuse_read_only(material)
+    refuse_read_only(material)
     output = output_node(material)
     link = surface_link(output)
     if link is None:
@@ -188,12 +188,19 @@ def unscale(material: Any) -> bool:
     MaterialError
         If the material is linked or read-only.
     """
-    _refuse_read_only(material)
+    refuse_read_only(material)
     node = shader_node(material)
     return node is not None and texture_scale.remove(color_socket(node))
 
 
-def _refuse_read_only(material: Any) -> None:
+def refuse_read_only(material: Any) -> None:
+    """Refuse a material whose nodes cannot be set.
+
+    Raises
+    ------
+    MaterialError
+        If it is linked, an override, read-only, or for Grease Pencil.
+    """
     if material.library is not None:
         msg = (
             f"Material {material.name!r} is linked from {material.library.filepath!r}; make it "

@@ -24,6 +24,10 @@ SAMPLES = 16
 """Rays a pixel unless told otherwise: with 16 pixels a sample, 256 places on a texture."""
 
 
+Colored = tuple[str, str, int, tuple[float, float, float]] | None
+"""Node, side and number of a socket, as `addon.blender.colors` has them, and scene-linear RGB."""
+
+
 @dataclass(frozen=True)
 class Geometry:
     """Lights and view of one measurement.
@@ -55,6 +59,9 @@ class Measurement(Job):
         Where to measure.
     samples
         Rays a pixel. One is exact for an even material; textures and bumps need more.
+    colors
+        For each material a color to measure it with instead of its own, or None; the material
+        itself is not touched.
 
     Raises
     ------
@@ -71,6 +78,7 @@ class Measurement(Job):
         materials: Sequence[Any],
         geometries: Sequence[Geometry],
         samples: int = SAMPLES,
+        colors: Sequence[Colored] = (),
     ) -> None:
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "materials.blend"
@@ -84,6 +92,7 @@ class Measurement(Job):
                 "samples": samples,
                 "materials": [[m.name, _library_path(m)] for m in materials],
                 "geometries": [{"lights": g.lights, "view": g.view} for g in geometries],
+                "colors": list(colors),
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)

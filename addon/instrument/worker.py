@@ -68,6 +68,9 @@ def main(job_path: Path) -> None:
     end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     materials = [find(*key) for key in job["materials"]]
+    if job["colors"]:
+        pairs = zip(materials, job["colors"], strict=True)
+        materials = [colored(material, color) for material, color in pairs]
     parts = batches(materials)
     total, done = len(parts) * len(job["geometries"]), 0
     result = np.empty((len(job["geometries"]), len(materials), 2, 3))
@@ -141,6 +144,17 @@ def find(name: str, library: str | None) -> Any:
     if wanted.materials[0] is None:
         raise LibraryError(f"{library} has no material {name!r} any more")
     return wanted.materials[0]
+
+
+def colored(material: Any, color: tuple[str, str, int, list[float]] | None) -> Any:
+    """Give a copy of a material that has another color at a socket; without a color, itself."""
+    if color is None:
+        return material
+    node, side, number, rgb = color
+    copied = material.copy()
+    socket = getattr(copied.node_tree.nodes[node], side)[number]
+    socket.default_value = (*rgb, socket.default_value[3])
+    return copied
 
 
 def round_alike(tree: Any, seen: set[Any]) -> None:

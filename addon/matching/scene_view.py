@@ -146,6 +146,7 @@ def from_json(text: str) -> SceneView:
         data = json.loads(text)
         if data["schema"] != SCHEMA:
             raise ValueError(f"schema {data['schema']}")
+        scene = str(data["scene"])
         lights = tuple(
             SceneLight(**(light | {"spd": tuple(map(float, light["spd"]))}))
             for light in data["lights"]
@@ -179,4 +180,8 @@ def from_json(text: str) -> SceneView:
     ) as error:
         msg = f"The stored analysis of the scene cannot be read ({error}); analyze it again."
         raise InputError(msg) from error
-    return SceneView(str(data["scene"]), lights, geometries)
+    # What was rounded past the horizon or the normal is on it.
+    geometries = tuple(
+        (*(min(max(theta, 0.0), math.pi / 2) for theta in row[:2]), *row[2:]) for row in geometries
+    )
+    return SceneView(scene, lights, geometries)

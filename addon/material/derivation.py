@@ -60,6 +60,8 @@ class Stamp(NamedTuple):
         The predictions are then not of what is shown.
     sigma_max
         Largest σ, degrees, that the reading allows; None where every σ fits.
+    measured
+        Where the color is that was found by measuring, else an empty string; it is kept then.
     """
 
     inputs: str
@@ -81,6 +83,7 @@ class Stamp(NamedTuple):
     derivation: int = 1
     kept: str = ""
     sigma_max: float | None = None
+    measured: str = ""
 
 
 def get_stamp(material: Any) -> Stamp | None:
@@ -131,7 +134,7 @@ def _scene_settings(found: Inputs) -> dict[str, str]:
 
 _TEXTS = (
     *("inputs", "working_space", "node", "model", "model_reason", "shader_reason"),
-    *("scene_reason", "version", "kept"),
+    *("scene_reason", "version", "kept", "measured"),
 )
 
 

@@ -79,6 +79,8 @@ def evaluate(found: Snapshot) -> State:
     if reasons:
         return State("stale", reasons, last)
     if last is not None and last.kept:
+        if last.measured:
+            return State("kept", (f"{last.measured!r} was found by measuring, and is kept",), last)
         return State("kept", ("color or roughness was edited by hand, and is kept",), last)
     return State("fresh", (), last)
 

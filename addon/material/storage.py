@@ -273,7 +273,14 @@ def _refuse_damaged(material: Any) -> None:
 
 
 def set_stamp(
-    material: Any, solution: Solution, working_space: str, node: str, inputs: Inputs
+    material: Any,
+    solution: Solution,
+    working_space: str,
+    node: str,
+    inputs: Inputs,
+    *,
+    kept: str = "",
+    measured: str = "",
 ) -> str:
     """Note what was derived and from which spectrum and settings; gives the text of the stamp."""
     red, green, blue = solution.color.tolist()
@@ -297,6 +304,8 @@ def set_stamp(
             scene_reason=solution.scene_reason,
             version=version(),
             derivation=DERIVATION,
+            kept=kept,
+            measured=measured,
         )
     )
     material.rough_spectra.stamp = text
@@ -328,6 +337,7 @@ def keep(material: Any) -> None:
             settings=tuple(settings(inputs).items()),
             working_space=working_space.working_space_name(),
             kept=state.fingerprint(shader_nodes.surface(material)),
+            measured="",
         )
     )
     group.error = ""

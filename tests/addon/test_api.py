@@ -24,6 +24,7 @@ SIGNATURES = {
     "keep": "(material)",
     "make_texture": "(source, target, sigma, *, instrument='45a:0', illuminant='D65', "
     "model='surface', holds='albedo', scale=None, progress=None)",
+    "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
     "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
     "paused": "()",
@@ -52,6 +53,7 @@ FIELDS = {
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",
     "Estimate": "sigma interval is_told reason standard_error model by_model albedo residuals "
     "chi_square freedom notes",
+    "Adjusted": "color reading target delta_e is_met measurements sentence",
     "Apart": "first second delta_e_00 delta_l delta_a delta_b delta_ab shift",
     "Comparison": "measured albedos roughness interreflection model illuminant observer warnings",
     "State": "kind reasons stamp",

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Analyze a scene, match materials to it, and tell what was done."""
 
+import json
 import math
 import time
 from dataclasses import replace
@@ -307,6 +308,18 @@ def test_an_analysis_whose_places_have_no_light_is_refused():
     text = scene_view.SceneView("Scene", view.lights, rows).to_json()
     with pytest.raises(InputError, match="a place has no light"):
         scene_view.from_json(text)
+
+
+def test_an_analysis_without_its_scene_is_refused_and_rounded_angles_are_not():
+    view = view_of(light_of((1, 1, 1)))
+    data = json.loads(view.to_json())
+    del data["scene"]
+    with pytest.raises(InputError, match="analyze it again"):
+        scene_view.from_json(json.dumps(data))
+    data = json.loads(view.to_json())
+    data["geometries"][0][:2] = [-5e-4, np.pi / 2 + 5e-4]
+    read = scene_view.from_json(json.dumps(data))
+    assert read.geometries[0][:2] == (0.0, np.pi / 2)
 
 
 def test_two_lights_are_told_apart_and_explained(plate):

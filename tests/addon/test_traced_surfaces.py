@@ -2,9 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What matters of surfaces that no table was made from: the color of 24 patches, traced."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from rough_spectra.addon.blender import working_space
@@ -13,8 +10,7 @@ from rough_spectra.addon.matching import solve
 from rough_spectra.core import cycles, ladder, vcavity
 from rough_spectra.core.color import color_difference
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "core"))
-import traces
+from tools.tables import traces
 
 
 def perceive(sample, spectra):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The chart's own arithmetic: its front, its errors, its page. Nothing here measures time."""
 
+import csv
 import json
 
 import numpy as np
@@ -10,7 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import oren_nayar, reading
-from tools.chart import chart, chart_methods, chart_tables, chart_timing, chart_work
+from tools.chart import (
+    chart,
+    chart_figures,
+    chart_methods,
+    chart_tables,
+    chart_timing,
+    chart_truths,
+    chart_work,
+)
+from tools.tables import traces
 
 SIGMA = float(np.radians(30))
 
@@ -46,11 +56,14 @@ def test_relative_error_counts_both_signs():
 
 def test_the_work_survives_its_file(tmp_path):
     rng = np.random.default_rng(0)
-    work = chart_work.Work(*(rng.random((2, 3)) for _ in range(4)))
+    truths = [chart_work.Truth(*(rng.random((2, 3)) for _ in range(4))) for _ in range(2)]
+    work = chart_work.Work(rng.random((2, 3)), *truths)
     work.save(tmp_path / "work.npz")
     again = chart_work.Work.load(tmp_path / "work.npz")
-    for name, values in vars(work).items():
-        np.testing.assert_array_equal(getattr(again, name), values)
+    np.testing.assert_array_equal(again.albedo, work.albedo)
+    for name in chart_work.PEER_TRUTHS:
+        for part, values in vars(getattr(work, name)).items():
+            np.testing.assert_array_equal(getattr(getattr(again, name), part), values)
 
 
 def test_the_albedos_are_the_presets():
@@ -138,8 +151,84 @@ def test_only_the_part_between_the_markers_is_replaced():
 def test_the_page_has_its_markers_and_its_figures():
     page = chart_tables.PAGE.read_text(encoding="utf-8")
     assert chart_tables.between_markers(page, "new") != page
-    for name in ("angles", "reading", "blender"):
+    for name in (*(figure.name for figure in chart_figures.FIGURES), "blender"):
         assert f"images/chart-{name}.svg" in page
+        assert (chart_tables.PAGE.parent / "images" / f"chart-{name}.svg").is_file()
+
+
+@pytest.mark.parametrize("figure", chart_figures.FIGURES, ids=lambda figure: figure.name)
+def test_a_figure_has_few_labels_and_all_its_methods_were_measured(figure):
+    assert len(figure.keys) == len(set(figure.keys)) <= chart_figures.MOST
+    known = {row["key"] for name in ("peers", figure.panel) for row in table(name)}
+    assert set(figure.keys) <= known
+
+
+def table(name):
+    """Rows of one of the chart's files of data."""
+    text = (chart_tables.DATA / f"chart-{name}.csv").read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()[1:]))
+
+
+def cells(heading):
+    """Rows of the page's table under a heading, without its head."""
+    page = chart_tables.PAGE.read_text(encoding="utf-8")
+    part = page.split(f"\n### {heading}\n")[1].split("\n#")[0]
+    lines = [line for line in part.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+@pytest.mark.parametrize("panel", chart_work.PANELS)
+def test_tables_of_the_page_say_what_the_data_says(panel):
+    rows = cells(chart_tables.HEADINGS[panel])
+    data = table(panel)
+    assert len(rows) == len(data) >= 7
+    for row, known in zip(rows, data, strict=True):
+        assert row[0].strip("*").startswith(known["label"])
+        wanted = [chart_tables._small(float(known[f"delta_e_{x}"])) for x in ("mean", "95", "max")]
+        assert row[4:7] == wanted
+        assert row[1] == chart_tables._rounded(float(known["ratio_to_copy"]))
+
+
+def test_every_model_stands_beside_every_surface_as_in_the_data():
+    data = table("truths")
+    rows = cells("Every model, every surface")
+    found = {row[0].strip("*"): row[1:] for row in rows}
+    for model, pairs in found.items():
+        known = [row for row in data if row["model"] == model]
+        wanted = [
+            " / ".join(
+                chart_tables._small(float(row[f"delta_e_{what}"])) for what in ("any_angle", "45_0")
+            )
+            for row in known
+        ]
+        assert pairs == wanted
+    assert {"lambert", "two-bounce", "closure", "reference", "surface"} < set(found)
+
+
+def test_each_truth_is_closest_to_what_was_made_from_its_kind():
+    mean = {}
+    for row in table("truths"):
+        of_kind = mean.setdefault(row["surface"], {})
+        of_kind.setdefault(row["model"], []).append(float(row["delta_e_any_angle"]))
+    assert max(mean["gaussian"]["surface"]) < 0.15 < min(mean["gaussian"]["closure"][1:])
+    assert max(mean["V-cavity"]["closure"]) < 0.05 < max(mean["V-cavity"]["surface"])
+
+
+def test_traces_are_a_truth_of_their_own():
+    albedo = np.array([[0.2, 0.5, 0.95]])
+    truth = chart_truths.traced(albedo, "gaussian")
+    known = traces.load("gaussian", 30)
+    at = [list(traces.ALBEDOS).index(rho) for rho in albedo[0]]
+    np.testing.assert_allclose(truth.factor[1, :, 0], known.reflectance[1:, at], rtol=1e-6)
+    np.testing.assert_allclose(truth.reading[1, 0], known.reflectance[0, at], rtol=1e-6)
+    assert np.degrees(truth.sigmas).tolist() == pytest.approx([15, 30, 45])
+    raised = chart_truths.traced(albedo, "gaussian", raised=1.0)
+    added = raised.factor[1, :, 0] - truth.factor[1, :, 0]
+    np.testing.assert_allclose(added, known.error[1:, at], rtol=1e-4)
+
+
+def test_costs_come_with_their_spread():
+    assert chart_timing.spread([3.0, 1.0, 2.0, 5.0, 4.0]) == [1.0, 3.0, 4.0]
 
 
 def test_a_peer_without_environment_is_reported_and_not_invented(tmp_path, monkeypatch):

@@ -2,18 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The model "surface" against surfaces that it was not made from, and its limits."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from core import ladder, models, reading, surface
 from core.errors import DomainError
 from core.numerics import direction_grid
-
-sys.path.insert(0, str(Path(__file__).parent))
-import traces
+from tools.tables import traces
 
 RHO = np.array([0.02, 0.2, 0.5, 0.8, 0.95, 1.0])
 

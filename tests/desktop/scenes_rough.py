@@ -25,10 +25,24 @@ def estimating_sigma(found):
         for nm, value in zip(albedo.wavelengths, read, strict=True):
             file.write(f"{nm:g},{value:.6f}\n")
     found["before"] = state()
-    yield from move(*middle(area("PROPERTIES")))
+    x, y = middle(area("PROPERTIES"))
+    yield from move(x, y)
+    operator = ours("addon.interface.operators.estimate_sigma").ROUGHSPECTRA_OT_estimate_sigma
+    draw, found["told"], dialogs = operator.draw, [], []
+
+    def note(self, context):
+        dialogs.append(self)
+        if self.found not in found["told"]:
+            found["told"].append(self.found)
+        draw(self, context)
+
+    operator.draw = note
     with over(area("PROPERTIES")):
-        OPS.estimate_sigma("INVOKE_DEFAULT", source="FILE", filepath=path)
+        OPS.estimate_sigma("INVOKE_DEFAULT", source="FILE")
     yield 1.0
+    dialogs[-1].filepath = path  # as the field does; a virtual keyboard has no slash
+    found["told"].append(dialogs[-1].found)
+    operator.draw = draw
     yield from press("RET")
     yield 1.0
     found["estimated"] = state()

@@ -162,6 +162,8 @@ def test_nothing_unwanted_was_printed(session):
 
 
 def test_estimating_sigma(scene):
+    assert scene["told"][0] == ""
+    assert scene["told"][-1].startswith("σ 25")
     assert scene["degrees"] == pytest.approx(25, abs=0.1)
     assert "Blasted green" in scene["source"]
     assert scene["estimated"]["kind"] == "fresh"

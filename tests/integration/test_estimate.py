@@ -248,13 +248,11 @@ def test_the_dialog_says_what_it_found_before_anything_is_written(sanded, measur
     """A field that changes estimates anew, as in the window; only OK writes."""
     from rough_spectra.addon.interface.operators import estimate_sigma
 
-    class Dialog:
+    class Fields:  # what Blender hands over has no methods
         source, filepath, sample = "FILE", str(measured), ""
         name_in_file, repeatability, found = "Paper", 0.1, ""
-        own = estimate_sigma.ROUGHSPECTRA_OT_estimate_sigma
-        is_named, estimate, _second = own.is_named, own.estimate, own._second
 
-    before, dialog = stored(sanded), Dialog()
+    before, dialog = stored(sanded), Fields()
     estimate_sigma._show(dialog, bpy.context)
     assert dialog.found.startswith("σ 2")
     dialog.name_in_file = "Wood"

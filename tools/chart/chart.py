@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure every method against the reference, peers included, and draw the chart into docs/.
+"""Measure every method against two truths, peers included, and draw the chart into docs/.
 
 `python3 dev.py chart` starts it: python -m tools.chart.chart --draw PYTHON [--peers PYTHON]. Each
 part runs in a process of its own, one after the other, and leaves its numbers in build/chart.
@@ -86,6 +86,12 @@ def processor() -> str:
     return platform.processor() or platform.machine()
 
 
+def used_seconds() -> int:
+    """Processor time of all parts so far."""
+    times = os.times()
+    return round(times.user + times.system + times.children_user + times.children_system)
+
+
 def main(argv: Sequence[str]) -> int:
     """Run all parts; returns the exit status."""
     parser = argparse.ArgumentParser(prog="tools.chart.chart", description=__doc__)
@@ -100,7 +106,7 @@ def main(argv: Sequence[str]) -> int:
         print(f"{time.monotonic() - start:5.0f} s  {what}", flush=True)
 
     loads = [load()]
-    step("the reference")
+    step("the V-cavity and the traces")
     status = run(sys.executable, "tools.chart.chart_measure", "work", FOLDER)
     if status:
         return status
@@ -122,6 +128,7 @@ def main(argv: Sequence[str]) -> int:
             )
             return status
     machine = {"processor": processor(), "cores": os.cpu_count(), "load": max(loads)}
+    machine |= {"seconds": round(time.monotonic() - start), "processor_seconds": used_seconds()}
     machine |= {"python": platform.python_version(), "system": platform.system()}
     write_json(FOLDER / "machine.json", machine)
     step("figures and tables")

@@ -14,10 +14,14 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
-from tools.chart import chart_labels, chart_tables
-from tools.chart.chart_work import COST_NOISE, pareto_front, read_json
+from tools.chart import chart_csv, chart_labels, chart_tables
+from tools.chart.chart_figures import FIGURES, Figure
+from tools.chart.chart_work import COST_NOISE, PANELS, pareto_front, read_json
 from tools.run.run_command_line import ROOT
 
 mpl.use("Agg")
@@ -28,23 +32,20 @@ IMAGES = ROOT / "docs" / "images"
 # Okabe and Ito's colors; shapes back them up for readers who see fewer.
 BLACK, BLUE, VERMILION, GREEN, GRAY = "#000000", "#0072B2", "#C04F00", "#007A5A", "#767676"
 STYLES: dict[str, dict[str, Any]] = {
-    "rung": {"color": BLUE, "marker": "o", "markersize": 8},
-    "naive": {"color": VERMILION, "marker": "s", "markersize": 6},
-    "peer": {"color": GREEN, "marker": "D", "markersize": 6.5},
+    "rung": {"color": BLUE, "marker": "o", "markersize": 9},
+    "naive": {"color": VERMILION, "marker": "s", "markersize": 7},
+    "peer": {"color": GREEN, "marker": "D", "markersize": 7.5},
 }
-GROUPS = {"rung": "● this project", "naive": "■ common shortcuts", "peer": "◆ other programs"}
+GROUPS = {"rung": "this project", "naive": "common shortcut", "peer": "other renderers"}
 
 FLOOR = 0.02
-"""Below this mean ΔE00 the axis ends: nobody sees it, and the reference is the zero."""
+"""Below this mean ΔE00 the axis ends: nobody sees it, and a truth is the zero of its own figure."""
 TOLERANCE = 1.0
+TICKS = (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)
 
-HARD_TO_SEE = "shaded: ΔE00 below 1, hard to see side by side"
-KEY_TOP, KEY_LINE = 0.44, 0.042
-
-TITLES = {
-    "angles": "How wrong at what cost: any light and view below 80°",
-    "reading": "How wrong at what cost: one instrument reading, 45°/0°",
-}
+HARD_TO_SEE = "shaded: below 1, hard to see side by side"
+ON_THE_LINE = "broad line, bold: nothing is cheaper and closer"
+SPREADS = "thin lines: up to 95 % of errors, up to the median cost"
 
 plt.rcParams.update(
     {
@@ -74,92 +75,127 @@ def save(figure: Any, name: str) -> None:
 def front_of(rows: list[dict[str, Any]], panel: str) -> list[dict[str, Any]]:
     """Rows that nothing beats in both cost and mean ΔE00, cheapest first."""
     # Equal errors of methods that compute the same differ in the last digits of a float.
-    points = [(row[panel]["ratio"], round(row[panel]["delta_e"][0], 6)) for row in rows]
+    points = [
+        (row["ratio"][PANELS[panel]][0], round(row["errors"][panel]["delta_e"][0], 6))
+        for row in rows
+    ]
     return [rows[index] for index in pareto_front(points, COST_NOISE)]
 
 
-def cost_against_error(rows: list[dict[str, Any]], panel: str) -> None:
-    """One point a method: cost to the right, error upwards, both logarithmic."""
-    figure, axes = plt.subplots(figsize=(9.6, 6.2), layout="constrained")
-    axes.set(xscale="log", yscale="log", title=TITLES[panel])
-    costs = [row[panel]["ratio"] for row in rows]
-    axes.set_xlim(min(costs) / 6, max(costs) * 3.5)
-    axes.set_ylim(FLOOR / 1.35, 16)
-    axes.set_xlabel("cost of one spectrum in one geometry (copying its 31 bands = 1)")
-    axes.set_ylabel("color error ΔE00 (mark: mean, line up to the 95th percentile)")
-    axes.set_yticks([0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10])
+def cost_against_error(figure_of: Figure, rows: list[dict[str, Any]], noise: float) -> None:
+    """One point a method: cost to the right, error upwards, both logarithmic.
+
+    Parameters
+    ----------
+    figure_of
+        What to draw.
+    rows
+        Of its methods.
+    noise
+        Mean ΔE00 that the traces themselves are uncertain by; drawn where it can be seen.
+    """
+    panel, cost = figure_of.panel, PANELS[figure_of.panel]
+    figure, axes = plt.subplots(figsize=(8.6, 5.6), layout="constrained")
+    axes.set(xscale="log", yscale="log")
+    axes.set_title(figure_of.title, fontweight="bold", pad=24)
+    axes.text(0, 1.02, figure_of.truth, transform=axes.transAxes, color=GRAY, va="bottom")
+    costs = [row["ratio"][cost][0] for row in rows]
+    axes.set_xlim(min(costs) / 2.5, max(costs) * 4)
+    least, most = (limit(_shown(row, panel) for row in rows) for limit in (min, max))
+    floor = FLOOR / 1.35 if least < 10 * FLOOR else least / 3
+    axes.set_ylim(floor, 4.5 * most)
+    axes.set_xlabel("cost of a spectrum in one geometry (copying its 31 bands = 1)")
+    axes.set_ylabel("color error ΔE00")
+    axes.set_yticks([tick for tick in TICKS if floor < tick < 4.5 * most])
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_locator(mpl.ticker.NullLocator())
     axes.xaxis.set_major_formatter(lambda value, _: _count(value))
     axes.grid(axis="y", color="#ececec")
-    axes.axhspan(FLOOR / 1.35, TOLERANCE, color="#f3f7fa", zorder=0)
+    axes.axhspan(floor, TOLERANCE, color="#f3f7fa", zorder=0)
     front = front_of(rows, panel)
-    line = [(row[panel]["ratio"], max(row[panel]["delta_e"][0], FLOOR)) for row in front]
+    line = [(row["ratio"][cost][0], _shown(row, panel)) for row in front]
     axes.step(*zip(*line, strict=True), where="post", color=BLUE, alpha=0.22, linewidth=7, zorder=1)
-    obstacles = []
-    order = {id(row): place for place, row in enumerate(front)}
+    _key(figure, rows)
+    order = {row["key"]: place for place, row in enumerate(front)}
     figure.draw_without_rendering()
-    labels = []
+    labels, obstacles = [], []
     for row in sorted(
-        rows, key=lambda row: (order.get(id(row), len(order)), -row[panel]["delta_e"][0])
+        rows, key=lambda row: (order.get(row["key"], len(order)), -_shown(row, panel))
     ):
-        style = STYLES[row["group"]]
-        x, (mean, high, _) = row[panel]["ratio"], row[panel]["delta_e"]
-        y = max(mean, FLOOR)
-        on_front = id(row) in order
-        axes.plot(
-            [x],
-            [y],
-            **style,
-            markerfacecolor=style["color"] if on_front else "white",
-            markeredgewidth=1.6,
-            zorder=4,
-        )
-        if high > FLOOR:
-            axes.plot([x, x], [y, high], color=style["color"], alpha=0.35, linewidth=1.4, zorder=2)
-            (px, low), (_, top) = axes.transData.transform([(x, y), (x, high)])
-            obstacles.append(Bbox.from_extents(px - 1, low, px + 1, top))
-        else:
-            axes.annotate(
-                "",
-                (x, FLOOR / 1.3),
-                (x, FLOOR),
-                arrowprops={"arrowstyle": "->", "color": style["color"]},
-            )
-        text = row["label"].replace(", ", ",\n") if on_front else row["label"]
-        if row["key"] == "reference":
-            text += "\n(the zero of this axis)"
-        weight = "bold" if on_front else "normal"
-        style = {"color": style["color"], "fontweight": weight, "fontsize": 9.5}
+        obstacles += _mark(axes, row, panel)
+        bold = row["key"] in order
+        text = row["label"]
+        if row["key"] == "reference" and panel != "traced":
+            text += "\n(zero by definition)"
+        style = {"color": STYLES[row["group"]]["color"], "fontsize": 10}
+        style["fontweight"] = "bold" if bold else "normal"
         # Below the line there is nothing, by what the line is.
-        labels.append((x, y, text, -120 if on_front and high > FLOOR else 20, style))
+        prefer = -120 if bold and _shown(row, panel) > FLOOR else 20
+        labels.append((row["ratio"][cost][0], _shown(row, panel), text, prefer, style))
     for (x0, y0), (x1, y1) in itertools.pairwise(line):
         (left, level), (right, down) = axes.transData.transform([(x0, y0), (x1, y1)])
         obstacles.append(Bbox.from_extents(left, level - 4, right, level + 4))
         obstacles.append(Bbox.from_extents(right - 4, down, right + 4, level))
-    chart_labels.write(axes, labels, obstacles, _key(figure, axes))
-    save(figure, f"chart-{panel}")
+    texts = []
+    if panel == "traced" and noise > FLOOR / 1.3:
+        texts.append(_noise(axes, noise))
+        (left, level), (right, _) = axes.transData.transform([(x, noise) for x in axes.get_xlim()])
+        obstacles.append(Bbox.from_extents(left, level - 1, right, level + 1))
+    chart_labels.write(axes, labels, obstacles, texts)
+    save(figure, f"chart-{figure_of.name}")
 
 
-def _key(figure: Any, axes: Any) -> list[Any]:
-    """Say what shapes and the broad line mean; returns the place it takes."""
-    boxes = []
-    for line, (group, words) in enumerate(GROUPS.items()):
-        color = STYLES[group]["color"]
-        boxes.append(
-            axes.text(0.995, KEY_TOP - KEY_LINE * line, words, color=color, ha="right", va="top")
-        )
-    words = "filled, on the broad line:\nnothing is cheaper and closer"
-    boxes.append(
-        axes.text(0.995, KEY_TOP - KEY_LINE * len(GROUPS), words, color=BLUE, ha="right", va="top")
-    )
-    top = KEY_TOP - KEY_LINE * (len(GROUPS) + 2)
-    boxes.append(axes.text(0.995, top, HARD_TO_SEE, color=GRAY, ha="right", va="top"))
-    for text in boxes:
-        text.set_transform(axes.transAxes)
-        text.set_fontsize(9.5)
+def _shown(row: dict[str, Any], panel: str) -> float:
+    return float(max(row["errors"][panel]["delta_e"][0], FLOOR))
+
+
+def _mark(axes: Axes, row: dict[str, Any], panel: str) -> list[Bbox]:
+    """Draw one method with its spreads; returns what the lines cover, pixels."""
+    style = STYLES[row["group"]]
+    x, slow, _ = row["ratio"][PANELS[panel]]
+    y, high = _shown(row, panel), row["errors"][panel]["delta_e"][1]
+    face = "white" if row["overhead"] else style["color"]
+    axes.plot([x], [y], **style, markerfacecolor=face, markeredgewidth=1.8, zorder=4)
+    thin = {"color": style["color"], "alpha": 0.4, "linewidth": 1.5, "zorder": 2}
+    axes.plot([x, slow], [y, y], **thin)
+    (px, low), (far, _) = axes.transData.transform([(x, y), (slow, y)])
+    covered = [Bbox.from_extents(px, low - 1, far, low + 1)]
+    if high > FLOOR:
+        axes.plot([x, x], [y, high], **thin)
+        _, top = axes.transData.transform((x, high))
+        covered.append(Bbox.from_extents(px - 1, low, px + 1, top))
+    else:
+        arrow = {"arrowstyle": "->", "color": style["color"]}
+        axes.annotate("", (x, FLOOR / 1.3), (x, FLOOR), arrowprops=arrow)
+    return covered
+
+
+def _noise(axes: Axes, noise: float) -> Bbox:
+    """Say below what the traces can't tell; returns the place the words take."""
+    axes.axhline(noise, color=GRAY, linewidth=1, linestyle=(0, (4, 3)), zorder=1)
+    words = axes.text(0.995, noise * 1.06, "noise of the traces", color=GRAY, ha="right")
+    words.set(transform=axes.get_yaxis_transform(), fontsize=9)
+    return words.get_window_extent().padded(3)
+
+
+def _key(figure: Any, rows: list[dict[str, Any]]) -> None:
+    """Say under the axes what the marks that are there mean."""
+
+    def mark(style: dict[str, Any], words: str) -> Line2D:
+        return Line2D([], [], linestyle="none", markeredgewidth=1.8, label=words, **style)
+
+    groups = [group for group in STYLES if any(row["group"] == group for row in rows)]
+    handles: list[Any] = [mark(STYLES[group], GROUPS[group]) for group in groups]
+    opened = sorted({row["overhead"] for row in rows if row["overhead"]})
+    if opened:
+        style = {"color": GRAY, "marker": "D", "markersize": 7.5, "markerfacecolor": "white"}
+        handles.append(mark(style, f"open: cost is mostly {' or '.join(opened)}"))
+    handles.append(Patch(color="#e4edf4", label=HARD_TO_SEE))
+    handles.append(Line2D([], [], color=BLUE, alpha=0.3, linewidth=7, label=ON_THE_LINE))
+    cross = {"color": GRAY, "marker": "+", "markersize": 13}
+    handles.append(mark(cross, SPREADS))
+    figure.legend(handles=handles, loc="outside lower left", ncols=2, frameon=False, fontsize=9)
     figure.draw_without_rendering()
-    return [text.get_window_extent().padded(3) for text in boxes]
 
 
 def _count(value: float) -> str:
@@ -167,20 +203,21 @@ def _count(value: float) -> str:
     return f"{value / 1e6:g} million" if value >= 1e6 else f"{value:,g}"
 
 
-def blender(numbers: dict[str, Any], degrees: list[int]) -> None:
+def blender(numbers: dict[str, Any]) -> None:
     """Render time against error: a line from Lambert to rough Diffuse for each roughness."""
     figure, axes = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
-    ratio = numbers["rough"]["ratio"]
+    low, ratio, slow = numbers["rough"]["ratio"]
     room = max(abs(ratio - 1), 0.05)
-    axes.set(xlim=(1 - 0.75 * room, max(1, ratio) + 0.75 * room), ylim=(0, None))
+    axes.set(xlim=(1 - 0.75 * room, max(1, slow) + 0.75 * room), ylim=(0, None))
     axes.axhspan(0, TOLERANCE, color="#f3f7fa", zorder=0)
     spread = _apart([row[0] for row in numbers["lambert"]["by_sigma"]], 0.17)
-    for index, sigma in enumerate(degrees):
+    for index, sigma in enumerate(numbers["sigmas"]):
         lambert = numbers["lambert"]["by_sigma"][index][0]
         rough = numbers["rough"]["by_sigma"][index][0]
         axes.plot([1, ratio], [lambert, rough], color="#b9c6cf", linewidth=1.2, zorder=1)
         axes.plot([1], [lambert], **STYLES["naive"], zorder=3)
         axes.plot([ratio], [rough], **STYLES["rung"], zorder=3)
+        axes.plot([low, slow], [rough, rough], color=BLUE, alpha=0.4, linewidth=1.5)
         axes.annotate(
             f"σ = {sigma:.0f}°",
             (1, spread[index]),
@@ -210,10 +247,14 @@ def blender(numbers: dict[str, Any], degrees: list[int]) -> None:
         color=BLUE,
         fontweight="bold",
     )
-    axes.text(0.99, 0.015, HARD_TO_SEE, color=GRAY, ha="right", transform=axes.transAxes)
-    axes.set_title("In Cycles: what a rough material costs and gains")
-    axes.set_xlabel("render time (Lambert = 1)")
-    axes.set_ylabel("mean color error ΔE00 below 80°")
+    words = HARD_TO_SEE
+    axes.text(0.99, 0.015, words, color=GRAY, ha="right", transform=axes.transAxes)
+    title = "In Cycles: what does a rough material cost, and gain?"
+    axes.set_title(title, fontweight="bold", pad=24)
+    truth = "rendered, against traced Gaussian height fields, light and view below 80°"
+    axes.text(0, 1.02, truth, transform=axes.transAxes, color=GRAY, va="bottom")
+    axes.set_xlabel("render time (Lambert = 1; line: middle half of the turns)")
+    axes.set_ylabel("mean color error ΔE00")
     axes.set_ylim(0, top * 1.16)
     axes.set_xticks(sorted({1.0, round(ratio, 2)}))
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -231,22 +272,25 @@ def _apart(values: list[float], least: float) -> list[float]:
 
 def main(folder: Path) -> None:
     """Draw all figures, then write all tables."""
-    rows = read_json(folder / "measured.json")
-    for panel in TITLES:
-        cost_against_error([row for row in rows if panel in row], panel)
-    numbers = read_json(folder / "blender.json")
-    blender(numbers, chart_tables.DEGREES)
+    numbers = chart_csv.Numbers(
+        *(
+            read_json(folder / f"{name}.json")
+            for name in ("measured", "truths", "blender", "speed", "conversions", "machine")
+        )
+    )
+    noise = numbers.noise()
+    for figure in FIGURES:
+        known = {row["key"]: row for row in numbers.rows if figure.panel in row.get("errors", ())}
+        rows = [known[key] for key in figure.keys if key in known]
+        cost_against_error(figure, rows, noise)
+    blender(numbers.blender)
+    parts = {panel: chart_csv.of_panel(numbers, panel) for panel in PANELS}
+    parts["peers"] = chart_csv.matched(numbers)
     chart_tables.write(
-        chart_tables.Numbers(
-            rows,
-            numbers,
-            read_json(folder / "speed.json"),
-            read_json(folder / "conversions.json"),
-            read_json(folder / "machine.json"),
-        ),
+        numbers,
         {
-            panel: [row["key"] for row in front_of([r for r in rows if panel in r], panel)]
-            for panel in TITLES
+            panel: [row["key"] for row in front_of(rows, "traced" if panel == "peers" else panel)]
+            for panel, rows in parts.items()
         },
     )
 

@@ -64,7 +64,11 @@ class Judge:
 
     def delta_e(self, answer: Array, truth: Array, ends_in: str = "bands") -> Array:
         """ΔE00 between answers of any kind and spectra."""
-        return color_difference.delta_e(self.lab(answer, ends_in), self.lab(truth))
+        return self.from_lab(answer, self.lab(truth), ends_in)
+
+    def from_lab(self, answer: Array, lab: Array, ends_in: str = "bands") -> Array:
+        """ΔE00 between answers of any kind and L*a*b*."""
+        return color_difference.delta_e(self.lab(answer, ends_in), lab)
 
     def errors(self, answer: Array, truth: Array, ends_in: str = "bands") -> dict[str, Any]:
         """Mean, 95th percentile and maximum of ΔE00 and, where there are bands, of reflectance."""
@@ -90,12 +94,26 @@ def one_by_one(spectra: Array) -> Array:
 
 @_without_warnings
 def all_at_once(spectra: Array) -> Array:
-    """Convert all through colour-science's msds_to_XYZ, shape (n, 3)."""
+    """Convert all through colour-science's msds_to_XYZ after ASTM E308, shape (n, 3)."""
     science = colour()
     found = science.msds_to_XYZ(
         science.MultiSpectralDistributions(np.asarray(spectra, np.float64).T, BANDS),
         science.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"],
         science.SDS_ILLUMINANTS["D65"],
         method="ASTM E308",
+    )
+    return np.asarray(found) / 100
+
+
+@_without_warnings
+def integrated(spectra: Array) -> Array:
+    """Convert all through colour-science's fast way: msds_to_XYZ of an array, by integration."""
+    science = colour()
+    found = science.msds_to_XYZ(
+        np.asarray(spectra, np.float64),
+        science.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"],
+        science.SDS_ILLUMINANTS["D65"],
+        method="Integration",
+        shape=science.SpectralShape(BANDS[0], BANDS[-1], BANDS[1] - BANDS[0]),
     )
     return np.asarray(found) / 100

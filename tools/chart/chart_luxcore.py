@@ -7,7 +7,9 @@ width, a camera without perspective, one picture for each geometry. Its colors h
 so a spectrum of 31 bands is eleven samples. The cost is what one more sample a pixel takes; it
 holds a ray to the sample and one to the light.
 
-roughmatte is the qualitative model, and takes σ in radians.
+roughmatte is the qualitative model, and takes σ in radians. It gets the color with which it reads
+the same as the surface at 45°/0°, up to white, and for each roughness the σ that comes closest;
+both by the formula, which is then held against the pictures.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ from typing import Any
 
 import numpy as np
 
-from tools.chart.chart_work import BANDS, RING, SIGMAS, Array, Work, write_json
+from tools.chart.chart_methods import qualitative
+from tools.chart.chart_timing import spread
+from tools.chart.chart_work import BANDS, PEER_TRUTHS, RING, Array, Truth, Work, write_json
 
 PIXELS = 4
 """Width of a sample."""
@@ -36,13 +40,37 @@ NUDGES = (0.0, 1e-6, 2e-6, 3e-6)
 TIMED_PIXELS = 300
 TIMED_SAMPLES = (4, 36)
 TURNS = 5
+TRIED = np.radians(np.arange(0.0, 91.0, 1.0))
+SAME = 1e-4
+"""Relative difference from the formula up to which rounding is to blame."""
 
 
-def samples(work: Work) -> tuple[Array, Array]:
+def choose(truth: Truth) -> tuple[Array, list[float]]:
+    """Colors (sigmas, patches, bands) and LuxCore's σ at each roughness."""
+    colors, chosen = [], []
+    for factor, read in zip(truth.factor, truth.reading, strict=True):
+        tried = []
+        for sigma in TRIED:
+            color = np.clip(read / formula(np.array(RING)[:, np.newaxis], sigma), 0, 1)
+            seen = formula(truth.angles, sigma)[:, np.newaxis, np.newaxis] * color
+            tried.append((float(np.abs(seen / factor - 1).mean()), float(sigma), color))
+        _, sigma, color = min(tried, key=lambda one: one[0])
+        colors.append(color)
+        chosen.append(sigma)
+    return np.stack(colors), chosen
+
+
+def formula(angles: Array, sigma: float) -> Array:
+    """Shape (geometries,): what a white sample is taken to reflect."""
+    return qualitative(np.ones(1), angles, sigma)[:, 0]
+
+
+def samples(spectra: Array, sigmas: list[float]) -> tuple[Array, Array]:
     """Colors (n, 3) and σ (n,) of every sample: bands in threes, patch by patch, σ by σ."""
-    spare = -work.albedo.shape[1] % CHANNELS
-    colors = np.pad(work.albedo, ((0, 0), (0, spare)), mode="edge").reshape(-1, CHANNELS)
-    return np.tile(colors, (SIGMAS.size, 1)), np.repeat(SIGMAS, len(colors))
+    spare = -spectra.shape[-1] % CHANNELS
+    colors = np.pad(spectra, ((0, 0), (0, 0), (0, spare)), mode="edge")
+    colors = colors.reshape(len(sigmas), -1, CHANNELS)
+    return colors.reshape(-1, CHANNELS), np.repeat(sigmas, colors.shape[1])
 
 
 def properties(luxcore: Any, values: dict[str, Any]) -> Any:
@@ -139,30 +167,40 @@ def read(luxcore: Any, scene: Any, columns: int, rows: int, geometry: Any) -> Ar
     return found.reshape(-1, CHANNELS) * (np.pi / math.cos(geometry[0]))
 
 
-def answer(luxcore: Any, work: Work) -> tuple[Array, Array]:
-    """Render roughmatte at all angles and at 45°/0°."""
-    colors, sigmas = samples(work)
+def answer(luxcore: Any, truth: Truth) -> tuple[Array, list[float]]:
+    """Render roughmatte at all angles, shape of `truth.factor`; and the σ it got.
+
+    Raises
+    ------
+    RuntimeError
+        If the pictures are not what the formula says that was matched.
+    """
+    spectra, chosen = choose(truth)
+    colors, sigmas = samples(spectra, chosen)
     scene, columns, rows = build(luxcore, colors, sigmas)
-    every = np.concatenate((work.angles, np.array(RING)[:, np.newaxis]), axis=1)
-    seen = np.stack([read(luxcore, scene, columns, rows, one) for one in every.T])
-    shape = (every.shape[1], SIGMAS.size, work.albedo.shape[0], -1)
-    spectra = seen[:, : len(colors)].reshape(shape)[..., : BANDS.size]
-    return np.moveaxis(spectra[:-1], 0, 1), spectra[-1]
+    seen = np.stack([read(luxcore, scene, columns, rows, one) for one in truth.angles.T])
+    shape = (truth.angles.shape[1], len(chosen), spectra.shape[1], -1)
+    found = np.moveaxis(seen[:, : len(colors)].reshape(shape)[..., : BANDS.size], 0, 1)
+    white = np.stack([formula(truth.angles, sigma) for sigma in chosen])
+    apart = np.abs(found / (white[..., np.newaxis, np.newaxis] * spectra[:, np.newaxis]) - 1)
+    if apart.max() > SAME:
+        raise RuntimeError(f"LuxCore is off its formula by up to {apart.max():.1e}.")
+    return found, chosen
 
 
-def sample_seconds(luxcore: Any, work: Work) -> float:
-    """Seconds that one more sample of one pixel takes."""
-    colors, sigmas = samples(work)
+def sample_seconds(luxcore: Any, work: Work) -> list[float]:
+    """Seconds that one more sample of one pixel takes: shortest, median and upper quartile."""
+    colors, sigmas = samples(*choose(work.traced))
     few = slice(0, 16)
     scene, columns, rows = build(luxcore, colors[few], sigmas[few])
     aim(luxcore, scene, columns, rows, (np.radians(60), np.radians(30), 1.0))
-    shortest = dict.fromkeys(TIMED_SAMPLES, math.inf)
-    for _ in range(TURNS):
-        for count in TIMED_SAMPLES:
-            _, seconds = render(luxcore, scene, TIMED_PIXELS, TIMED_PIXELS, count)
-            shortest[count] = min(shortest[count], seconds)
     less, more = TIMED_SAMPLES
-    return (shortest[more] - shortest[less]) / ((more - less) * TIMED_PIXELS**2)
+    times: dict[int, list[float]] = {count: [] for count in TIMED_SAMPLES}
+    for _ in range(TURNS):
+        for count, of_count in times.items():
+            of_count.append(render(luxcore, scene, TIMED_PIXELS, TIMED_PIXELS, count)[1])
+    added = (more - less) * TIMED_PIXELS**2
+    return [(many - min(times[less])) / added for many in spread(times[more])]
 
 
 @contextlib.contextmanager
@@ -182,25 +220,30 @@ def silence() -> Iterator[None]:
 def main(folder: Path) -> None:
     """Answer, time and write both files."""
     work = Work.load(folder / "work.npz")
+    answers: dict[str, Any] = {}
+    chosen: dict[str, list[float]] = {}
     with silence():
         luxcore = importlib.import_module("pyluxcore")
         luxcore.Init()
         luxcore.SetLogHandler(lambda _message: None)
-        angles, reading = answer(luxcore, work)
-        cost = sample_seconds(luxcore, work) * BANDS.size / CHANNELS * 1e9
-    np.savez(folder / "peer-luxcore-roughmatte.npz", angles=angles, reading=reading)
+        for name in PEER_TRUTHS:
+            answers[name], chosen[name] = answer(luxcore, getattr(work, name))
+        cost = [value * BANDS.size / CHANNELS * 1e9 for value in sample_seconds(luxcore, work)]
+    np.savez(folder / "peer-luxcore-roughmatte.npz", **answers)
+    pairs = zip(np.degrees(work.traced.sigmas), np.degrees(chosen["traced"]), strict=True)
+    sliders = ", ".join(f"{slider:.0f}° at {sigma:.0f}°" for sigma, slider in pairs)
     write_json(
         folder / "peer-luxcore-roughmatte.json",
         {
             "key": "luxcore-roughmatte",
             "label": "LuxCore roughmatte",
             "group": "peer",
-            "about": "the qualitative model, rendered: it holds two rays a sample",
+            "about": f"the qualitative model, rendered, two rays a sample; its σ {sliders}",
             "ends_in": "bands",
             "version": f"LuxCore {luxcore.Version()} PATHCPU",
             "threads": 1,
-            "angles": {"ns": cost},
-            "reading": {"ns": cost},
+            "overhead": "a traced ray",
+            "cost": {"angles": cost},
         },
     )
 

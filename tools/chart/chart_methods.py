@@ -27,6 +27,7 @@ ForAnyAngle = Callable[[Array, Array, Any], Array]
 ForReading = Callable[[Array, Any], Array]
 
 RUNG, NAIVE, PEER = "rung", "naive", "peer"
+CALL, RAY = "a call from Python", "a traced ray"
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,8 @@ class Method:
         How many spectra and geometries to time at once, None for all.
     about
         What it computes.
+    overhead
+        `CALL` or `RAY` where the cost is mostly that and not the formula.
     """
 
     label: str
@@ -56,6 +59,7 @@ class Method:
     about: str
     ends_in: str = "bands"
     timed: int | None = None
+    overhead: str = ""
 
 
 def qualitative(albedo: Array, angles: Array, sigma: Any, constant: float = 0.33) -> Array:
@@ -248,6 +252,7 @@ def methods(matrix: Array, to_xyz: Callable[[Array], Array]) -> dict[str, Method
             "two-bounce, then colour-science's sd_to_XYZ for each spectrum",
             "XYZ",
             timed=32,
+            overhead=CALL,
         ),
     }
 
@@ -259,8 +264,8 @@ def _ladder() -> dict[str, Method]:
         "first-order": "F1 ρ of the published model",
         "two-bounce": "F1 ρ + F2 ρ²: the published model",
         "closure": "V-grooves, all bounces in one square root, tabulated",
-        "reference": "the V-cavity solved; its error is that against twice the nodes",
-        "surface": "random rough surfaces, traced and tabulated: another truth than the reference",
+        "reference": "the V-cavity solved; against itself, the error is that to twice the nodes",
+        "surface": "random rough surfaces, all bounces, traced and tabulated",
     }
 
     def rung(model: str) -> Method:
@@ -272,7 +277,7 @@ def _ladder() -> dict[str, Method]:
                 return albedo.copy()
             return reading.from_albedo(albedo, sigma, model)
 
-        label = "Lambert" if model == "lambert" else model
+        label = "Lambert, albedo" if model == "lambert" else model
         timed = 64 if model == "reference" else None
         return Method(
             label,

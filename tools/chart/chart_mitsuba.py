@@ -3,9 +3,10 @@
 """Mitsuba 3 on the chart's work: `python -m tools.chart.chart_mitsuba BSDF VARIANT FOLDER`.
 
 Mitsuba has no Oren-Nayar. Its `diffuse` is Lambert's law; the diffuse part of its `principled` has
-a roughness that darkens or brightens grazing light, for which the value that comes closest to the
-reference is chosen at each σ. Both get ρ at the 31 bands and are asked through `BSDF.eval`, four
-wavelengths at a time, which is what a spectral variant holds.
+a roughness that darkens or brightens grazing light, for which the value that comes closest is
+chosen at each σ. Both get the spectrum with which they read the same as the surface at 45°/0°, at
+the 31 bands, and are asked through `BSDF.eval`, four wavelengths at a time, which is what a
+spectral variant holds.
 """
 
 from __future__ import annotations
@@ -18,14 +19,15 @@ from typing import Any
 
 import numpy as np
 
-from tools.chart.chart_timing import best_of_turns
+from tools.chart.chart_timing import in_turns, spread
 from tools.chart.chart_work import (
     BANDS,
+    PEER_TRUTHS,
     RING,
-    SIGMAS,
     TIMED_GEOMETRIES,
     TIMED_PATCH,
     Array,
+    Truth,
     Work,
     timed_angles,
     write_json,
@@ -111,22 +113,30 @@ def one_by_one(mitsuba: Any) -> Evaluate:
     return evaluate
 
 
-def answer(mitsuba: Any, evaluate: Evaluate, kind: str, work: Work) -> tuple[Array, Array, Array]:
-    """Answers at all angles and at 45°/0°, and the roughness chosen at each σ."""
-    every = np.concatenate((work.angles, np.array(RING)[:, np.newaxis]), axis=1)
-    tried = []
-    for roughness in ROUGHNESSES if kind == "principled" else [0.0]:
-        bsdfs = [make_bsdf(mitsuba, kind, rho, roughness) for rho in work.albedo]
-        tried.append(np.stack([evaluate(bsdf, every) for bsdf in bsdfs], axis=1))
-    angles, reading, chosen = [], [], []
-    for reference, at_ring in zip(work.reference, work.reading, strict=True):
-        truth = np.concatenate((reference, at_ring[np.newaxis]))
-        distance = [np.abs(found / truth - 1).mean() for found in tried]
-        best = int(np.argmin(distance))
-        angles.append(tried[best][:-1])
-        reading.append(tried[best][-1])
-        chosen.append(ROUGHNESSES[best])
-    return np.stack(angles), np.stack(reading), np.array(chosen)
+def answer(
+    mitsuba: Any, evaluate: Evaluate, kind: str, albedo: Array, truth: Truth
+) -> tuple[Array, list[float]]:
+    """Answers at all angles, shape of `truth.factor`, and the roughness chosen at each σ."""
+    every = np.concatenate((truth.angles, np.array(RING)[:, np.newaxis]), axis=1)
+
+    def ask(colors: Array, roughness: float) -> Array:
+        bsdfs = [make_bsdf(mitsuba, kind, color, roughness) for color in colors]
+        return np.stack([evaluate(bsdf, every) for bsdf in bsdfs], axis=1)
+
+    roughnesses = ROUGHNESSES if kind == "principled" else np.zeros(1)
+    tried = {float(roughness): ask(albedo, float(roughness)) for roughness in roughnesses}
+    found, chosen = [], []
+    for factor, read in zip(truth.factor, truth.reading, strict=True):
+        # Both are in proportion to their color.
+        apart = {
+            roughness: np.abs(seen[:-1] * (read / seen[-1]) / factor - 1).mean()
+            for roughness, seen in tried.items()
+        }
+        best = min(apart, key=lambda roughness: float(apart[roughness]))
+        seen = ask(np.clip(albedo * read / tried[best][-1], 0, 1), best)
+        found.append(seen[:-1])
+        chosen.append(best)
+    return np.stack(found), chosen
 
 
 def main(kind: str, variant: str, folder: Path) -> None:
@@ -135,16 +145,21 @@ def main(kind: str, variant: str, folder: Path) -> None:
     mitsuba, drjit = load(variant)
     fast = variant == VECTORIZED
     evaluate = vectorized(mitsuba, drjit) if fast else one_by_one(mitsuba)
-    angles, reading, chosen = answer(mitsuba, evaluate, kind, work)
-    np.savez(folder / f"peer-mitsuba-{kind}.npz", angles=angles, reading=reading)
+    answers: dict[str, Any] = {}
+    chosen: dict[str, list[float]] = {}
+    for name in PEER_TRUTHS:
+        truth = getattr(work, name)
+        answers[name], chosen[name] = answer(mitsuba, evaluate, kind, work.albedo, truth)
+    np.savez(folder / f"peer-mitsuba-{kind}.npz", **answers)
     count = TIMED_GEOMETRIES if fast else FEW
     bsdf = make_bsdf(mitsuba, kind, work.albedo[TIMED_PATCH], 0.5)
     some = timed_angles()[:, :count]
-    cost = best_of_turns({"eval": lambda: evaluate(bsdf, some)}, SECONDS)["eval"] / count * 1e9
+    times = in_turns({"eval": lambda: evaluate(bsdf, some)}, SECONDS)["eval"]
+    cost = [seconds / count * 1e9 for seconds in spread(times)]
     about = "Lambert's law" if kind == "diffuse" else "Disney's diffuse lobe, specular 0"
     if kind == "principled":
-        pairs = zip(np.degrees(SIGMAS), chosen, strict=True)
-        about += "; roughness " + ", ".join(f"{r:.1f} at {s:.0f}°" for s, r in pairs)
+        pairs = zip(np.degrees(work.traced.sigmas), chosen["traced"], strict=True)
+        about += "; slider " + ", ".join(f"{r:.1f} at {s:.0f}°" for s, r in pairs)
     how = "one kernel for all" if fast else "one call from Python each"
     write_json(
         folder / f"peer-mitsuba-{kind}.json",
@@ -156,8 +171,8 @@ def main(kind: str, variant: str, folder: Path) -> None:
             "ends_in": "bands",
             "version": f"Mitsuba {mitsuba.__version__} {variant}",
             "threads": 1,
-            "angles": {"ns": cost},
-            "reading": {"ns": cost},
+            "overhead": "" if fast else "a call from Python",
+            "cost": {"angles": cost},
         },
     )
 

@@ -1,37 +1,42 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The chart's numbers as CSV and as the tables of docs/chart.md. No matplotlib here."""
+"""The chart's numbers as the tables of docs/chart.md. No matplotlib here."""
 
 from __future__ import annotations
 
-import csv
-import io
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from tools.chart.chart_work import GEOMETRIES, PANELS, SIGMAS
+from tools.chart.chart_csv import (
+    Numbers,
+    blender_csv,
+    blender_rows,
+    matched,
+    methods_csv,
+    of_panel,
+    speed_csv,
+    truths_csv,
+)
+from tools.chart.chart_work import PANELS
 from tools.run.run_command_line import ROOT
 
 PAGE = ROOT / "docs" / "chart.md"
 DATA = ROOT / "docs" / "data"
 BEGIN = "<!-- Made by python3 dev.py chart -->"
 END = "<!-- End of what python3 dev.py chart made -->"
-DEGREES = [round(float(sigma)) for sigma in np.degrees(SIGMAS)]
-HEADINGS = {"angles": "Any angle below 80°", "reading": "One reading at 45°/0°"}
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """All that was measured in one run, as read from its JSON files."""
-
-    rows: list[dict[str, Any]]
-    blender: dict[str, Any]
-    speed: list[dict[str, Any]]
-    conversions: list[dict[str, Any]]
-    machine: dict[str, Any]
+HEADINGS = {
+    "traced": "Any angle, traced Gaussian height fields",
+    "angles": "Any angle, the V-cavity",
+    "reading": "One reading at 45°/0°, the V-cavity",
+}
+SURFACES = {
+    "V-cavity": "V-cavity",
+    "gaussian": "Gaussian",
+    "multi-scale": "multi-scale",
+    "grains": "grains",
+}
 
 
 def write(numbers: Numbers, fronts: dict[str, list[str]]) -> None:
@@ -42,11 +47,15 @@ def write(numbers: Numbers, fronts: dict[str, list[str]]) -> None:
     numbers
         What was measured.
     fronts
-        Keys of the methods on each panel's Pareto front.
+        Keys of the methods on each table's Pareto front.
     """
     DATA.mkdir(parents=True, exist_ok=True)
     for panel in PANELS:
-        _replace(DATA / f"chart-{panel}.csv", methods_csv(numbers, panel, fronts[panel]))
+        text = methods_csv(of_panel(numbers, panel), panel, panel, fronts[panel])
+        _replace(DATA / f"chart-{panel}.csv", text)
+    text = methods_csv(matched(numbers), "peers", "traced", fronts["peers"])
+    _replace(DATA / "chart-peers.csv", text)
+    _replace(DATA / "chart-truths.csv", truths_csv(numbers.truths))
     _replace(DATA / "chart-blender.csv", blender_csv(numbers.blender))
     _replace(DATA / "chart-speed.csv", speed_csv(numbers))
     page = PAGE.read_text(encoding="utf-8")
@@ -68,81 +77,14 @@ def between_markers(page: str, new: str) -> str:
     return f"{head}{begin}\n\n{new.strip()}\n\n{end}{tail}"
 
 
-def methods_csv(numbers: Numbers, panel: str, front: list[str]) -> str:
-    """One line a method of one panel, cheapest first."""
-    header = [
-        "key", "label", "group", "on_front", "nanoseconds", "ratio_to_copy",
-        "delta_e_mean", "delta_e_95", "delta_e_max",
-        "relative_mean", "relative_95", "relative_max", "ends_in", "threads", "version", "about",
-    ]  # fmt: skip
-    lines = []
-    for row in _by_cost(numbers.rows, panel):
-        found = row[panel]
-        relative = found["relative"] or ["", "", ""]
-        lines.append(
-            [row["key"], row["label"], row["group"], int(row["key"] in front)]
-            + [f"{found['ns']:.4g}", f"{found['ratio']:.4g}"]
-            + [f"{value:.4g}" for value in found["delta_e"]]
-            + [f"{value:.4g}" if value != "" else "" for value in relative]
-            + [row["ends_in"], row["threads"], row["version"], row["about"]]
-        )
-    return _csv(
-        "Cost of one spectrum (31 bands) in one geometry, float32, against CIEDE2000 (D65, CIE "
-        "1931 2 deg) and relative reflectance error to the V-cavity reference; ColorChecker N Ohta "
-        f"as the albedo, sigma 10 to 50 deg; {_where(panel)}",
-        header,
-        lines,
-    )
-
-
-def _where(panel: str) -> str:
-    if panel == "reading":
-        return "light at 45 deg, view along the normal"
-    return f"{GEOMETRIES} cosine-weighted geometries of light and view below 80 deg"
-
-
-def blender_csv(numbers: dict[str, Any]) -> str:
-    """Render time and error of both materials, over all σ and at each."""
-    lines = []
-    for key, label in (("lambert", "Lambert"), ("rough", "rough Diffuse")):
-        found = numbers[key]
-        for sigma, errors in zip(
-            ["all", *DEGREES], [found["delta_e"], *found["by_sigma"]], strict=True
-        ):
-            values = [f"{value:.4g}" for value in errors]
-            lines.append([label, sigma, f"{found['ratio']:.4g}", *values])
-    return _csv(
-        f"{numbers['version']}, Cycles CPU on one thread; CIEDE2000 between renders and the "
-        "V-cavity reference whose 45a:0 reading was assigned, D65, CIE 1931 2 deg; patches within "
-        "Rec.709",
-        [
-            "material",
-            "sigma_degrees",
-            "render_time_ratio",
-            "delta_e_mean",
-            "delta_e_95",
-            "delta_e_max",
-        ],
-        lines,
-    )
-
-
-def speed_csv(numbers: Numbers) -> str:
-    """Put the core beside plain numpy, and spectra to XYZ three ways."""
-    lines = [[r["what"], f"{r['ratio']:.3g}", r["bound"], r["accuracy"]] for r in numbers.speed]
-    lines += [
-        [f"to XYZ: {r['key']} / copy", f"{r['ratio']:.3g}", "", f"XYZ within {r['apart']:.0e}"]
-        for r in numbers.conversions
-    ]
-    about = "Ratios of times and of memory within one run, one thread"
-    return _csv(about, ["what", "ratio", "bound", "accuracy"], lines)
-
-
 def tables(numbers: Numbers, fronts: dict[str, list[str]]) -> str:
     """Everything between the page's markers, as Markdown."""
     parts = [_machine(numbers)]
-    for panel in PANELS:
-        parts += [f"### {HEADINGS[panel]}", _methods(numbers, panel, fronts[panel])]
+    parts += ["### Every model, every surface", _truths(numbers.truths)]
+    for panel, heading in HEADINGS.items():
+        table = _methods(of_panel(numbers, panel), panel, fronts[panel])
+        parts += [f"### {heading}", table]
+    parts += ["### From one reading", _matched(matched(numbers), fronts["peers"])]
     parts += ["### In Cycles", _blender(numbers.blender)]
     parts += ["### Speed of the core", _speed(numbers.speed)]
     parts += ["### Spectra to XYZ", _conversions(numbers.conversions)]
@@ -156,38 +98,68 @@ def _machine(numbers: Numbers) -> str:
     lines = [
         f"Measured on one thread: {machine['processor']}, {machine['cores']} cores, "
         f"{machine['system']}, Python {machine['python']}, load up to {machine['load']:.1f}: "
-        f"{', '.join(versions)}, {numbers.blender['version']}."
+        f"{', '.join(versions)}, {numbers.blender['version']}. Took {machine['seconds']} s, "
+        f"{machine['processor_seconds']} s of a processor."
     ]
     lines += [f"{row['label']} is missing: {row['missing']}." for row in missing]
     return "\n\n".join(lines)
 
 
-def _methods(numbers: Numbers, panel: str, front: list[str]) -> str:
+def _methods(rows: list[dict[str, Any]], panel: str, front: list[str]) -> str:
     head = (
-        "| method | cost (copy = 1) | ns | ΔE00 mean | 95 % | max | reflectance off by, mean "
-        "| 95 % | max |\n|---|---|---|---|---|---|---|---|---|"
+        "| method | cost (copy = 1) | median | ns | ΔE00 mean | 95 % | max "
+        "| reflectance off by, mean | 95 % | max |\n|---|---|---|---|---|---|---|---|---|---|"
     )
     lines = []
-    for row in _by_cost(numbers.rows, panel):
-        found = row[panel]
-        name = f"**{row['label']}**" if row["key"] in front else row["label"]
+    for row in rows:
+        found = row["errors"][panel]
         relative = [_percent(value) for value in found["relative"] or []]
-        cells = [f"{name}: {row['about']}", _rounded(found["ratio"]), _rounded(found["ns"])]
-        cells += [_small(value) for value in found["delta_e"]]
-        cells += relative or [f"in {row['ends_in']}", "", ""]
-        lines.append("| " + " | ".join(cells) + " |")
+        cells = [*_named(row, PANELS[panel], front), *map(_small, found["delta_e"])]
+        lines.append(_line([*cells, *(relative or [f"in {row['ends_in']}", "", ""])]))
     return "\n".join([head, *lines])
+
+
+def _matched(rows: list[dict[str, Any]], front: list[str]) -> str:
+    head = (
+        "| who | cost (copy = 1) | median | ns | traced: ΔE00 mean | 95 % | max "
+        "| V-cavity: mean | 95 % | max |\n|---|---|---|---|---|---|---|---|---|---|"
+    )
+    lines = []
+    for row in rows:
+        both = [*row["errors"]["traced"]["delta_e"], *row["errors"]["angles"]["delta_e"]]
+        lines.append(_line([*_named(row, "angles", front), *map(_small, both)]))
+    return "\n".join([head, *lines])
+
+
+def _named(row: dict[str, Any], kind: str, front: list[str]) -> list[str]:
+    """Name and costs of a method."""
+    name = f"**{row['label']}**" if row["key"] in front else row["label"]
+    best, middle, _ = row["ratio"][kind]
+    mostly = f"; mostly {row['overhead']}" if row["overhead"] else ""
+    costs = map(_rounded, (best, middle, row["cost"][kind][0]))
+    return [f"{name}: {row['about']}{mostly}", *costs]
+
+
+def _truths(truths: dict[str, Any]) -> str:
+    """Mean ΔE00 over all angles and, behind the stroke, at 45°/0°."""
+    names = [f"{SURFACES[kind]} {degrees}°" for kind, degrees in truths["surfaces"]]
+    lines = [_line(["model", *names]), _line(["---"] * (1 + len(names)))]
+    for key, pairs in {**truths["models"], "*noise of the traces*": truths["noise"]}.items():
+        lines.append(_line([key, *(f"{_small(a)} / {_small(b)}" for a, b in pairs)]))
+    return "\n".join(lines)
 
 
 def _blender(numbers: dict[str, Any]) -> str:
     lines = ["| material | render time | σ | ΔE00 mean | 95 % | max |", "|---|---|---|---|---|---|"]
-    for key, label in (("lambert", "Lambert"), ("rough", "rough Diffuse, matched")):
-        found = numbers[key]
-        names = ["all", *(f"{sigma:.0f}°" for sigma in DEGREES)]
-        for name, errors in zip(names, [found["delta_e"], *found["by_sigma"]], strict=True):
-            cells = [label, f"{found['ratio']:.2f}", name, *(_small(value) for value in errors)]
-            lines.append("| " + " | ".join(cells) + " |")
+    for label, sigma, (low, middle, high), errors in blender_rows(numbers):
+        time = "1" if low == high else f"{middle:.2f} ({low:.2f} to {high:.2f})"
+        degrees = sigma if sigma == "all" else f"{sigma}°"
+        lines.append(_line([label, time, degrees, *map(_small, errors)]))
     return "\n".join(lines)
+
+
+def _line(cells: list[str]) -> str:
+    return f"| {' | '.join(cells)} |"
 
 
 def _speed(rows: list[dict[str, Any]]) -> str:
@@ -200,18 +172,17 @@ def _speed(rows: list[dict[str, Any]]) -> str:
 
 
 def _conversions(rows: list[dict[str, Any]]) -> str:
-    lines = ["| how | cost (copy = 1) | ns a spectrum | XYZ off by |", "|---|---|---|---|"]
-    names = {"matrix": "weights matrix, one product for all"}
+    lines = [
+        "| how | cost (copy = 1) | ns a spectrum | XYZ off by | ΔE00 mean | max |",
+        "|---|---|---|---|---|---|",
+    ]
+    names = {"matrix": "weights matrix after ASTM E308, one product for all"}
     for row in rows:
         name = names.get(row["key"], f"colour-science, {row['key']}")
-        lines.append(
-            f"| {name} | {_rounded(row['ratio'])} | {_rounded(row['ns'])} | {row['apart']:.0e} |"
-        )
+        mean, _, most = row["delta_e"]
+        cells = [name, _rounded(row["ratio"]), _rounded(row["ns"]), f"{row['apart']:.0e}"]
+        lines.append(_line([*cells, _small(mean), _small(most)]))
     return "\n".join(lines)
-
-
-def _by_cost(rows: list[dict[str, Any]], panel: str) -> list[dict[str, Any]]:
-    return sorted((row for row in rows if panel in row), key=lambda row: float(row[panel]["ratio"]))
 
 
 def _rounded(value: float) -> str:
@@ -226,13 +197,6 @@ def _small(value: float) -> str:
 
 def _percent(value: float) -> str:
     return f"{value:.2%}" if value >= 5e-5 else "< 0.005%"
-
-
-def _csv(about: str, header: list[str], lines: list[list[Any]]) -> str:
-    out = io.StringIO()
-    out.write(f"# {about}\n")
-    csv.writer(out, lineterminator="\n").writerows([header, *lines])
-    return out.getvalue()
 
 
 def _replace(path: Path, text: str) -> None:

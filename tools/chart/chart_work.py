@@ -7,6 +7,7 @@ Needs numpy alone, so that peers in other environments read the same work from o
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -36,43 +37,77 @@ COST_NOISE = 0.25
 """Costs that differ by less are not told apart: RGB(ρ)² and RGB(ρ²) take the same operations a
 geometry, and were seen to differ by 6 to 19 % from run to run."""
 
-PANELS = ("angles", "reading")
-"""The two charts: all angles below 80°, and 45°/0°."""
+PANELS = {"angles": "angles", "traced": "angles", "reading": "reading"}
+"""What errors are of, and which cost belongs to them: all angles below 80° of the V-cavity and of
+traced surfaces, and one reading of the V-cavity at 45°/0°."""
+
+PEER_TRUTHS = {"cavity": "angles", "traced": "traced"}
+"""What the programs of others are asked for, and the panel it belongs to."""
 
 RING = (np.pi / 4, 0.0, 0.0)
 """45°/0°: θi, θr, Δφ."""
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
-    """Spectra and geometries, and what the reference says of them.
+class Truth:
+    """What surfaces of several roughnesses reflect, whoever found it.
 
     Attributes
     ----------
-    albedo
-        ρ of the ColorChecker patches, shape (patches, bands).
+    sigmas
+        Radians, shape (sigmas,).
     angles
         θi, θr and Δφ below 80°, cosine-weighted, shape (3, geometries), radians.
-    reference
+    factor
         Reflectance factor there, shape (sigmas, geometries, patches, bands).
     reading
         The same at 45°/0°, shape (sigmas, patches, bands).
     """
 
-    albedo: Array
+    sigmas: Array
     angles: Array
-    reference: Array
+    factor: Array
     reading: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """Spectra, and what is true of surfaces that have them as albedos.
+
+    Attributes
+    ----------
+    albedo
+        ρ of the ColorChecker patches, shape (patches, bands).
+    cavity
+        By the V-cavity's solver.
+    traced
+        By paths on Gaussian height fields.
+    """
+
+    albedo: Array
+    cavity: Truth
+    traced: Truth
 
     def save(self, path: Path) -> None:
         """Write everything into one npz file."""
-        np.savez(path, **vars(self))
+        parts = {
+            f"{name}.{part}": values
+            for name in PEER_TRUTHS
+            for part, values in vars(getattr(self, name)).items()
+        }
+        np.savez(path, albedo=self.albedo, **parts)
 
     @classmethod
     def load(cls, path: Path) -> Work:
         """Read what `save` wrote."""
         with np.load(path) as stored:
-            return cls(**{name: stored[name] for name in stored.files})
+            truths = {
+                name: Truth(
+                    *(stored[f"{name}.{field.name}"] for field in dataclasses.fields(Truth))
+                )
+                for name in PEER_TRUTHS
+            }
+            return cls(stored["albedo"], **truths)
 
 
 def colorchecker() -> Array:

@@ -224,6 +224,11 @@ def csv_text(rows: list[Row]) -> str:
     )
 
 
+def _two(value: float) -> str:
+    """Give two digits of the four that the data have."""
+    return f"{round(value, 4):.2f}"
+
+
 def markdown(rows: list[Row]) -> str:
     """Give the rows as a Markdown table."""
     return "\n".join(
@@ -233,8 +238,8 @@ def markdown(rows: list[Row]) -> str:
             "| σ | truth | material | mean ΔE00 | 95th percentile | maximum |",
             "|---|---|---|---|---|---|",
             *(
-                f"| {row.sigma_degrees}° | {row.truth} | {row.material} | {row.mean:.2f} | "
-                f"{row.percentile_95:.2f} | {row.maximum:.2f} |"
+                f"| {row.sigma_degrees}° | {row.truth} | {row.material} | {_two(row.mean)} | "
+                f"{_two(row.percentile_95)} | {_two(row.maximum)} |"
                 for row in rows
             ),
             "",

@@ -14,16 +14,13 @@ from __future__ import annotations
 import argparse
 import multiprocessing
 import sys
-from pathlib import Path
 
 import numpy as np
 
 from core.numerics.arrays import Array
 
-from . import height_field_tracer, height_fields
+from . import height_field_tracer, height_fields, traces
 
-FOLDER = Path(__file__).parents[2] / "tests" / "fixtures" / "traces"
-ALBEDOS = (0.2, 0.35, 0.5, 0.65, 0.8, 0.95)
 CASES = (
     *(("gaussian", sigma) for sigma in (15, 30, 45)),
     *(("multi-scale", sigma) for sigma in (15, 30, 45)),
@@ -80,7 +77,7 @@ def trace(task: tuple[str, float, int]) -> Array:
         ],
         axis=1,
     )
-    powers = np.array(ALBEDOS) ** np.arange(1, ORDERS + 1)[:, np.newaxis]
+    powers = traces.ALBEDOS ** np.arange(1, ORDERS + 1)[:, np.newaxis]
     return np.asarray(series.T @ powers)
 
 
@@ -90,7 +87,7 @@ def main() -> int:
     parser.add_argument("kinds", nargs="*", metavar="KIND", help="all unless named")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args()
-    FOLDER.mkdir(parents=True, exist_ok=True)
+    traces.FOLDER.mkdir(parents=True, exist_ok=True)
     with multiprocessing.get_context("spawn").Pool(options.processes) as pool:
         for kind, sigma in CASES:
             if options.kinds and kind not in options.kinds:
@@ -99,9 +96,9 @@ def main() -> int:
             mean, error = found.mean(axis=0), found.std(axis=0, ddof=1) / np.sqrt(FIELDS)
             rows = np.concatenate((np.degrees(directions()), mean, error), axis=1)
             names = ["light", "view", "azimuth"]
-            names += [f"r_{albedo:g}" for albedo in ALBEDOS]
-            names += [f"error_{albedo:g}" for albedo in ALBEDOS]
-            target = FOLDER / f"{kind}-{sigma}.csv"
+            names += [f"r_{albedo:g}" for albedo in traces.ALBEDOS]
+            names += [f"error_{albedo:g}" for albedo in traces.ALBEDOS]
+            target = traces.path(kind, sigma)
             np.savetxt(target, rows, "%.6g", ",", header=",".join(names), comments="")
             sys.stdout.write(f"{target.name}: noise {np.median(error / mean):.2%} in the median\n")
             sys.stdout.flush()

@@ -33,19 +33,57 @@ _WIDTH = 480
 _CHARACTERS_A_LINE = 70
 
 
-def _show(operator: Any, context: Any) -> None:
-    """Estimate again whenever a field changes, so that drawing only shows what was found."""
+def _show(fields: Any, context: Any) -> None:
+    """Estimate again whenever a field changes, so that drawing only shows what was found.
+
+    Blender hands over the operator's fields here, without its methods.
+    """
     from ...matching import roughness
 
-    if not operator.is_named():
-        operator.found = ""
+    if not _is_named(fields):
+        fields.found = ""
         return
     try:
-        _, _, found = operator.estimate(context)
+        _, _, found = _estimate(fields, context)
     except RoughSpectraError as error:
-        operator.found = str(error)
+        fields.found = str(error)
         return
-    operator.found = "\n".join((roughness.summary(found), *found.notes))
+    fields.found = "\n".join((roughness.summary(found), *found.notes))
+
+
+def _is_named(fields: Any) -> bool:
+    """Whether the second reading is named yet."""
+    return bool(fields.sample if fields.source == "LIBRARY" else fields.filepath)
+
+
+def _estimate(fields: Any, context: Any) -> tuple[Request, Pairs, Estimate]:
+    """Give what the material stores, the two readings, and what they say of σ.
+
+    Raises
+    ------
+    RoughSpectraError
+        If one of them cannot be used.
+    """
+    from ...matching import roughness
+    from ...material import storage
+
+    request = storage.load(common.active_material(context))
+    stored, other = request.sample, _second(fields)
+    # An albedo is what a smooth surface reads.
+    pairs = [(other, stored) if stored.kind == "reading" else (stored, other)]
+    return request, pairs, roughness.of_samples(pairs, relative=fields.repeatability / 100)
+
+
+def _second(fields: Any) -> Sample:
+    from ...material import preferences
+    from ...samples import library, readers
+
+    if not _is_named(fields):
+        raise DomainError("Name the second reading: a sample of the library, or a file.")
+    if fields.source == "LIBRARY":
+        return library.load(fields.sample, preferences.user_folder())
+    path = bpy.path.abspath(fields.filepath)
+    return choose(readers.read(path), fields.name_in_file, path)
 
 
 class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
@@ -130,38 +168,6 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
             for line in textwrap.wrap(sentence, _CHARACTERS_A_LINE):
                 column.label(text=line, translate=False)
 
-    def is_named(self) -> bool:
-        """Whether the second reading is named yet."""
-        return bool(self.sample if self.source == "LIBRARY" else self.filepath)
-
-    def estimate(self, context: Any) -> tuple[Request, Pairs, Estimate]:
-        """Give what the material stores, the two readings, and what they say of σ.
-
-        Raises
-        ------
-        RoughSpectraError
-            If one of them cannot be used.
-        """
-        from ...matching import roughness
-        from ...material import storage
-
-        request = storage.load(common.active_material(context))
-        stored, other = request.sample, self._second()
-        # An albedo is what a smooth surface reads.
-        pairs = [(other, stored) if stored.kind == "reading" else (stored, other)]
-        return request, pairs, roughness.of_samples(pairs, relative=self.repeatability / 100)
-
-    def _second(self) -> Sample:
-        from ...material import preferences
-        from ...samples import library, readers
-
-        if not self.is_named():
-            raise DomainError("Name the second reading: a sample of the library, or a file.")
-        if self.source == "LIBRARY":
-            return library.load(self.sample, preferences.user_folder())
-        path = bpy.path.abspath(self.filepath)
-        return choose(readers.read(path), self.name_in_file, path)
-
     def execute(self, context: Any) -> set[str]:
         """Write σ and where it comes from into the material, and derive its color again."""
         from ...matching import roughness
@@ -169,7 +175,7 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
 
         material: Any = common.active_material(context)
         try:
-            request, pairs, found = self.estimate(context)
+            request, pairs, found = _estimate(self, context)
             if not found.is_told:
                 raise DomainError(found.reason)
             sample = replace(request.sample, sigma_source=roughness.source(found, pairs))
