@@ -54,7 +54,7 @@ def test_what_is_assigned_reads_its_target_at_its_instrument_in_cycles(colorchec
     sample = replace(colorchecker[13], kind=kind, instrument="di:8")  # green, in gamut everywhere
     materials = [bpy.data.materials.new(name) for name in names]
     requests = [api.request(sample, sigma, read_at=name) for name in names]
-    solutions = api.assign(zip(materials, requests, strict=True))
+    solutions = api.assign(zip(materials, requests, strict=True), gloss="none")
     found = api.bake(materials)
     assert found.instruments == tuple(names)
     assert [entry.instrument for entry in found.entries] == names

@@ -147,7 +147,7 @@ def test_lights_that_mix_everywhere_count_as_their_mixture(render, colorchecker,
     light = parts[0] + parts[1]
     white = science.sd_to_XYZ(light) / science.sd_to_XYZ(light)[1]
     requests = [solve.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
-    derive.assign(list(zip(materials, requests, strict=True)))
+    derive.assign(list(zip(materials, requests, strict=True)), keep_gloss=False)
     changes = follow_scene.follow(look())
     inside = np.array([not any("gamut" in w for w in c.solution.warnings) for c in changes])
     order = [materials.index(change.material) for change in changes]
@@ -167,7 +167,7 @@ def test_incandescent_light_shows_the_spectral_colors(render, colorchecker, make
     truths = truths_under(science.SDS_ILLUMINANTS["A"], colorchecker)
     white = science.xy_to_XYZ(science.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]["A"])
     requests = [solve.Request(sample, SIGMA, "two-bounce") for sample in colorchecker]
-    derive.assign(list(zip(materials, requests, strict=True)))
+    derive.assign(list(zip(materials, requests, strict=True)), keep_gloss=False)
     plain = chart_errors(render, truths, white)
     changes = follow_scene.follow(look())
     inside = np.array([not any("gamut" in w for w in c.solution.warnings) for c in changes])

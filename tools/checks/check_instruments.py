@@ -76,7 +76,7 @@ def check(samples: list[Sample], sigmas: tuple[int, ...], names: list[str]) -> l
         api.request(sample, float(np.radians(degrees)), kind="albedo", read_at=name)
         for name, sample, degrees in keys
     ]
-    solutions = api.assign(zip(materials, requests, strict=True))
+    solutions = api.assign(zip(materials, requests, strict=True), gloss="none")
     entries = api.bake(materials).entries
     rows = []
     for (name, sample, degrees), solution, entry in zip(keys, solutions, entries, strict=True):
