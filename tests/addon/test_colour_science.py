@@ -26,11 +26,12 @@ import rough_spectra
 rough_spectra.register()
 assert outsiders() == before == [], (before, outsiders())
 
-# The first preset of a session needs its own reader and no other.
+# The first preset of a session needs its own reader and no other format's.
 from rough_spectra.addon.samples import presets
 assert presets.load("14").name
 formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.samples.readers.")]
 own = {{"formats", "formats.preset", "parts", "parts.document", "parts.preset_fields"}}
+own |= {{"parts.joining", "parts.name_marks", "parts.geometry_words"}}  # what readers share
 assert {{name.partition(".readers.")[2] for name in formats}} <= own, formats
 
 np.set_printoptions(precision=3, suppress=True)

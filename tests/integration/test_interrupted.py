@@ -249,7 +249,7 @@ def test_terminal_shows_rate_and_remaining_time_on_one_line(many, start, tmp_pat
     numbers = [int(match[1]) for match in counts]
     assert numbers == sorted(numbers)
     # The line is cleared, and what is left is the result.
-    assert lines[-1].startswith(f"{MANY} readings, largest ΔE00 ")
+    assert lines[-1].startswith(f"{MANY} readings at 45a:0, largest ΔE00 ")
     assert shown.count("\n") == 1
     document = json.loads((tmp_path / "x.json").read_bytes())
     assert document["largest_delta_e_00"] <= 0.05

@@ -25,6 +25,7 @@ from ....core.numerics.memoized import memoized
 from ...support import discovery
 from ..sample import Sample
 from . import formats
+from .parts import joining
 from .parts.document import Document, open_document
 
 __all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
@@ -70,11 +71,7 @@ def read(
             samples = reader.read(document)
             if not samples:
                 raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
-            if getattr(reader, "SETS", False):
-                return samples
-            from .parts import joining  # the first preset of a session needs none of it
-
-            return joining.joined(samples)
+            return samples if getattr(reader, "SETS", False) else joining.joined(samples)
     raise _unrecognized(document)
 
 
