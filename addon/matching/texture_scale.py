@@ -15,6 +15,7 @@ import numpy as np
 
 from ...core.color import color_difference
 from ...core.cycles import instrument_lobe
+from .scene_match import percentile
 
 if TYPE_CHECKING:
     from ...core.numerics.arrays import Array
@@ -152,7 +153,7 @@ def solve(
     )
     clipped = float(weights @ (colors * factors > 1 + 1e-6).any(axis=1))
     found = Scaled(
-        factors, delta_e, float(weights @ apart), _percentile(apart, weights, 0.95), clipped, ()
+        factors, delta_e, float(weights @ apart), percentile(apart, weights, 0.95), clipped, ()
     )
     return Scaled(**(vars(found) | {"notes": tuple(_notes(found, reached))}))
 
@@ -180,8 +181,3 @@ def _notes(found: Scaled, reached: Array) -> list[str]:
     elif found.delta_e > _APART:
         notes.append(f"The mean reading of the texture is ΔE00 {found.delta_e:.2f} off.")
     return notes
-
-
-def _percentile(values: Array, weights: Array, share: float) -> float:
-    order = np.argsort(values)
-    return float(values[order][np.searchsorted(np.cumsum(weights[order]), share)])

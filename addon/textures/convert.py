@@ -19,6 +19,7 @@ import math
 import os
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -99,12 +100,11 @@ class Conversion:
         self.made: Made | None = None
         self._white = float(reading.white_reading(wanted.sigma, wanted.model, wanted.instrument))
         self._image = open_image(source, wanted.scale)
-        try:
+        with ExitStack() as undone:
+            undone.callback(self._image.close)
             self._matrix = self._take_bands()
             self._roughness = self._match()
-        except BaseException:
-            self._image.close()
-            raise
+            undone.pop_all()
 
     def __iter__(self) -> Generator[tuple[int, int], None, None]:
         """Convert and write; nothing appears at the target before all of it is there."""

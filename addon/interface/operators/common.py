@@ -314,6 +314,14 @@ def has_materials(operator: Any) -> bool:
     return False
 
 
+def has_spectra(operator: Any) -> bool:
+    """Poll for operators that need a material with a spectrum."""
+    if any(material.rough_spectra.spectrum for material in bpy.data.materials):
+        return True
+    operator.poll_message_set("No material has a measured spectrum; assign one first")
+    return False
+
+
 def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> None:
     """Report every warning of the solutions, and which materials got the sample."""
     from ...samples import stated_white

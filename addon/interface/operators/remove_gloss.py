@@ -29,10 +29,7 @@ class ROUGHSPECTRA_OT_remove_gloss(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need a material with a spectrum."""
-        if any(material.rough_spectra.spectrum for material in bpy.data.materials):
-            return True
-        cls.poll_message_set("No material has a measured spectrum; assign one first")
-        return False
+        return common.has_spectra(cls)
 
     def execute(self, context: Any) -> set[str]:
         """Remove the gloss of all in scope that have one."""

@@ -20,7 +20,7 @@ class ROUGHSPECTRA_OT_remove_scale(bpy.types.Operator):
     bl_idname = "rough_spectra.remove_scale"
     bl_label = "Remove Scale of Texture"
     bl_options = {"REGISTER", "UNDO"}
-    menu_place = 2, 5
+    menu_place = 2, 6
 
     scope: EnumProperty(
         name="For", description="Materials whose textures are meant", items=common.SCOPE_ITEMS
