@@ -314,6 +314,14 @@ def has_materials(operator: Any) -> bool:
     return False
 
 
+def is_local(operator: Any, material: Any) -> bool:
+    """Poll for operators that write to a material."""
+    if material.is_editable:
+        return True
+    operator.poll_message_set("The material is linked; make it local first")
+    return False
+
+
 def has_spectra(operator: Any) -> bool:
     """Poll for operators that need a material with a spectrum."""
     if any(material.rough_spectra.spectrum for material in bpy.data.materials):

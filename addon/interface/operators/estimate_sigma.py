@@ -154,10 +154,7 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
         if material is None or not snapshot.has_spectrum(material):
             cls.poll_message_set("The material has no measured spectrum; assign one first")
             return False
-        if not material.is_editable:
-            cls.poll_message_set("The material is linked; make it local first")
-            return False
-        return True
+        return common.is_local(cls, material)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Ask for the second reading, or take the material's own set where it may do."""

@@ -54,10 +54,7 @@ class ROUGHSPECTRA_OT_match_by_measuring(background.InBackground, bpy.types.Oper
         if material is None:
             cls.poll_message_set("The active object has no material; give it one first")
             return False
-        if not material.is_editable:
-            cls.poll_message_set("The material is linked; make it local first")
-            return False
-        return True
+        return common.is_local(cls, material)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Ask which sample, and which color may change."""
