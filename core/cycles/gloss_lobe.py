@@ -24,8 +24,10 @@ import numpy.typing as npt
 from ..closure.packing import unpack
 from ..gloss import Gloss
 from ..numerics.arrays import Array
+from ..numerics.memoized import FEW, memoized
 from . import gloss_data
 
+_KEPT = 64
 _MIRROR = 2e-10
 """Fourth power of the roughness up to which Cycles has no lobe, only a mirror: a light without
 width does not show in that."""
@@ -104,9 +106,24 @@ def layer(
     >>> np.round(layer(Gloss(level=0), np.pi / 4, 0.0, 0.0).passed, 4).tolist()
     [1.0, 1.0, 1.0]
     """
-    light, view, around = np.broadcast_arrays(
-        *(np.asarray(angles, np.float64) for angles in (theta_i, theta_r, delta_phi))
+    angles = np.broadcast_arrays(
+        *(np.asarray(given, np.float64) for given in (theta_i, theta_r, delta_phi))
     )
+    if angles[0].size > FEW:
+        return _layer(gloss, *angles)
+    return _of_few(gloss, np.array(angles).tobytes(), angles[0].shape)
+
+
+@memoized(maxsize=_KEPT)
+def _of_few(gloss: Gloss, angles: bytes, shape: tuple[int, ...]) -> Layer:
+    """Compute it for the bytes of all angles: while σ is dragged, the gloss stays as it is."""
+    found = _layer(gloss, *np.frombuffer(angles).reshape(3, *shape))
+    for array in found:
+        array.setflags(write=False)
+    return found
+
+
+def _layer(gloss: Gloss, light: Array, view: Array, around: Array) -> Layer:
     at = _geometry(light, view, around)
 
     def seen(lobe: Lobe) -> Array:

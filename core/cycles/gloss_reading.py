@@ -12,10 +12,15 @@ import numpy.typing as npt
 from ..gloss import Gloss
 from ..instruments import HEMISPHERE, find, quadrature
 from ..numerics.arrays import Array
+from ..numerics.memoized import memoized
 from . import gloss_lobe, gloss_sphere
 from .gloss_lobe import Layer
 
-_HALVINGS = 24
+_STEPS = 60
+"""At most; some ten are needed."""
+_CLOSE = 1e-5
+"""How close to the largest share that is possible it ends."""
+_KEPT = 64
 
 
 def at_instrument(gloss: Gloss, instrument: str) -> Layer:
@@ -33,7 +38,7 @@ def at_instrument(gloss: Gloss, instrument: str) -> Layer:
     >>> np.round(at_instrument(Gloss(level=1), "45a:0").shine, 4).tolist()
     [0.0444, 0.0444, 0.0444]
     """
-    return Layer(*_at_instrument(gloss, instrument))
+    return _at_instrument(gloss, instrument)
 
 
 def reading(diffuse: Array, gloss: Gloss | None, instrument: str) -> Array:
@@ -82,31 +87,57 @@ def largest(
     if not ((goal > 0) & (goal <= most)).all():
         return None
 
-    def fits(tried: Gloss) -> bool:
+    def room(tried: Gloss) -> float:
+        """Give what is left until it fits no more, below 0 beyond."""
         found = at_instrument(tried, instrument)
-        return bool(((found.shine <= goal) & (goal <= found.over(most))).all())
+        return float(np.minimum(goal - found.shine, found.over(most) - goal).min())
 
-    if fits(gloss):
+    missing = room(gloss)
+    if missing >= 0:
         return gloss
     level_free = gloss._replace(level=0.0)
-    if fits(level_free):
-        return _most(lambda share: gloss._replace(level=share * gloss.level), fits)
-    return _most(lambda share: level_free._replace(coat=share * gloss.coat), fits)
+    left = room(level_free)
+    if left >= 0:
+        steps = (left, missing)
+        return _most(lambda share: gloss._replace(level=share * gloss.level), room, steps)
+    steps = (room(level_free._replace(coat=0.0)), left)
+    return _most(lambda share: level_free._replace(coat=share * gloss.coat), room, steps)
 
 
-def _most(of_share: Callable[[float], Gloss], fits: Callable[[Gloss], bool]) -> Gloss:
+def _most(
+    of_share: Callable[[float], Gloss], room: Callable[[Gloss], float], ends: tuple[float, float]
+) -> Gloss:
+    """Find the largest share that leaves room, by false position (Illinois) between 0 and 1."""
     low, high = 0.0, 1.0
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if fits(of_share(middle)) else (low, middle)
+    at_low, at_high = ends
+    for _ in range(_STEPS):
+        if high - low <= _CLOSE or at_low <= 0:
+            break
+        share = low + (high - low) * at_low / (at_low - at_high)
+        # Ever so little on the side of what fits: both ends then close in.
+        share = min(max(share, low + _CLOSE / 2), high - _CLOSE / 2)
+        found = room(of_share(share))
+        if found >= 0:
+            low, at_low, at_high = share, found, at_high / 2
+        else:
+            high, at_high, at_low = share, found, at_low / 2
     return of_share(low)
 
 
-def _at_instrument(gloss: Gloss, instrument: str) -> tuple[Array, Array]:
+@memoized(maxsize=_KEPT)
+def _at_instrument(gloss: Gloss, instrument: str) -> Layer:
+    """Compute it; while σ is dragged, the gloss stays as it is."""
+    found = _mean(gloss, instrument)
+    for array in found:
+        array.setflags(write=False)
+    return found
+
+
+def _mean(gloss: Gloss, instrument: str) -> Layer:
     if find(instrument).light == HEMISPHERE:
         return gloss_sphere.layer(gloss, find(instrument))
     of = quadrature.of(instrument)
     if of.angles is not None:
         return gloss_lobe.layer(gloss, *of.angles)
     found = gloss_lobe.layer(gloss, of.theta_i, of.theta_r, of.delta_phi)
-    return np.asarray(of.weights @ found.shine), np.asarray(of.weights @ found.passed)
+    return Layer(np.asarray(of.weights @ found.shine), np.asarray(of.weights @ found.passed))

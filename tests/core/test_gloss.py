@@ -88,6 +88,33 @@ def test_largest_gloss_reads_the_darkest_channel():
     assert gloss_reading.largest(Gloss(), [0.5, 0.0, 0.5], AT) is None
 
 
+def test_of_the_largest_gloss_a_hair_more_does_not_fit():
+    """Whatever the gloss and the reading; in few steps, since it is searched while one drags."""
+    random = np.random.default_rng(3)
+
+    def fits(gloss, goal):
+        found = gloss_reading.at_instrument(gloss, AT)
+        return bool(((found.shine <= goal) & (goal <= found.over(np.ones(3)))).all())
+
+    limited = 0
+    for i in range(200):
+        tint = tuple(random.uniform(0, 1, 3))
+        gloss = Gloss(random.uniform(0.1, 1.5), random.uniform(0.05, 1), 1.5, tint)
+        gloss = gloss._replace(coat=float(i % 3 == 0), coat_roughness=random.uniform(0.1, 0.6))
+        goal = random.uniform(0.001, 0.06, 3) if i % 2 else random.uniform(0.9, 1, 3)
+        gloss_reading._at_instrument.cache_clear()
+        found = gloss_reading.largest(gloss, goal, AT)
+        assert gloss_reading._at_instrument.cache_info().misses <= 22
+        if found == gloss or found.level == found.coat == 0:
+            continue
+        limited += 1
+        assert fits(found, goal)
+        more = 3e-5 * (gloss.level if found.level else gloss.coat)
+        more = {"level": found.level + more} if found.level else {"coat": found.coat + more}
+        assert not fits(found._replace(**more), goal), (found, goal)
+    assert limited > 60
+
+
 def test_a_mirror_shows_no_light_without_width():
     """Cycles takes a lobe this narrow for a mirror; what it takes from below stays."""
     found = gloss_lobe.layer(Gloss(level=1, roughness=0.003), 0.3, 0.3, np.pi)

@@ -113,7 +113,9 @@ def _pictures(material: Any, figures: int, wider: int = 0) -> None:
     icons._work()
 
 
-def _drag(sample: Any, scene: bool = False, figures: int = 2, model: str = "auto") -> Run:
+def _drag(
+    sample: Any, scene: bool = False, figures: int = 2, model: str = "auto", read_at: str = "45a:0"
+) -> Run:
     """Drag σ of a material with visible pictures, in a panel that is drawn again at each step."""
     import bpy
     from rough_spectra.addon.matching.request import Request
@@ -122,7 +124,7 @@ def _drag(sample: Any, scene: bool = False, figures: int = 2, model: str = "auto
 
     thing = _plane()
     material = thing.active_material = _new("Dragged")
-    derive.assign([(material, Request(sample, 0.5, model))])
+    derive.assign([(material, Request(sample, 0.5, model, read_at=read_at))])
     if scene:
         assert bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
     icons.clear()
@@ -556,6 +558,7 @@ TASKS: dict[str, Callable[[Path], Run]] = {
     "drag σ, sphere, closure": lambda _folder: _drag(
         _fine(0.1, 0.6, 10, instrument="di:8"), model="closure"
     ),
+    "drag σ, read at a sphere": lambda _folder: _drag(_fine(step=10), read_at="di:8"),
     "solve by every model": _drag_models,
     "match for two lights": _hemisphere,
     "emissivity of samples": _emissivity,
