@@ -14,6 +14,7 @@ from ...sample import Kind
 from ...stated_white import fields as white_fields
 from . import name_marks
 from .document import Document, quote
+from .geometry_words import in_text
 from .tables import lines
 
 T = TypeVar("T")
@@ -63,7 +64,8 @@ class Comments:
     """What the comment lines state; `scale` is None where they say nothing of percent.
 
     `escaped` tells whether names are as `shown_text.to_cell` writes them. `others` are all further
-    keys and values, which `statements` knows, as those of lines above a table.
+    keys and values, which `statements` knows, as those of lines above a table; free text has no
+    key. `measured` keeps what it found in them, for all samples.
     """
 
     kind: Kind = "reading"
@@ -72,6 +74,7 @@ class Comments:
     texts: dict[str, Any] = field(default_factory=dict)
     escaped: bool = False
     others: list[tuple[str, str]] = field(default_factory=list)
+    measured: dict[str, Any] | None = None
 
 
 def band(label: str) -> float | None:
@@ -187,9 +190,13 @@ def comments(document: Document) -> Comments:
             found.escaped = value.startswith(ESCAPED)
         elif key in ("white", "white_factor"):
             white[key], white_line = value, number
-        elif key == "instrument" and value and value not in REGISTRY:
-            found.texts["device"] = value
-        elif key in ("instrument", "source", "license", "device", "condition"):
+        elif key == "instrument" and value:
+            # Our own tables of several readings list them; each row has its own.
+            if value in REGISTRY:
+                found.others.append(("geometry", value))
+            elif not {name.strip() for name in value.split(",")} <= REGISTRY.keys():
+                found.texts["device"] = value
+        elif key in ("source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value
         elif not stated and percent_of_values(text):
@@ -198,6 +205,8 @@ def comments(document: Document) -> Comments:
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
         elif pair and value:
             found.others.append((pair[1], value))
+        elif text.strip() and any(in_text(text)):
+            found.others.append(("", text))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))
     if fault:
         raise document.error(f"line {white_line}", fault)

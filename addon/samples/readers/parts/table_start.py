@@ -64,6 +64,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         One of them says that the values are another quantity.
     """
     found: dict[str, Any] = {}
+    free: dict[str, Any] = {}
     for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
         text = line[:_LONGEST].strip().strip("\t;,").strip()
         if not text or text.startswith("#") or (number == 1 and tables.announced(line)):
@@ -71,6 +72,8 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         key, value = _key_and_value(text)
         for field, content in statements.stated(key, value).items():
             found.setdefault(field, content)
+        if not statements.field_of(key):
+            free |= statements.mentioned(f"{key}: {value}")
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
             if other == "emissivity":
@@ -81,7 +84,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
                 said.scale = 100.0
         if said.scale is None and label_words.percent_of_values(text):
             said.scale = 100.0
-    return found
+    return found if found.keys() & statements.GEOMETRIES else found | free
 
 
 def _header_says_reflectance(document: Document, start: int) -> bool:

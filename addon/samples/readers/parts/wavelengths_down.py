@@ -125,6 +125,11 @@ def read(
     return samples
 
 
+def names_quantity(label: str) -> bool:
+    """Return whether a column's name says what is in it, and not which sample it is."""
+    return bool(label and _QUANTITY.fullmatch(label))
+
+
 def _check_kind(
     document: Document, said: label_words.Comments, names: list[str], emitting: list[str]
 ) -> None:
