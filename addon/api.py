@@ -27,6 +27,7 @@ from typing import Any
 
 import bpy
 
+from ..core.cycles.gloss_estimate import GlossEstimate
 from ..core.emissivity import MODEL as EMISSIVITY_MODEL
 from ..core.emissivity import Filter
 from ..core.errors import (
@@ -38,6 +39,7 @@ from ..core.errors import (
     RoughSpectraError,
 )
 from ..core.estimate import RELATIVE, Estimate
+from ..core.gloss import Gloss
 from ..core.gloss_readings import GlossReadings
 from ..core.instruments import DEFAULT
 from ..core.limits import TOLERANCE
@@ -85,6 +87,8 @@ __all__ = [
     "Emissivity",
     "Estimate",
     "Filter",
+    "Gloss",
+    "GlossEstimate",
     "GlossReadings",
     "InBand",
     "InputError",
@@ -107,6 +111,7 @@ __all__ = [
     "differences",
     "emissivity",
     "estimate",
+    "estimate_gloss",
     "find",
     "gloss",
     "gloss_readings",
@@ -286,6 +291,44 @@ def gloss_readings(sample: Sample) -> GlossReadings | None:
     [(8.0, 0.04), (60.0, 0.015)]
     """
     return gloss_of_set.of_sample(sample)
+
+
+def estimate_gloss(
+    sample: Sample, level: float | None = None, gloss: Gloss | None = None
+) -> GlossEstimate:
+    r"""Find the gloss of a Principled BSDF that reads what a sample's set says of it.
+
+    Parameters
+    ----------
+    sample
+        A set with SCI and SCE, with gloss units at 20, 60 or 85° beside any reading, or with both.
+    level
+        Specular IOR Level where it is known; without it, 0.5 is taken where the set has one of the
+        two alone.
+    gloss
+        IOR, coat and tints; those of a new node without it.
+
+    Returns
+    -------
+    `gloss`, with `level` and `roughness`; `misfit`, the largest relative difference of what it
+    reads; and `level_is_known`, whether the level was found.
+
+    Raises
+    ------
+    DomainError
+        The set says nothing of gloss, or that there is none.
+
+    Examples
+    --------
+    >>> text = "name,Gloss 60,400 nm,500 nm,600 nm,700 nm\n"
+    >>> text += "Tile (SCI),38.2,0.33,0.33,0.33,0.33\nTile (SCE),38.2,0.309,0.309,0.309,0.309\n"
+    >>> _ = Path("tile.csv").write_text(text)
+    >>> [tile] = read("tile.csv")
+    >>> found = estimate_gloss(tile)
+    >>> round(found.gloss.level, 1), round(found.gloss.roughness, 1), found.level_is_known
+    (0.5, 0.2, True)
+    """
+    return gloss_of_set.estimate(sample, level, gloss)
 
 
 def emissivity(

@@ -15,7 +15,6 @@ from ...core.errors import DomainError
 from ...core.estimate import Estimate
 from ...core.instruments import HEMISPHERE, REGISTRY
 from ..samples import sets
-from ..samples.readers.parts import joining
 from ..samples.sample import Sample
 
 Readings = Sample | Sequence[Sample] | None
@@ -156,7 +155,7 @@ def _useless(other: Sample, main: Sample) -> str:
     instrument = REGISTRY[other.instrument]
     if instrument.light == HEMISPHERE and not instrument.trap:
         return "specular light is in it"
-    if not joining.is_exact(other):
+    if not sets.is_exact(other):
         return "its geometry is not among the instruments"
     return ""
 

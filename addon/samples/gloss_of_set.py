@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a sample's set says of its gloss: from SCI and SCE, and from gloss units."""
+"""What a sample's set says of its gloss: from SCI and SCE, and from gloss units.
+
+`of_sample` tells what each reading says by itself, `estimate` which gloss of a Principled BSDF
+reads all of it.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +14,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...core import gloss_readings
+from ...core.cycles import gloss_estimate
+from ...core.cycles.gloss_estimate import GlossEstimate
+from ...core.errors import DomainError
+from ...core.gloss import Gloss
 from ...core.gloss_readings import GlossReadings, Specular, SphereGloss
 from ...core.instruments import HEMISPHERE, REGISTRY
+from ...core.instruments.gloss import METERS
 from ...core.limits import COLOR_NM
+from ..colorimetry import tristimulus
 from . import sets
 from .sample import Sample
 
@@ -26,6 +36,46 @@ def of_sample(sample: Sample) -> GlossReadings | None:
     """
     found = GlossReadings(_of_spheres(sample), dict(sample.gloss))
     return found if found.sphere or found.units else None
+
+
+def estimate(
+    sample: Sample, level: float | None = None, gloss: Gloss | None = None
+) -> GlossEstimate:
+    """Find level and roughness of a Principled BSDF that reads what a sample's set says.
+
+    Of a reading its luminance counts, as D65 shows it. Where there is no SCI, the body below the
+    gloss follows from the reading that the color is made from.
+
+    Parameters
+    ----------
+    sample
+        A set with SCI and SCE, or gloss units at 20, 60 or 85° beside any reading.
+    level, gloss
+        As of `core.cycles.gloss_estimate.estimate`.
+
+    Raises
+    ------
+    DomainError
+        If the set says nothing of gloss, or that there is none.
+    """
+    spheres = _spheres(sample)
+    units = {int(angle): units for angle, units in sample.gloss if angle in METERS}
+    try:
+        if spheres is None and not units:
+            others = ", ".join(f"{angle:g}°" for angle, _ in sample.gloss)
+            msg = "There is nothing to tell gloss from; give SCI and SCE, or gloss units"
+            raise DomainError(f"{msg} at 20, 60 or 85°{f' and not at {others}' if others else ''}.")
+        if spheres is None:
+            read = gloss_estimate.GlossReadings(
+                _luminance(sample), units=units, read_at=sample.instrument
+            )
+        else:
+            sci, sce = map(_luminance, spheres)
+            read = gloss_estimate.GlossReadings(sci, sce, units)
+        return gloss_estimate.estimate(read, level, gloss)
+    except DomainError as error:
+        msg = f"Sample {sample.name!r}: {error}"
+        raise DomainError(msg) from error
 
 
 def sentences(sample: Sample) -> Iterator[str]:
@@ -53,7 +103,14 @@ def _smooth(told: Specular) -> str:
     return f"F0 is {told.f0:.4f} at least{index}."
 
 
-def _of_spheres(sample: Sample) -> SphereGloss | None:
+def _luminance(sample: Sample) -> float:
+    """Give the luminance factor of a reading, of the light D65."""
+    nm, values = sample.wavelengths, sample.values * sample.scale
+    return float(values @ tristimulus.weights(nm, "D65", 2)[:, 1])
+
+
+def _spheres(sample: Sample) -> tuple[Sample, Sample] | None:
+    """Give SCI and SCE of the rough surface; None where there are not just these two."""
     spheres = [
         reading
         for reading in sample.readings
@@ -63,7 +120,14 @@ def _of_spheres(sample: Sample) -> SphereGloss | None:
     sce = [reading for reading in spheres if reading.specular == "SCE"]
     if len(sci) != 1 or len(sce) != 1:
         return None
-    [one], [other] = sci, sce
+    return sci[0], sce[0]
+
+
+def _of_spheres(sample: Sample) -> SphereGloss | None:
+    pair = _spheres(sample)
+    if pair is None:
+        return None
+    one, other = pair
     nm = other.wavelengths
     low = max(COLOR_NM[0], one.wavelengths[0])
     high = min(COLOR_NM[1], one.wavelengths[-1])

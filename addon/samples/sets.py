@@ -8,14 +8,23 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...core.instruments import REGISTRY
+from .readers.parts.document import quote
+from .readers.parts.geometry_words import instrument_of
 from .sample import Sample
 
 SMOOTH = "smooth"
 
+_LONGEST = 200  # characters of a geometry
+
 
 def label(sample: Sample) -> str:
-    """Name a reading among those of its set, such as ``"de:8°"`` or ``"45°:as15°, smooth"``."""
+    """Name a reading among those of its set, such as ``"de:8°"`` or ``"45°:as15°, smooth"``.
+
+    One that no instrument has is named as its file does.
+    """
     title = REGISTRY[sample.instrument].title.split(",")[0]
+    if not is_exact(sample):
+        title = quote(stated(sample))
     surface = SMOOTH if is_smooth(sample) else ""
     return ", ".join(part for part in (title, surface) if part)
 
@@ -23,6 +32,17 @@ def label(sample: Sample) -> str:
 def is_smooth(sample: Sample) -> bool:
     """Return whether a reading is stated to be of the smooth surface of its material."""
     return sample.surface.strip().lower() == SMOOTH
+
+
+def stated(sample: Sample) -> str:
+    """Return the geometry in the file's words, a sphere's where it says no more than SCI or SCE."""
+    return sample.geometry[:_LONGEST] or ("d/8" if sample.specular else "")
+
+
+def is_exact(sample: Sample) -> bool:
+    """Return whether the instrument is the geometry that the file states, and not one near it."""
+    words = stated(sample)
+    return not words or not ("azimuth" in words or instrument_of(words, sample.specular)[1])
 
 
 def count(sample: Sample) -> int:

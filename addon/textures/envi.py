@@ -5,27 +5,22 @@
 Either of the two may be named. Read are whole numbers and floats of every order of bytes and
 bands; compressed ones and complex numbers are refused.
 
-Source: "ENVI Header Files", https://www.nv5geospatialsoftware.com/docs/ENVIHeaderFiles.html.
+What the header says is read by `samples/readers/parts/envi_header`.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
+from ..samples.readers.parts import envi_header
 from .image import BandImage, Pixels, fault
 
-_TYPES = {1: "u1", 2: "i2", 3: "i4", 4: "f4", 5: "f8", 12: "u2", 13: "u4"}
 _ENDINGS = ("", ".img", ".dat", ".raw", ".cube", ".bsq", ".bil", ".bip", ".bin")
-_UNITS = {"nanometers": 1.0, "nanometer": 1.0, "nm": 1.0, "micrometers": 1e3, "micrometer": 1e3,
-          "micron": 1e3, "microns": 1e3, "um": 1e3, "µm": 1e3, "angstroms": 0.1}  # fmt: skip
 _LARGEST_HEADER = 4_000_000  # bytes; that of 1,000 bands with all lists has 60,000
-_ENTRY = re.compile(r"^\s*([A-Za-z][^={}\n]*?)\s*=\s*(\{[^}]*\}|[^\n]*)", re.MULTILINE)
-_NANOMETERS = (200.0, 20_000.0)
-_MICROMETERS = (0.2, 20.0)
 
 
 def header_of(path: Path) -> Path | None:
@@ -36,7 +31,7 @@ def header_of(path: Path) -> Path | None:
     for header in tried:
         try:
             with header.open("rb") as file:
-                if file.read(4) == b"ENVI":
+                if file.read(4) == envi_header.MAGIC:
                     return header
         except OSError:
             continue
@@ -61,25 +56,29 @@ class Cube(BandImage):
 
     def __init__(self, header: Path, scale: float | None = None) -> None:
         entries = _entries(header)
-        width, height, self._bands = (_whole(header, entries, name) for name in
-                                      ("samples", "lines", "bands"))  # fmt: skip
+        with _named(header):
+            width, height, self._bands = (
+                envi_header.whole(entries, name) for name in ("samples", "lines", "bands")
+            )
         super().__init__(header, width, height)
         if "library" in entries.get("file type", "").lower():
             raise self.fault("is a spectral library and no image; import its samples instead")
         if entries.get("file compression", "0") not in ("0", ""):
             raise self.fault("says that its numbers are compressed; save the cube without that")
-        code = _whole(header, entries, "data type")
-        if code not in _TYPES:
-            raise self.fault(f"has numbers of the type {code}; save the cube as floats, type 4")
-        order = ">" if entries.get("byte order", "0") == "1" else "<"
-        self._form = np.dtype(order + _TYPES[code])
         self._layout = entries.get("interleave", "bsq").lower()
+        with _named(header):
+            self._form = envi_header.form(entries)
+            self._start = envi_header.whole(entries, "header offset", 0)
+            self._ignored = envi_header.number(entries, "data ignore value")
+            stated = envi_header.number(entries, "reflectance scale factor")
+            self.wavelengths, self.notes = envi_header.wavelengths(entries, self._bands)
         if self._layout not in ("bsq", "bil", "bip"):
             raise self.fault(f"has the interleave {self._layout!r}; it may be BSQ, BIL or BIP")
-        self._start = _whole(header, entries, "header offset", 0)
-        self._ignored = _number(header, entries, "data ignore value")
-        self._scale = self._scale_of(entries, scale)
-        self._lists(entries)
+        self._scale = self._scale_of(stated, scale)
+        self.names = tuple(f"{nm:g} nm" for nm in self.wavelengths)
+        bad = envi_header.words(entries.get("bbl", ""))
+        self.good = [band for band in range(self._bands)
+                     if len(bad) != self._bands or bad[band] != "0"]  # fmt: skip
         self._open(header)
         self.take(range(self._bands))
 
@@ -118,8 +117,7 @@ class Cube(BandImage):
             raise self.fault("goes with a file that ends early; copy the cube again")
         return found
 
-    def _scale_of(self, entries: dict[str, str], scale: float | None) -> float:
-        stated = _number(self.path, entries, "reflectance scale factor")
+    def _scale_of(self, stated: float | None, scale: float | None) -> float:
         if scale is None and stated is None and self._form.kind != "f":
             raise self.fault(
                 "holds whole numbers and no 'reflectance scale factor'; say which number stands "
@@ -129,38 +127,6 @@ class Cube(BandImage):
         if not (np.isfinite(found) and found > 0):
             raise self.fault(f"has {found:g} for a reflectance of 1; give a number above 0")
         return float(found)
-
-    def _lists(self, entries: dict[str, str]) -> None:
-        """Read what the header lists of each band."""
-        if "wavelength" not in entries:
-            raise self.fault("has no 'wavelength' of its bands; add that line to the header")
-        try:
-            values = np.array([float(word) for word in _words(entries["wavelength"])])
-        except ValueError:
-            raise self.fault("has a 'wavelength' that is no number; mend the header") from None
-        if values.size != self._bands:
-            raise self.fault(
-                f"lists {values.size} wavelengths of {self._bands} bands; mend the header"
-            )
-        unit = entries.get("wavelength units", "").strip().lower()
-        if unit in _UNITS:
-            self.wavelengths = values * _UNITS[unit]
-        elif unit not in ("", "unknown"):
-            raise self.fault(f"has wavelengths in {unit!r}; they may be nanometers or micrometers")
-        elif _within(values, _NANOMETERS):
-            self.wavelengths = values
-            self.notes = ("The header names no unit of wavelengths; taken for nanometers.",)
-        elif _within(values, _MICROMETERS):
-            self.wavelengths = values * 1e3
-            self.notes = ("The header names no unit of wavelengths; taken for micrometers.",)
-        else:
-            raise self.fault("names no unit of its wavelengths; add 'wavelength units' to it")
-        # Decimals of micrometers leave a last digit behind: 0.41 µm is no even grid with 0.4.
-        self.wavelengths = np.round(self.wavelengths, 6)
-        self.names = tuple(f"{nm:g} nm" for nm in self.wavelengths)
-        bad = _words(entries.get("bbl", ""))
-        self.good = [band for band in range(self._bands)
-                     if len(bad) != self._bands or bad[band] != "0"]  # fmt: skip
 
     def _open(self, header: Path) -> None:
         size = self._start + self.width * self.height * self._bands * self._form.itemsize
@@ -188,36 +154,16 @@ class Cube(BandImage):
 def _entries(header: Path) -> dict[str, str]:
     if header.stat().st_size > _LARGEST_HEADER:
         raise fault(header, "is too large for a header; name the cube's own")
-    text = header.read_bytes().decode("utf-8", "replace")
-    return {key.lower(): value.strip() for key, value in _ENTRY.findall(text)}
+    return envi_header.entries(header.read_bytes().decode("utf-8", "replace"))
 
 
-def _words(listed: str) -> list[str]:
-    return listed.strip("{} \n").replace(",", " ").split()
-
-
-def _whole(header: Path, entries: dict[str, str], name: str, default: int | None = None) -> int:
-    if name not in entries and default is not None:
-        return default
-    text = entries.get(name, "")
-    if not re.fullmatch(r"\d{1,12}", text):
-        raise fault(header, f"has no readable {name!r}; mend the header")
-    return int(text)
-
-
-def _number(header: Path, entries: dict[str, str], name: str) -> float | None:
-    if name not in entries:
-        return None
+@contextmanager
+def _named(header: Path) -> Iterator[None]:
+    """Let what is wrong with a header name it."""
     try:
-        return float(entries[name])
-    except ValueError:
-        raise fault(header, f"has a {name!r} that is no number; mend the header") from None
-
-
-def _within(
-    values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], ends: tuple[float, float]
-) -> bool:
-    return bool(values.size and ends[0] <= values.min() and values.max() <= ends[1])
+        yield
+    except ValueError as error:
+        raise fault(header, str(error)) from None
 
 
 def _slice(bands: list[int]) -> slice | list[int]:

@@ -20,7 +20,7 @@ from ..gloss import Gloss
 from ..instruments import find
 from ..instruments import gloss as meters
 from ..numerics.arrays import Array
-from . import gloss_sphere
+from . import gloss_reading, gloss_sphere
 
 LARGEST_LEVEL = 1.0
 """Of Blender's socket."""
@@ -52,11 +52,15 @@ class GlossReadings:
         Luminance factors of a sphere di:8 and de:8, 0 to 1.
     units
         Gloss units by the angle of the meter, degrees.
+    read_at
+        Where `sci` was read, if no sphere did: another of `core.instruments.REGISTRY`. There is no
+        `sce` then.
     """
 
     sci: float
     sce: float | None = None
     units: Mapping[int, float] = field(default_factory=dict)
+    read_at: str = "di:8"
 
 
 @dataclass(frozen=True)
@@ -135,6 +139,9 @@ def estimate(
     >>> round(found.level, 1), round(found.roughness, 2)
     (0.5, 0.3)
     """
+    if read.sce is not None and read.read_at != "di:8":
+        msg = f"SCE stands beside a reading at {read.read_at}; give SCI with it, or leave it out."
+        raise DomainError(msg)
     base = gloss or Gloss()
     wanted = _told(read)
     if not wanted:
@@ -149,7 +156,7 @@ def estimate(
     low, high, count = 0.0, 1.0, _COARSE
     for _ in range(_ZOOMS + 1):
         tried = np.linspace(low, high, count)
-        fits = [_best(base._replace(roughness=float(r)), read.sci, wanted, level) for r in tried]
+        fits = [_best(base._replace(roughness=float(r)), read, wanted, level) for r in tried]
         best = int(np.argmin([fit[0] for fit in fits]))
         low, high = tried[max(best - 1, 0)], tried[min(best + 1, count - 1)]
         count = _FINER
@@ -167,7 +174,7 @@ def _told(read: GlossReadings) -> dict[str, float]:
 
 
 def _best(
-    gloss: Gloss, sci: float, wanted: Mapping[str, float], level: float | None
+    gloss: Gloss, read: GlossReadings, wanted: Mapping[str, float], level: float | None
 ) -> tuple[float, float, float]:
     """Find the level that fits best at one roughness; gives cost, misfit and level."""
     angles = tuple(int(name) for name in wanted if name != "trap")
@@ -175,8 +182,8 @@ def _best(
     table = []
     for node in nodes:
         tried = gloss._replace(level=node)
-        whole = gloss_sphere.layer(tried, find("di:8"))
-        diffuse = float(np.maximum(whole.below(np.full(3, sci)), 0).mean())
+        whole = gloss_reading.at_instrument(tried, read.read_at)
+        diffuse = float(np.maximum(whole.below(np.full(3, read.sci)), 0).mean())
         found = _told(readings(tried, diffuse, angles))
         table.append([found[name] for name in wanted])
     goal = np.array(list(wanted.values()))

@@ -19,6 +19,7 @@ SIGNATURES = {
     "differences": "(material)",
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
     "bands=None, model='reference')",
+    "estimate_gloss": "(sample, level=None, gloss=None)",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
@@ -65,6 +66,8 @@ FIELDS = {
     "InBand": "name first last directional hemispherical apparent",
     "Filter": "wavelengths response",
     "GlossReadings": "sphere units",
+    "GlossEstimate": "gloss misfit level_is_known",
+    "Gloss": "level roughness ior tint coat coat_roughness coat_ior coat_tint multiscatter",
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "

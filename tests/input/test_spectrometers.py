@@ -1,15 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Text files of spectrometers' software: Ocean Optics, Avantes, Cary, Lambda, and Datacolor QTX."""
+"""Files of spectrometers' software: Ocean, Avantes, Cary, Lambda, Datacolor, Galactic, ENVI."""
 
+import io
 import re
+import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rough_spectra.addon.samples import readers
 from rough_spectra.core.errors import InputError
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
+VALUES = [0.125, 0.25, 0.375, 0.5, 0.0625]
+"""What most of the binary fixtures hold."""
 
 
 def spectrum(sample):
@@ -72,7 +77,18 @@ BEGIN = b">>>>>Begin Spectral Data<<<<<\n400\t1\n410\t1\n"
         (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n1\t2\t3\n", ["line 3", "found 3"]),
         (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n400\tx\n", ["line 3", "'x'"]),
         (b"Data from x Node\n>>>>>Begin Spectral Data<<<<<\n", ["no spectrum"]),
-        (b"AVS82\x01\x02\x03\x00\x00", ["binary", "AvaSoft"]),
+        (b"\x00\x00\x8cB\x01\x02\x03\x00\x00", ["binary", "AvaSoft"]),
+        (b"AVS82\x01\x02\x03\x00\x00", ["byte 10", "ends early"]),
+        (b"AVS89\x01\x02\x03\x00\x00", ["binary", "AvaSoft"]),
+        (b"\x1f\x8b\x08\x00\x00\x00", ["gzip", "unpack"]),
+        (b"PK\x03\x04\x00 xl/workbook.xml \x00", ["spreadsheet", "CSV"]),
+        (b"PK\x03\x04\x00 notes.txt \x00", ["archive", "unpack"]),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\x00", [".xls", "CSV"]),
+        (b"\x0a\x0a\xfe\xfe\x00\x00", ["OPUS", "JCAMP"]),
+        (b"tensor_file\x00\x01\x00", ["RGL", "CSV"]),
+        (b"\x89HDF\r\n\x1a\n\x00", ["HDF5", "CSV"]),
+        (b"ENVI\nfile type = ENVI Standard\n", ["image", "Material from Image"]),
+        (b"ENVI\nfile type = ENVI Spectral Library\n", ["without its file of numbers"]),
         (b"Wave ;Sample\n[nm] ;[counts]\n400;1\n", ["line 1", "counts"]),
         (
             b"Wave ;Transmittance\n[nm] ;[% transmittance]\n400;1\n",
@@ -105,6 +121,115 @@ def test_avasoft_8_and_7():
     (old,) = readers.read(FIXTURES / "avantes" / "avasoft7-comma.ttt")
     # Zero bytes of the program's buffer are in the file, and are no fault.
     assert spectrum(old) == ("Brick wall", [300.0, 300.5, 301.0], [0.015625, 0.03125, -0.007812])
+
+
+def test_binary_avasoft_divides_by_the_white_reference():
+    """Held to AvaSoft's own exports of files by versions 8.2 and 8.4, which are not ours to ship:
+    2,000 bands agreed in all digits that the text had."""
+    (old,) = readers.read(FIXTURES / "avasoft_binary" / "one.RFL8")
+    nm = [400.0, 410.0, 420.0, 430.0, 440.0]
+    assert spectrum(old) == ("one", nm, VALUES)
+    assert old.device == "1200001U1"
+    first, second = readers.read(FIXTURES / "avasoft_binary" / "two.Rfl8x")
+    assert spectrum(first) == ("Brick wall 1", nm, VALUES)
+    # A channel whose white reference has no signal has no value.
+    assert spectrum(second) == ("two 2", [900.0, 910.0, 930.0, 940.0], [0.125, 0.25, 0.5, 0.0625])
+    assert "white reference" in second.altered[0]
+    assert second.altered[1] == "1 band without a value was left out: 920 nm."
+
+
+def test_spc_in_all_its_layouts():
+    """Held to the text export of CRAIC's software, and to another reader's numbers of 20 files."""
+    nm = [400.0, 410.0, 420.0, 430.0, 440.0]
+    (uneven,) = readers.read(FIXTURES / "galactic_spc" / "uneven.spc")
+    assert spectrum(uneven) == ("uneven", [400.0, 410.5, 420.0, 430.0, 440.0], VALUES)
+    assert "fractions are assumed" in uneven.notes[0]
+    assert uneven.notes[1] == "The file's comment: 'Slit 2 nm'."
+    first, second = readers.read(FIXTURES / "galactic_spc" / "whole.spc")
+    assert spectrum(first) == ("whole 1", nm, VALUES)
+    assert second.values.tolist() == [0.125, 0.0625, 0.03125, 0.015625, 0.0078125]
+    (number,) = readers.read(FIXTURES / "galactic_spc" / "wavenumber.spc")
+    # 25,000 to 20,000 per cm, in percent by the name of the axis, of 16 bits, big-endian.
+    np.testing.assert_allclose(number.wavelengths, 1e7 / np.linspace(25000, 20000, 5), atol=1e-4)
+    np.testing.assert_allclose(number.values, VALUES, atol=1e-5)
+    first, second = readers.read(FIXTURES / "galactic_spc" / "own.spc")
+    assert spectrum(first) == ("own 1", nm, VALUES)
+    assert spectrum(second) == ("own 2", [500.0, 600.0, 700.0], [0.5, 0.25, 0.125])
+
+
+@pytest.mark.parametrize(
+    ("along", "quantity", "parts"),
+    [
+        (3, 128, ["byte 30", "transmittance"]),
+        (3, 2, ["byte 30", "absorbance"]),
+        (3, 4, ["byte 30", "counts"]),
+        (3, 0, ["byte 30", "does not say", "reflectance"]),
+        (9, 129, ["byte 29", "no wavelength"]),
+    ],
+)
+def test_spc_of_something_else_is_refused(tmp_path, along, quantity, parts):
+    data = bytearray((FIXTURES / "galactic_spc" / "uneven.spc").read_bytes())
+    data[28], data[29] = along, quantity
+    sentence = refusal(tmp_path, bytes(data))
+    for part in parts:
+        assert part in sentence
+
+
+def test_spc_beyond_any_fraction_is_percent(tmp_path):
+    data = bytearray((FIXTURES / "galactic_spc" / "uneven.spc").read_bytes())
+    data[-20:] = np.array([12.5, 25, 37.5, 50, 6.25], "<f4").tobytes()
+    (tmp_path / "percent.spc").write_bytes(data)
+    (sample,) = readers.read(tmp_path / "percent.spc")
+    assert sample.values.tolist() == VALUES
+    assert "percent are assumed" in sample.notes[0]
+
+
+def test_procspec():
+    """Held to 100 (S - D) / (R - D) of a file of SpectraSuite: equal in all digits."""
+    (sample,) = readers.read(FIXTURES / "ocean_procspec" / "wall.ProcSpec")
+    assert spectrum(sample) == ("wall", [400.0, 410.0, 420.0, 430.0, 440.0], VALUES)
+    assert sample.device == "USB4000 USB4C00001"
+
+
+@pytest.mark.parametrize("damage", ["kind", "broken", "bomb"])
+def test_procspec_that_is_none(tmp_path, damage):
+    path = FIXTURES / "ocean_procspec" / "wall.ProcSpec"
+    with zipfile.ZipFile(path) as archive:
+        text = archive.read("ps_0.xml")
+    if damage == "kind":
+        text = text.replace(b"ReflectionIntensity", b"AbsorbanceIntensity")
+    if damage == "bomb":
+        text += b" " * 2**23
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("ps_0.xml", text)
+    data = packed.getvalue()[: -40 if damage == "broken" else None]
+    sentence = refusal(tmp_path, data)
+    assert {"kind": "absorbance", "broken": "damaged", "bomb": "unpacks to more"}[
+        damage
+    ] in sentence
+
+
+@pytest.mark.parametrize("named", ["walls.hdr", "walls.sli"])
+def test_envi_library_by_either_of_its_files(named):
+    brick, plaster = readers.read(FIXTURES / "envi_library" / named)
+    assert spectrum(brick) == ("Brick wall", [400.0, 410.0, 420.0, 430.0, 440.0], VALUES)
+    assert spectrum(plaster) == (
+        "Plaster (old)",
+        [400.0, 410.0, 430.0, 440.0],
+        [0.5, 0.25, 0.75, 0.5],
+    )
+
+
+def test_envi_library_that_promises_more_than_there_is(tmp_path):
+    (tmp_path / "walls.hdr").write_bytes((FIXTURES / "envi_library" / "walls.hdr").read_bytes())
+    (tmp_path / "walls.sli").write_bytes(b"skip" + bytes(36))
+    with pytest.raises(InputError, match=r"promises 2 spectra of 5 bands, 44 bytes, .* has 40"):
+        readers.read(tmp_path / "walls.hdr")
+    text = (tmp_path / "walls.hdr").read_text()
+    (tmp_path / "walls.hdr").write_text(text.replace("0.44}", "}"))
+    with pytest.raises(InputError, match="lists 4 wavelengths of 5 bands"):
+        readers.read(tmp_path / "walls.hdr")
 
 
 def test_cary_reads_pairs_of_unequal_length_and_no_log():

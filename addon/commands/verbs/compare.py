@@ -16,7 +16,6 @@ from ...support.shown_text import ESCAPED, out, printable, tell, to_cell
 if TYPE_CHECKING:
     from ...matching.compare import Apart, Comparison
     from ...matching.request import Request
-    from ...samples.sample import Sample
 
 NAME = "compare"
 SUMMARY = "how far two samples are apart, as measured and as the albedos behind"
@@ -26,7 +25,6 @@ DESCRIPTION = (
     "by tabs."
 )
 
-_FILE_AND_SAMPLE = "#"
 _HEADER = ("between", "delta_e_00", "delta_L*", "delta_a*", "delta_b*", "delta_a*b*", "shift")
 
 
@@ -35,12 +33,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from ....core.instruments import DEFAULT, REGISTRY
     from ....core.models import NAMES, TARGET
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
+    from .. import named_samples
 
     for which in ("first", "second"):
         parser.add_argument(
             which,
             metavar="SAMPLE",
-            help="a preset or library sample, a measurement file, or FILE#NAME for a sample of it",
+            help=named_samples.HELP,
         )
     parser.add_argument(
         "--sigma",
@@ -97,9 +96,10 @@ def _request(options: argparse.Namespace, place: int) -> Request:
     from ....core import limits
     from ....core.errors import InputError
     from ... import api
+    from .. import named_samples
 
     named = (options.first, options.second)[place]
-    sample = _sample(named)
+    sample = named_samples.one(named)
     degrees = sample.sigma_degrees or 0.0 if options.sigma is None else options.sigma[place]
     if fault := limits.sigma_fault(degrees):
         msg = f"Sample {named!r}: {fault}"
@@ -113,36 +113,6 @@ def _request(options: argparse.Namespace, place: int) -> Request:
         observer=options.observer,
         read_at=options.read_at,
     )
-
-
-def _sample(named: str) -> Sample:
-    """Find a sample by what the command line calls it."""
-    from ....core.errors import InputError
-    from ... import api
-    from ...samples import sets
-
-    # A name may hold the sign itself, as a file's may: what is there decides.
-    places = [i for i, sign in enumerate(named) if sign == _FILE_AND_SAMPLE]
-    for end in (len(named), *places):
-        if not Path(named[:end]).is_file():
-            continue
-        samples, wanted = api.read(named[:end]), named[end + 1 :]
-        matching = [s for s in samples if s.name == wanted] if wanted else samples
-        if wanted and not matching:
-            matching = [s for name, s in sets.by_name(samples).items() if name == wanted]
-        if wanted and matching:
-            return matching[0]
-        if len(matching) == 1:
-            return matching[0]
-        names = ", ".join([sample.name for sample in samples][:5])
-        fault = f"has no sample {wanted!r}" if wanted else f"has {len(samples)} samples"
-        msg = f"{named[:end]} {fault}; name one as FILE{_FILE_AND_SAMPLE}NAME, of: {names}."
-        raise InputError(msg)
-    try:
-        return api.find(named)
-    except InputError as error:
-        msg = f"{named!r} is no file, and no sample either: {error}"
-        raise InputError(msg) from error
 
 
 def _rows(found: Comparison) -> list[tuple[str, Apart, float | None]]:

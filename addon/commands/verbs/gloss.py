@@ -6,14 +6,20 @@ from __future__ import annotations
 
 import argparse
 import math
+from typing import TYPE_CHECKING
 
 from ...support.shown_text import tell
+
+if TYPE_CHECKING:
+    from ....core.cycles.gloss_estimate import GlossEstimate
+    from ....core.gloss import Gloss
 
 NAME = "gloss"
 SUMMARY = "find specular level and roughness from readings of gloss"
 DESCRIPTION = (
     "Find Specular IOR Level and Roughness of a Principled BSDF from a sphere's readings with "
-    "specular included and excluded, from gloss units, or from both, and print them."
+    "specular included and excluded, from gloss units, or from both, and print them. Samples may "
+    "hold the readings, or they are given as numbers. Nothing is written."
 )
 _FITS = 0.05
 """Relative misfit up to which a lobe is said to fit."""
@@ -21,12 +27,19 @@ _FITS = 0.05
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `gloss`."""
+    from .. import named_samples
+
+    parser.add_argument(
+        "samples",
+        nargs="*",
+        metavar="SAMPLE",
+        help=f"{named_samples.HELP}; each with SCI and SCE, or gloss units beside a reading",
+    )
     parser.add_argument(
         "--sci",
         type=float,
-        required=True,
         metavar="Y",
-        help="luminance factor with specular included (di:8), 0 to 1",
+        help="luminance factor with specular included (di:8), 0 to 1, instead of samples",
     )
     parser.add_argument(
         "--sce", type=float, metavar="Y", help="the same with specular excluded (de:8)"
@@ -61,17 +74,52 @@ def run(options: argparse.Namespace) -> int:
             raise DomainError(f"{name} is {value:g}; give 0 to 1.")
     if not (math.isfinite(options.ior) and options.ior > 1):
         raise DomainError(f"--ior is {options.ior:g}; give a refractive index above 1.")
+    gloss = Gloss(ior=options.ior)
+    if options.samples:
+        if options.sci is not None or options.sce is not None or options.units:
+            msg = "Samples say what was read of them; leave --sci, --sce and --units out."
+            raise DomainError(msg)
+        _of_samples(options.samples, options.level, gloss)
+        return 0
+    if options.sci is None:
+        raise DomainError("Name samples with SCI and SCE or gloss units, or give --sci.")
     read = gloss_estimate.GlossReadings(options.sci, options.sce, dict(options.units))
-    found = gloss_estimate.estimate(read, options.level, Gloss(ior=options.ior))
+    _say("", gloss_estimate.estimate(read, options.level, gloss))
+    return 0
+
+
+def _of_samples(names: list[str], level: float | None, gloss: Gloss) -> None:
+    """Say it of each sample; of a file's that say nothing, why, unless none says anything."""
+    from ....core.errors import DomainError
+    from ... import api
+    from .. import named_samples
+
+    found, silent = [], []
+    for sample in (sample for name in names for sample in named_samples.some(name)):
+        try:
+            found.append((sample.name, api.estimate_gloss(sample, level, gloss)))
+        except DomainError as error:
+            silent.append(error)
+    if not found:
+        raise silent[0]
+    for name, estimate in found:
+        _say(f"{name}: ", estimate)
+    for error in silent:
+        tell(f"warning: {error}")
+
+
+def _say(name: str, found: GlossEstimate) -> None:
     how = "found" if found.level_is_known else "given"
     tell(
-        f"Specular IOR Level {found.gloss.level:.3f} ({how}), Roughness "
-        f"{found.gloss.roughness:.3f}, IOR {options.ior:g}; it reads within "
+        f"{name}Specular IOR Level {found.gloss.level:.3f} ({how}), Roughness "
+        f"{found.gloss.roughness:.3f}, IOR {found.gloss.ior:g}; it reads within "
         f"{100 * found.misfit:.1f} % of what was given"
     )
     if found.misfit > _FITS:
-        tell("warning: no gloss of one lobe reads all of it; take the one that matters more to you")
-    return 0
+        tell(
+            f"warning: {name}no gloss of one lobe reads all of it; take the one that matters more "
+            "to you"
+        )
 
 
 def _units(text: str) -> tuple[int, float]:

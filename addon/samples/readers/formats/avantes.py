@@ -3,8 +3,7 @@
 """Text exports of Avantes' AvaSoft 7 and 8 (.ttt, .trt, .tit, .txt).
 
 Lines of metadata, ``Wave ;Dark ;Ref ;Sample ;Reflectance``, a line of units ``[nm] ;[counts] …``,
-and rows with semicolons, with decimal commas where the computer's language has them. Its binary
-files are recognized and refused.
+and rows with semicolons, with decimal commas where the computer's language has them.
 """
 
 from __future__ import annotations
@@ -22,10 +21,9 @@ from ..parts.document import Document, quote
 from ..parts.geometry_words import instrument_of
 
 NAME = "AvaSoft text export"
-ENDINGS = ("ttt", "trt", "tit", "rfl8", "txt")
+ENDINGS = ("ttt", "trt", "tit", "txt")
 PRIORITY = 90
 
-_BINARY = (b"AVS8", b"\x00\x00\x8cB", b"\x00\x00pB")  # AvaSoft 8; 7 and 6 begin with 70.0 and 60.0
 _HEADER = re.compile(r"wave(?:length)?\s*;", re.IGNORECASE)
 _TWO_LINES = re.compile(rb"^wave(?:length)? *;[^\n]*\n+ *\[nm\] *;", re.IGNORECASE | re.MULTILINE)
 _DEVICE = re.compile(r"data measured with spectrometer[^:]*:\s*(\S+)", re.IGNORECASE)
@@ -33,9 +31,7 @@ _BESIDE = {"dark", "ref", "reference", "sample", "scope", "white"}
 
 
 def sniff(document: Document) -> bool:
-    """Return whether a line of units follows the column names, or the file is AvaSoft's binary."""
-    if document.head.startswith(_BINARY):
-        return True
+    """Return whether a line of units follows the column names."""
     return bool(_TWO_LINES.search(document.head.replace(b"\0", b"").replace(b"\r", b"\n")))
 
 
@@ -45,12 +41,8 @@ def read(document: Document) -> list[Sample]:
     Raises
     ------
     InputError
-        The file is binary, holds no reflectance, a field is not a number, or a spectrum is not one.
+        The file holds no reflectance, a field is not a number, or a spectrum is not one.
     """
-    if document.head.startswith(_BINARY):
-        raise document.error(
-            "", "this is a binary file of AvaSoft; export the reflectance as text in AvaSoft"
-        )
     # AvaSoft 7 leaves the zero bytes of its buffer behind the spectrometer's name.
     document = replace(document, data=document.data.replace(b"\0", b""))
     lines = enumerate(tables.lines(document), start=1)

@@ -15,6 +15,7 @@ import re
 from ...sample import Sample
 from ..parts import (
     label_words,
+    long_tables,
     table_start,
     tables,
     wavelengths_across,
@@ -55,6 +56,8 @@ def _may_be_row(line: str) -> bool:
 def read(document: Document) -> list[Sample]:
     """Return one sample a column, or one a row where the wavelengths stand in the header.
 
+    Where a row is one number, with its wavelength, samples are what the other columns tell apart.
+
     Raises
     ------
     InputError
@@ -75,6 +78,9 @@ def read(document: Document) -> list[Sample]:
     while len(header) > 1 and not header[-1]:
         header.pop()  # a delimiter at the end of each line
     tables.check_columns(document, top[0].line, len(header))
+    if len(top) > 1 and long_tables.is_long(header, top[1].fields):
+        next(table)
+        return long_tables.read(document, said, fields, header, top[0].line, table)
     if _is_across(document, header, top, comma):
         next(table)
         if len(top) > 1 and label_words.band(header[0]) and len(top[1].fields) == len(header) + 1:

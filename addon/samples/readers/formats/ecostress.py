@@ -159,7 +159,7 @@ def _values(document: Document, keys: dict[str, Row]) -> tuple[Kind, float, str]
 def _nanometers_per_unit(document: Document, keys: dict[str, Row]) -> float:
     units = keys["x units"]
     unit = label_words.unit_of_wavelengths(units.fields[0])
-    if not unit:
+    if unit not in label_words.NM_PER_UNIT:
         raise document.error(
             f"line {units.line}",
             f"{quote(units.fields[0])} names neither micrometers nor nanometers; add the unit",
@@ -196,7 +196,9 @@ def _quantity(measurement: str, kind: Kind) -> str:
     if kind == "emissivity":
         return "directional emissivity" if "direction" in text else "emissivity"
     if "hemispher" in text:
-        return "directional-hemispherical reflectance"
+        # Spectra joined of two instruments say "bidirectional and directional hemispherical".
+        both = "bidirectional and " if "bidirectional" in text.replace("-", "") else ""
+        return f"{both}directional-hemispherical reflectance"
     return "bidirectional reflectance" if "bidirectional" in text else "reflectance"
 
 

@@ -149,8 +149,7 @@ def _sample(document: Document, block: _Block, notes: list[str]) -> Sample:
         nm = _NM_CM / x
         notes = [*notes, "Wavenumbers were converted to wavelengths."]
     elif unit:
-        factor = label_words.NM_PER_UNIT[unit]
-        nm = x if factor == 1.0 else np.round(x * factor, 9)
+        nm = label_words.to_nanometers(x, unit)
     else:
         raise document.error(
             f"line {block.lines.get('XUNITS', block.line)}, ##XUNITS=",

@@ -122,7 +122,7 @@ def _nanometers_per_unit(document: Document, header: Row) -> float:
     """Return the factor by the name of the first column, which also has to fit the second."""
     text = " ".join(header.fields)
     unit = label_words.unit_of_wavelengths(text)
-    if not unit:
+    if unit not in label_words.NM_PER_UNIT:
         raise document.error(
             f"line {header.line}",
             f"{quote(text)} names neither micrometers nor nanometers; add the unit",

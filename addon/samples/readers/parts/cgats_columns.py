@@ -22,11 +22,11 @@ from .cgats_tables import Table
 from .document import Document, quote
 
 _PERCENT = ("SPEC", "SPECTRAL_PCT")
-_FAMILY = r"SPECTRAL_NM|SPECTRAL_PCT|SPECTRAL_DEC|SPECTRAL|SPECTRUM|SPEC|REFLECTANCE|NM|R"
+_FAMILY = r"SPECTRAL_NM|SPECTRAL_PCT|SPECTRAL_DEC|SPECTRAL|SPECTRUM|SPEC|REFLECTANCE|REFL|NM|R"
 _BAND = re.compile(
     rf"(?:(M[0-3])[_:])?({_FAMILY})_?(\d{{3,4}}(?:\.\d+)?)(?:_?NM)?(?:[_:](M[0-3]))?", re.IGNORECASE
 )
-_BARE = re.compile(r"(\d{3,4}(?:\.\d+)?)_?NM", re.IGNORECASE)
+_BARE = re.compile(r"(\d{3,4}(?:\.\d+)?)(?:_?NM)?", re.IGNORECASE)
 
 # In the order in which they make a name: people's words before places before numbers.
 _NAMES = ("SAMPLENAME", "NAME", "COLORNAME", "PATCHNAME", "SAMPLELOC", "STRING", "SAMPLEID", "ID")

@@ -50,9 +50,13 @@ def find_delimiter(document: Document, start: int = 0) -> tuple[str, int]:
     number, line = top[0]
     if not usual or "|" in line or announced not in ("", usual):
         expected = DELIMITERS.get(announced, EXPECTED)
-        other = next((name for name, n in _marks(line) if n), "nothing that is known")
+        other = next(
+            (name for name, n in _marks(line.strip()) if n and name not in expected),
+            "one column" if not announced else "none of them",
+        )
         raise document.error(
-            f"line {number}", f"expected {expected}, found {other}; export with another delimiter"
+            f"line {number}",
+            f"expected {expected}, found {other}; export a table with wavelengths and values",
         )
     heads = [mark for mark in counts if mark != SPACES and counts[mark][0] >= 2]
     if heads and usual not in heads:

@@ -47,6 +47,13 @@ _INCLUDED = re.compile(
 _EXCLUDED = re.compile(
     r"\b(?:sce|spex|rspex|spe)\b|specular\W*(?:component\W*)?(?:is\W*)?excl|excl\w*\W*specular"
 )
+_MENTIONED = re.compile(
+    r"(?<![\w./:,-])(?:d[ie]?\s*[:/]\s*[08]|[08]\s*[:/]\s*d[ie]?|45[acx]?\s*[:/]\s*0[acx]?|"
+    r"0\s*/\s*45[acx]?|45as[-+]?\d{1,3})(?![\w/:]|\.\d)"
+)
+_SPECULAR_WORDS = re.compile(
+    r"\b(?:SCI|SCE|SPIN|SPEX)\b|[Ss]pecular\W*(?:component\W*)?(?:is\W*)?(?:in|ex)cl"
+)
 
 
 def instrument_of(text: str, specular: str = "") -> tuple[str, str]:
@@ -76,6 +83,26 @@ def instrument_of(text: str, specular: str = "") -> tuple[str, str]:
     name, why = found
     note = f"The geometry {quote(stated)} {why}; it is computed as {_title(name)}." if why else ""
     return name, note
+
+
+def is_geometry(text: str) -> bool:
+    """Return whether a text says a geometry, one of the instruments' or another."""
+    stated = " ".join(text[:_LONGEST].split())
+    if stated in REGISTRY:
+        return True
+    plain = _plain(stated)
+    return bool(_multi_angle(plain) or _sphere(plain, "") or _two_angles(plain))
+
+
+def in_text(text: str) -> tuple[str, str]:
+    """Return the geometry, and ``"SCI"`` or ``"SCE"``, that a sentence mentions; empty if none.
+
+    Only what can be nothing else counts: free text has dates, times and ratios, too.
+    """
+    plain = _plain(text[:_LONGEST])
+    found = _MENTIONED.search(plain)
+    says = bool(found) or bool(_SPECULAR_WORDS.search(text[:_LONGEST]))
+    return (found[0] if found else ""), (specular_of(text) if says else "")
 
 
 def specular_of(text: str) -> str:

@@ -19,7 +19,8 @@ from .....core.instruments import HEMISPHERE, REGISTRY
 from ... import sets
 from ...sample import Sample
 from . import name_marks
-from .geometry_words import ASSUMED, instrument_of
+from .document import quote
+from .geometry_words import ASSUMED, instrument_of, specular_of
 from .name_marks import Mark
 
 ANGLE = "angle "
@@ -54,12 +55,6 @@ def joined(samples: Sequence[Sample]) -> list[Sample]:
     return [sample for _, sample in sorted(found, key=lambda pair: pair[0])]
 
 
-def is_exact(sample: Sample) -> bool:
-    """Return whether the instrument is the geometry that the file states, and not one near it."""
-    stated = _stated(sample)
-    return not stated or not ("azimuth" in stated or instrument_of(stated, sample.specular)[1])
-
-
 def rank(sample: Sample) -> tuple[bool, bool, int, int]:
     """Return what puts the reading first that a set's color is made from.
 
@@ -75,11 +70,7 @@ def rank(sample: Sample) -> tuple[bool, bool, int, int]:
     else:
         kind = 4
     far = 0 if aspecular is None else -abs(aspecular)
-    return sets.is_smooth(sample), not is_exact(sample), kind, far
-
-
-def _stated(sample: Sample) -> str:
-    return sample.geometry[:_LONGEST] or ("d/8" if sample.specular else "")
+    return sets.is_smooth(sample), not sets.is_exact(sample), kind, far
 
 
 def _trusted(samples: Sequence[Sample], marks: list[Mark]) -> list[Mark]:
@@ -131,14 +122,22 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
     if mark.specular and not sample.specular and _may_be_a_sphere(sample):
         note = f"That it is a sphere's reading, {mark.specular}, follows from its name."
         return _measured(sample, sample.geometry or "d/8", note, mark.specular)
-    bare = not sample.geometry or sample.geometry.startswith(ANGLE)
-    if mark.aspecular is not None and bare and not sample.specular:
+    bare = not sample.specular and (not sample.geometry or sample.geometry.startswith(ANGLE))
+    if mark.geometry and bare:
+        note = f"The geometry {mark.geometry} follows from its name."
+        return _measured(sample, mark.geometry, note, specular_of(mark.geometry))
+    if mark.aspecular is not None and bare:
         note = "" if mark.angle is None else _ANGLES
         return _measured(sample, f"45as{mark.aspecular}", note, "")
+    if bare and not sample.geometry and _MULTI_ANGLE.search(sample.device[:_LONGEST]):
+        return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *sample.notes))
     return sample
 
 
 _ANGLES = "Its angle is taken from the mirror direction, with light at 45°: a multi-angle device's."
+_NO_ANGLE = (
+    "The device {} reads at several angles, and the file does not say at which; 45°/0° is assumed."
+)
 
 
 def _may_be_a_sphere(sample: Sample) -> bool:
@@ -147,13 +146,13 @@ def _may_be_a_sphere(sample: Sample) -> bool:
 
 def _measured(sample: Sample, geometry: str, note: str, specular: str) -> Sample:
     """Return a sample measured so, with the notes on its geometry instead of those before."""
-    before = instrument_of(sample.geometry, sample.specular)[1]
+    before = {instrument_of(said, sample.specular)[1] for said in (sample.geometry, geometry)}
     instrument, why = instrument_of(geometry, specular)
-    kept = (text for text in sample.notes if text != before)
+    kept = (text for text in sample.notes if text not in before)
     return replace(
         sample,
         instrument=instrument,
-        geometry=sample.geometry if specular else geometry,
+        geometry=geometry if geometry != "d/8" else sample.geometry,
         specular=specular,
         notes=(*(text for text in (note, why) if text), *kept),
     )
@@ -205,10 +204,10 @@ def _joint(members: list[Sample], marks: list[Mark]) -> Sample | None:
 
 def _key(sample: Sample) -> tuple[bool, str]:
     """Return which reading of a set one is; the text is empty where nothing says."""
-    stated = _stated(sample)
+    stated = sets.stated(sample)
     if not stated and sample.instrument == ASSUMED:
         return sets.is_smooth(sample), ""
-    known = sample.instrument if is_exact(sample) else f"{stated} {sample.specular}"
+    known = sample.instrument if sets.is_exact(sample) else f"{stated} {sample.specular}"
     return sets.is_smooth(sample), known
 
 

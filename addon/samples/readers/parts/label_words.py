@@ -8,17 +8,23 @@ import re
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .....core.instruments import REGISTRY
 from ....support.shown_text import ESCAPED
 from ...sample import Kind
 from ...stated_white import fields as white_fields
 from . import name_marks
 from .document import Document, quote
+from .geometry_words import in_text
 from .tables import lines
 
 T = TypeVar("T")
 
-NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0}
+NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0, "Å": 0.1}
+NM_TIMES_UNIT = {"cm⁻¹": 1e7, "THz": 299_792.458, "eV": 1239.8419843320026}
+"""What an abscissa other than a wavelength is divided into to give nm: c, and h c / e of CODATA."""
 
 _BAND = re.compile(
     # What stands before: R400, %R400, nm400, SPECTRAL_NM_400, X400 (as R names columns), R[400].
@@ -31,11 +37,25 @@ _LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a n
 # ArgyllCMS' family of names is percent, as CGATS readers know.
 _SPEC = re.compile(r"spec_\d", re.IGNORECASE)
 _UNIT = re.compile(
-    r"[\[(]?(?:nm|[µμu]m|nanomet\w+|micromet\w+|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
+    r"[\[(]?(?:nm|[µμu]m|nanomet\w+|micromet\w+|å|angstroms?|1/cm|cm\^?-1|cm⁻¹|thz|ev|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
     r"(?: ?(?:r|refl\w*|t|transm\w*|abs\w*))?[\])]?",
     re.IGNORECASE,
 )
-_WAVELENGTH = re.compile(r"(?:wave[ _-]?lengths?|wl|lambda|λ|nm)(?![a-z])", re.IGNORECASE)
+_WAVELENGTH = re.compile(
+    r"(?:wave[ _-]?(?:lengths?|numbers?)|wvl|wl|lambda|λ|nm|1/cm|cm\^?-1|cm⁻¹|thz|ev)(?![a-z])|"
+    r"(?:photon )?(?:frequency|energy)\s*[\[(/,]",
+    re.IGNORECASE,
+)
+_FREQUENCY = re.compile(r"\bfrequenc|\bphoton energ", re.IGNORECASE)
+_RAMAN = re.compile(r"\braman\b|\bshift\b", re.IGNORECASE)
+_OTHER_UNITS = {
+    "Å": re.compile(r"\bangstr|å\b|[\[(]\s*a\s*[\])]", re.IGNORECASE),
+    "cm⁻¹": re.compile(
+        r"cm\s*\^?\s*[-−–]\s*1\b|cm⁻¹|\b1\s*/\s*cm\b|wave[ _-]?number", re.IGNORECASE
+    ),
+    "THz": re.compile(r"\bthz\b|terahertz", re.IGNORECASE),
+    "eV": re.compile(r"\bev\b|electron ?volts?", re.IGNORECASE),
+}
 _MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\b", re.IGNORECASE)
 # "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
 _PERCENT = re.compile(r"(?<!\d)(?<!\d )(?:%|\bpercent\b|\bpct\b)", re.IGNORECASE)
@@ -55,6 +75,10 @@ _KINDS: dict[str, Kind] = {
 _WAVELENGTH_UNITS = {
     **dict.fromkeys(("nm", "nanometer", "nanometers", "nanometre", "nanometres"), "nm"),
     **dict.fromkeys(("um", "µm", "μm", "micron", "microns", "micrometer", "micrometers"), "µm"),
+    **dict.fromkeys(("Å", "å", "angstrom", "angstroms"), "Å"),
+    **dict.fromkeys(("cm-1", "cm^-1", "cm⁻¹", "1/cm", "wavenumber", "wavenumbers"), "cm⁻¹"),
+    **dict.fromkeys(("thz", "THz"), "THz"),
+    **dict.fromkeys(("ev", "eV"), "eV"),
 }
 
 
@@ -63,7 +87,8 @@ class Comments:
     """What the comment lines state; `scale` is None where they say nothing of percent.
 
     `escaped` tells whether names are as `shown_text.to_cell` writes them. `others` are all further
-    keys and values, which `statements` knows, as those of lines above a table.
+    keys and values, which `statements` knows, as those of lines above a table; free text has no
+    key. `measured` keeps what it found in them, for all samples.
     """
 
     kind: Kind = "reading"
@@ -72,6 +97,7 @@ class Comments:
     texts: dict[str, Any] = field(default_factory=dict)
     escaped: bool = False
     others: list[tuple[str, str]] = field(default_factory=list)
+    measured: dict[str, Any] | None = None
 
 
 def band(label: str) -> float | None:
@@ -144,7 +170,34 @@ def unit_of_wavelengths(label: str) -> str:
     """Return the unit that the wavelength column's name states, or an empty string."""
     if _MICROMETERS.search(label):
         return "µm"
-    return "nm" if re.search(r"\bnm\b|nanomet", label, re.IGNORECASE) else ""
+    if re.search(r"\bnm\b|nanomet", label, re.IGNORECASE):
+        return "nm"
+    return next((unit for unit, pattern in _OTHER_UNITS.items() if pattern.search(label)), "")
+
+
+def no_wavelength(label: str) -> str:
+    """Return what the column named as the one with the wavelengths holds instead, or nothing."""
+    if _RAMAN.search(label):
+        return "a Raman shift, which is no wavelength"
+    if _FREQUENCY.search(label) and not unit_of_wavelengths(label):
+        return "a frequency or an energy without its unit"
+    return ""
+
+
+def to_nanometers(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
+    """Return wavelengths in nm of numbers in one of the units that `unit_of_wavelengths` knows.
+
+    Examples
+    --------
+    >>> to_nanometers(np.array([20000.0, 25000.0]), "cm⁻¹").tolist()
+    [500.0, 400.0]
+    """
+    if unit in NM_TIMES_UNIT:
+        with np.errstate(divide="ignore", over="ignore"):
+            return np.round(NM_TIMES_UNIT[unit] / values, 6)
+    factor = NM_PER_UNIT[unit]
+    # Rounded to 1e-9 nm: 0.57 µm is 570 nm, while the product of the two floats is not.
+    return values if factor == 1.0 else np.round(values * factor, 9)
 
 
 def says_percent(label: str) -> bool:
@@ -187,9 +240,13 @@ def comments(document: Document) -> Comments:
             found.escaped = value.startswith(ESCAPED)
         elif key in ("white", "white_factor"):
             white[key], white_line = value, number
-        elif key == "instrument" and value and value not in REGISTRY:
-            found.texts["device"] = value
-        elif key in ("instrument", "source", "license", "device", "condition"):
+        elif key == "instrument" and value:
+            # Our own tables of several readings list them; each row has its own.
+            if value in REGISTRY:
+                found.others.append(("geometry", value))
+            elif not {name.strip() for name in value.split(",")} <= REGISTRY.keys():
+                found.texts["device"] = value
+        elif key in ("source", "license", "device", "condition"):
             if value:
                 found.texts[key] = value
         elif not stated and percent_of_values(text):
@@ -198,6 +255,8 @@ def comments(document: Document) -> Comments:
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
         elif pair and value:
             found.others.append((pair[1], value))
+        elif text.strip() and any(in_text(text)):
+            found.others.append(("", text))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))
     if fault:
         raise document.error(f"line {white_line}", fault)

@@ -3,7 +3,7 @@
 """What the end of a sample's name says of the measurement: specular light in or out, an angle.
 
 Software of spheres and of multi-angle instruments writes ``Tile (SCI)`` and ``Tile SCE``,
-``Tile 45as15``, ``Tile as-15`` and ``Tile 15°``.
+``Tile 45as15``, ``Tile as-15`` and ``Tile 15°``; others ``Tile (d/8 SCI)`` and ``Tile 45a:0``.
 """
 
 from __future__ import annotations
@@ -22,8 +22,20 @@ _IN_BRACKETS = re.compile(rf"\s*[(\[]\s*(?:({_SPECULAR})|{_ANGLE}|{_BARE})\s*[)\
 _BEHIND = re.compile(
     rf"(?:^|[\s_.,;:/-])({_SPECULAR})$|(?:^|[\s_.,;:/]){_ANGLE}$|(?:^|[\s_.,;:/]){_BARE}$"
 )
-_BEFORE = re.compile(rf"\s*[(\[]?\s*({_SPECULAR})\s*[)\]]?[\s_.,;:-]+", re.IGNORECASE)
-_AFTER = re.compile(rf"[\s_.,;:-]*[(\[]?\s*({_SPECULAR})\s*[)\]]?\s*$", re.IGNORECASE)
+# In brackets any angle beside 45° or a sphere; without, what can hardly be a ratio.
+_RING, _TO = r"[acx]?", r"\s?[:/]\s?"
+_SPHERE = rf"d[ie]?{_TO}[08]°?|[08]°?{_TO}d[ie]?"
+_ANGLES = rf"45°?{_RING}{_TO}\d{{1,2}}°?{_RING}|\d{{1,2}}°?{_RING}{_TO}45°?{_RING}"
+_NORMAL = rf"45°?{_RING}{_TO}0°?{_RING}|0°?{_RING}{_TO}45°?{_RING}"
+_SAID = rf"(?:-iso|,?\s{_SPECULAR})?"
+_GEOMETRY = re.compile(
+    rf"\s*[(\[]\s*((?:{_SPHERE}|{_ANGLES}){_SAID})\s*[)\]]$|"
+    rf"(?:^|[\s_])((?:{_SPHERE}|{_NORMAL}){_SAID})$",
+    re.IGNORECASE,
+)
+_OF_BAND = rf"({_SPECULAR}|{_ANGLE}|{_BARE})"
+_BEFORE = re.compile(rf"\s*[(\[]?\s*{_OF_BAND}\s*[)\]]?[\s_.,;:-]+", re.IGNORECASE)
+_AFTER = re.compile(rf"[\s_.,;:-]*[(\[]?\s*{_OF_BAND}\s*[)\]]?\s*$", re.IGNORECASE)
 _AS = re.compile(rf"\s*{_ANGLE}\s*", re.IGNORECASE)
 _ALONE = re.compile(r"\s*([-+\u2212]?\d{1,3})(?:[.,]0+)?\s*(?:°|º|deg\w*)?\s*", re.IGNORECASE)
 
@@ -44,6 +56,8 @@ class Mark:
         Degrees of an angle that is not said to be one from the mirror direction, or None.
     sure
         Whether it stands in brackets, or could be nothing else.
+    geometry
+        In its words, where they are more than a specular component or an angle.
     """
 
     base: str
@@ -51,34 +65,46 @@ class Mark:
     aspecular: int | None = None
     angle: int | None = None
     sure: bool = False
+    geometry: str = ""
 
 
 def of_name(name: str) -> Mark:
     """Return what the end of a name says; the whole name where that is nothing."""
     end = name[-_LONGEST:]
     inside = _IN_BRACKETS.search(end)
-    match = inside or _BEHIND.search(end)
-    if not match:
-        return Mark(name)
+    match = _GEOMETRY.search(end) or inside or _BEHIND.search(end)
+    if not match or match.re is _GEOMETRY:
+        return _of_geometry(name, match) if match else Mark(name)
     base = name[: len(name) - len(match[0])].rstrip()
     if match[1]:
-        return Mark(base, specular=specular_of(match[1]), sure=bool(inside and base))
+        return Mark(base, specular=_component(match[1]), sure=bool(inside and base))
     if match[3]:
         return Mark(base, aspecular=_degrees(match[3]), sure=bool(match[2]))
     return Mark(base, angle=_degrees(match[4]))
 
 
-def of_band(label: str) -> tuple[str, str]:
-    """Return the name of a column of a band without a mark, and ``"SCI"``, ``"SCE"`` or nothing.
+def _of_geometry(name: str, match: re.Match[str]) -> Mark:
+    words = match[1] or match[2]
+    return Mark(name[: len(name) - len(match[0])].rstrip(), geometry=words, sure=True)
 
-    Such as ``400 nm(SCI)``, ``SCE 400`` and ``R400_SPEX``.
+
+def of_band(label: str) -> tuple[str, str]:
+    """Return the name of a column of a band without a mark, and that mark.
+
+    Such as ``400 nm(SCI)``, ``SCE 400``, ``R400_SPEX``, ``400 nm (45as15)`` and ``400nm 15°``; the
+    mark is ``"SCI"``, ``"SCE"``, or an angle in the words of the label.
     """
     for pattern in (_AFTER, _BEFORE):
         match = pattern.search(label) if pattern is _AFTER else pattern.match(label)
         if match:
             rest = label[: match.start()] + label[match.end() :]
-            return rest.strip(), specular_of(match[1])
+            return rest.strip(), _component(match[1]) or match[1].strip()
     return label, ""
+
+
+def _component(word: str) -> str:
+    """Return ``"SCI"`` or ``"SCE"`` of a makers' word, which may begin with R, as RSPIN does."""
+    return specular_of(re.sub("^r", "", word, flags=re.IGNORECASE))
 
 
 def aspecular_of(text: str) -> int | None:

@@ -8,7 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import label_words
-from .document import Document
+from .document import Document, quote
+
+_LONGEST_SEEN = 3000.0
+"""Nanometers; a table that begins beyond has to say so."""
 
 
 def nanometers(
@@ -16,20 +19,35 @@ def nanometers(
 ) -> NDArray[np.float64]:
     """Return the wavelengths in nm, by the unit that a column name or a comment states.
 
+    Wavenumbers, frequencies and photon energies become wavelengths. Where nothing states a unit
+    they are nanometers, unless no number could be one of light that is seen.
+
     Raises
     ------
     InputError
-        The two disagree.
+        The two disagree, the column holds something else, or its unit is missing and not nm.
     """
+    other = next(filter(None, map(label_words.no_wavelength, labels)), "")
+    if other and not said.wavelength_unit:
+        raise document.error(
+            f"column {quote(labels[0])}", f"it holds {other}; export the spectrum over wavelength"
+        )
     units = {unit for unit in map(label_words.unit_of_wavelengths, labels) if unit}
     units |= {said.wavelength_unit} if said.wavelength_unit else set()
     if len(units) > 1:
         raise document.error(
             "wavelength unit", "the comment and the column name disagree; make them agree"
         )
-    factor = label_words.NM_PER_UNIT[units.pop()] if units else 1.0
-    # Rounded to 1e-9 nm: 0.57 µm is 570 nm, while the product of the two floats is not.
-    return found if factor == 1.0 else np.round(found * factor, 9)
+    if units:
+        return label_words.to_nanometers(found, units.pop())
+    if found.size and (found > _LONGEST_SEEN).all() and (found < np.inf).all():
+        raise document.error(
+            "wavelength unit",
+            f"the wavelengths, {found.min():g} to {found.max():g}, have no unit and are not "
+            "nanometers of light that is seen; call their column 'wavelength (nm)', "
+            "'wavenumber (cm-1)' or what they are",
+        )
+    return found
 
 
 def scale(document: Document, said: label_words.Comments, place: str, labels: list[str]) -> float:

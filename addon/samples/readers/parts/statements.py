@@ -16,7 +16,15 @@ from .....core.numerics.memoized import memoized
 from ...sample import MOST_GLOSS_UNITS, Sample
 from . import joining, name_marks, tables
 from .document import Document, quote
-from .geometry_words import EMITTED, EMITTING, instrument_of, specular_of
+from .geometry_words import (
+    EMITTED,
+    EMITTING,
+    geometry_of_device,
+    in_text,
+    instrument_of,
+    is_geometry,
+    specular_of,
+)
 from .label_words import Comments
 from .series import Bands
 
@@ -42,14 +50,24 @@ _KEYS = {
     **dict.fromkeys(("measuringmode", "measuremode", "filter", "uvfilter"), "condition"),
     **dict.fromkeys(("specular", "specularcomponent", "specularmode", "scisce"), "specular"),
     **dict.fromkeys(("spex", "sci", "sce", "gloss", "reflectancemode", "viewing"), "specular"),
+    **dict.fromkeys(("spin", "specularincluded", "specularexcluded"), "specular"),
     **dict.fromkeys(("surface", "surfacestate"), "surface"),
     **dict.fromkeys(("aspecular", "aspecularangle", "effectangle"), "aspecular"),
-    **dict.fromkeys(("angle", "measurementangle", "measuringangle", "viewingangle"), "angle"),
+    **dict.fromkeys(("angle", "measurementangle", "measuringangle"), "angle"),
+    **dict.fromkeys(("viewangle", "viewingangle", "detectorangle", "thetar", "thetav"), "view"),
+    **dict.fromkeys(("observationangle", "detectionangle", "reflectionangle"), "view"),
+    **dict.fromkeys(("lightangle", "illuminationangle", "illuminatingangle", "thetai"), "lit"),
+    **dict.fromkeys(("incidence", "incidenceangle", "angleofincidence", "incidentangle"), "lit"),
     **dict.fromkeys(("gu", "glossunits", "glossvalue", "glossunit"), _GLOSS),
     **dict.fromkeys(("sample", "samplename", "name", "sampleid", "dataname", "target"), "name"),
 }
-_GEOMETRIES = {"geometry", "specular", "aspecular", "angle"}
-_OF_MEASUREMENTS = {*_GEOMETRIES, "aperture", "surface", "gloss"}
+GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit"}
+"""Fields of `stated` from which the geometry follows."""
+_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss"}
+_REMARK = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
+_YES, _NO = {"yes", "y", "true", "1", "on", "x"}, {"no", "n", "false", "0", "off"}
+_BOTH = re.compile(r"sc[ie]|sp(?:in|ex)|i\+e|both|incl|excl", re.IGNORECASE)
+_DEGREES = re.compile(r"\s*([-+\u2212]?\d{1,2}(?:[.,]\d+)?)\s*(?:°|º|deg\w*)?\s*", re.IGNORECASE)
 _CONDITION = re.compile(r"\bM[0-3]\b", re.IGNORECASE)
 _OBSERVER = re.compile(r"(?<![\d.])(2|10)\s*(?:°|º|deg\w*|\b)", re.IGNORECASE)
 # Names of CIE illuminants: A, C, D50, D65, D75, F2 … F12 (also FL2), LED-B1.
@@ -60,12 +78,19 @@ _COLOR = re.compile(r"(?:cie[ _-]*)?([lab])(?:\s*\*)?\s*(?:[\[(](.*)[\])])?", re
 def field_of(key: str) -> str:
     """Return the field that a key names, or nothing.
 
-    ``"light"`` is illuminant and observer; ``"gloss units 60"`` and its like, ``"aspecular"`` and
-    ``"angle"`` become fields in `finish`.
+    ``"light"`` is illuminant and observer; ``"gloss units 60"`` and its like, ``"aspecular"``,
+    ``"angle"``, ``"lit"`` and ``"view"``, the angles of both, become fields in `finish`. What
+    stands in brackets behind a key, such as a unit, counts for nothing.
     """
-    plain = re.sub(r"[^a-z0-9]", "", key.lower())
+    plain = _plain(key)
     gloss = _GLOSS_KEY.fullmatch(plain)
-    return f"{_GLOSS} {gloss[1] or gloss[2]}" if gloss else _KEYS.get(plain, "")
+    if gloss:
+        return f"{_GLOSS} {gloss[1] or gloss[2]}"
+    return _KEYS.get(plain) or _KEYS.get(_plain(_REMARK.sub("", key)), "")
+
+
+def _plain(key: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", key.lower())
 
 
 @memoized(maxsize=1024)
@@ -76,7 +101,7 @@ def stated(key: str, value: str) -> Mapping[str, Any]:
     """
     value = value.strip().strip('"').strip()
     field = field_of(key)
-    if not value or not field:
+    if not value or not field or (field in GEOMETRIES and tables.is_missing(value)):
         return {}
     if field == "light":
         return light(value)
@@ -85,16 +110,24 @@ def stated(key: str, value: str) -> Mapping[str, Any]:
         return {"observer": int(found[1])} if found else {}
     if field == "condition":
         condition = _CONDITION.search(value)
-        specular = specular_of(value)
-        return {"condition": condition[0].upper()} if condition else _specular(specular)
+        if condition:
+            return {"condition": condition[0].upper()}
+        return {"geometry": value} if is_geometry(value) else _specular(specular_of(value))
     if field == "specular" and _UNITS.fullmatch(value) and "gloss" in key.lower():
         field = _GLOSS  # a column "Gloss" has one or the other
     if field == "specular":
-        # A key such as "SCI" has a value such as "yes"; the words of both say it together.
-        return _specular(specular_of(value) or specular_of(f"specular {value}"))
+        return _stated_specular(key, value)
     if field == "device" and value in REGISTRY:
         return {"geometry": value}
+    if field == "geometry" and name_marks.angle_of(value) is not None:
+        return {"angle": value}
     return {field: value}
+
+
+def mentioned(text: str) -> Mapping[str, Any]:
+    """Return the geometry and the specular component that free text mentions, as `stated` does."""
+    geometry, specular = in_text(text)
+    return ({"geometry": geometry} if geometry else {}) | _specular(specular)
 
 
 def light(text: str) -> dict[str, Any]:
@@ -130,8 +163,15 @@ def finish(fields: dict[str, Any]) -> dict[str, Any]:
     notes = _take_gloss(found)
     _take_angle(found)
     geometry, specular = found.get("geometry", ""), found.get("specular", "")
-    if geometry or specular:
-        found["instrument"], note, found["specular"] = _instrument(geometry, specular)
+    # A sphere's, and not one of both readings.
+    sphere = "d/8" if found.pop("sphere", "") else ""
+    device = found.get("device", "")
+    of_device = "" if geometry or specular or sphere else geometry_of_device(device)
+    if of_device:
+        notes.insert(0, f"The geometry {of_device} is that of the device {quote(device)}.")
+    if geometry or specular or sphere or of_device:
+        known = geometry or sphere or of_device
+        found["instrument"], note, found["specular"] = _instrument(known, specular)
         notes = [note, *notes] if note else notes
     if notes:
         found["notes"] = tuple(notes)
@@ -141,7 +181,15 @@ def finish(fields: dict[str, Any]) -> dict[str, Any]:
 def _take_angle(found: dict[str, Any]) -> None:
     """Turn an angle that is stated by itself into words of the geometry."""
     aspecular, angle = found.pop("aspecular", ""), found.pop("angle", "")
-    said = aspecular or angle
+    lit, view = found.pop("lit", ""), found.pop("view", "")
+    if lit and not (aspecular or angle):
+        of_light, of_view = _DEGREES.fullmatch(lit), _DEGREES.fullmatch(view)
+        words = f"light at {lit}, view at {view or 'an angle that is not said'}"
+        if of_light and of_view:
+            words = f"{of_light[1]}:{of_view[1]} directional".replace("\u2212", "-")
+        found.setdefault("geometry", words)
+        return
+    said = aspecular or angle or view
     if not said:
         return
     degrees = name_marks.aspecular_of(said)
@@ -203,10 +251,12 @@ def make(
     Comments come first, but for how it was measured: there they stand for all samples of the file,
     and what is said of one of them counts more.
     """
-    known = finish(_measured(said, fields) | fields)
+    device = said.texts.get("device", "")
+    known = finish(({"device": device} if device else {}) | _measured(said, fields) | fields)
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
+    texts |= {"device": known["device"]} if "device" in known else {}
     if said.kind == "emissivity":
         texts |= {"quantity": "emissivity", "instrument": EMITTING}
         notes = (*notes, EMITTED)
@@ -224,13 +274,34 @@ def make(
 
 def _measured(said: Comments, fields: dict[str, Any]) -> dict[str, Any]:
     """Return what comments say of the measurement, nothing of what a sample's own geometry says."""
+    if said.measured is None:
+        said.measured = _of_comments(said)
+    found = said.measured
+    if fields.keys() & GEOMETRIES:
+        found = {key: value for key, value in found.items() if key not in GEOMETRIES}
+    return found
+
+
+def _of_comments(said: Comments) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in said.others:
         if field_of(key).partition(" ")[0] in _OF_MEASUREMENTS:
             found |= stated(key, value)
-    if fields.keys() & _GEOMETRIES:
-        found = {key: value for key, value in found.items() if key not in _GEOMETRIES}
+    if not found.keys() & GEOMETRIES:
+        for key, value in said.others:
+            found |= mentioned(f"{key}: {value}") if not field_of(key) else {}
     return found
+
+
+def _stated_specular(key: str, value: str) -> dict[str, Any]:
+    """Return what a key such as "Specular component", "SCI" or "specular excluded" says."""
+    said = specular_of(value) or specular_of(f"specular {value}")
+    asked = specular_of(key.replace("_", " "))
+    if not said and asked and value.lower() in _YES | _NO:
+        said = asked if value.lower() in _YES else {"SCI": "SCE", "SCE": "SCI"}[asked]
+    if said:
+        return _specular(said)
+    return {"sphere": value} if _BOTH.search(value) else {}
 
 
 def _specular(found: str) -> dict[str, Any]:

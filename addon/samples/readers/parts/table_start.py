@@ -20,6 +20,7 @@ from .tables import DELIMITERS, SPACES
 _SEARCHED = 400  # lines; the longest preamble known has about 90
 _ROWS_BETWEEN = 8  # between the names of columns and the first numbers
 _ENOUGH = 64  # fields of a row
+_WORDS_OF_A_TITLE = 2  # "Log(1/R)", "Transmittance [%]"; names of samples may be longer
 _LONGEST = 4096  # characters of a line that decide what it is
 LEAST_BAND = 100.0
 """Names of columns in nanometers start here: samples are called 1, 2, 3 more often than 100."""
@@ -46,7 +47,8 @@ def find_start(document: Document) -> int:
     for k, (i, line) in enumerate(content):
         following = content[k + 1][1] if k + 1 < len(content) else ""
         if _names_bands(line, following, first=k == 0) or (
-            _names_wavelengths(line) and _numbers_follow(content[k + 1 : k + 1 + _ROWS_BETWEEN])
+            _names_wavelengths(line, first=k == 0)
+            and _numbers_follow(content[k + 1 : k + 1 + _ROWS_BETWEEN])
         ):
             return i
         mark = _numbers_by(line)
@@ -64,6 +66,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         One of them says that the values are another quantity.
     """
     found: dict[str, Any] = {}
+    free: dict[str, Any] = {}
     for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
         text = line[:_LONGEST].strip().strip("\t;,").strip()
         if not text or text.startswith("#") or (number == 1 and tables.announced(line)):
@@ -71,6 +74,8 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         key, value = _key_and_value(text)
         for field, content in statements.stated(key, value).items():
             found.setdefault(field, content)
+        if not statements.field_of(key):
+            free |= statements.mentioned(f"{key}: {value}")
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
             if other == "emissivity":
@@ -79,9 +84,12 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
                 raise document.not_reflectance(f"line {number}", other)
             if said.scale is None and "%" in value:
                 said.scale = 100.0
+        title = series.other_quantity(text) if len(text.split()) <= _WORDS_OF_A_TITLE else ""
+        if title and title != "emissivity" and not _header_says_reflectance(document, start):
+            raise document.not_reflectance(f"line {number}", title)
         if said.scale is None and label_words.percent_of_values(text):
             said.scale = 100.0
-    return found
+    return found if found.keys() & statements.GEOMETRIES else found | free
 
 
 def _header_says_reflectance(document: Document, start: int) -> bool:
@@ -110,9 +118,11 @@ def _cells(line: str, mark: str, longest: int | None = _LONGEST) -> list[str]:
     return cells
 
 
-def _names_wavelengths(line: str) -> bool:
+def _names_wavelengths(line: str, *, first: bool) -> bool:
     return any(
-        len(cells) > 1 and any(map(label_words.is_wavelength, cells[:3]))
+        len(cells) > 1
+        and any(map(label_words.is_wavelength, cells[:3]))
+        and (first or not label_words.is_unit_row(cells))  # names stand above their units
         for cells in (_cells(line, mark) for mark in (*DELIMITERS, "|"))
     )
 

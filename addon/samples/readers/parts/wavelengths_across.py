@@ -31,7 +31,7 @@ _NAME_COLUMN = re.compile(
 )
 _ID_COLUMN = re.compile(r"(?:sample[ _-]?)?(?:id|index|no\.?|number)", re.IGNORECASE)
 _Part = tuple[str, list[int], Array, Array]
-"""What the bands' names say of specular light, the places among the bands, wavelengths, values."""
+"""What the bands' names say of the measurement, the places among the bands, wavelengths, values."""
 
 _NAMED = 8  # how many of the columns not read a note names
 
@@ -97,7 +97,7 @@ def read(
         if lab:
             own["lab"] = lab
         alone = document.path.stem if len(block.lines) == 1 else f"{document.path.stem} {i + 1}"
-        for specular, columns, nm, rows in parts:
+        for mark, columns, nm, rows in parts:
             found = series.bands(
                 nm,
                 rows[i],
@@ -108,7 +108,7 @@ def read(
                 statements.make(
                     document,
                     said,
-                    own | ({"specular": specular} if specular else {}),
+                    own | _of_mark(mark),
                     found,
                     name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
                     position=f"line {row}",
@@ -118,8 +118,17 @@ def read(
     return samples
 
 
+def _of_mark(mark: str) -> dict[str, Any]:
+    """Return what the mark of the bands' names says, in the fields of `statements.stated`."""
+    if not mark:
+        return {}
+    if mark in ("SCI", "SCE"):
+        return {"specular": mark}
+    return {"aspecular" if name_marks.aspecular_of(mark) is not None else "angle": mark}
+
+
 def _parts(labels: list[str], nm: Array, values: Array) -> list[_Part]:
-    """Return the spectra of which each row has one: with specular light and without, or just one.
+    """Return the spectra of which each row has one: SCI and SCE, angles, or just one.
 
     So that no sample copies them, the arrays are read-only.
     """

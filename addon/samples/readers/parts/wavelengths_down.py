@@ -28,15 +28,16 @@ from .wavelengths_across import not_read
 
 # A single column with such a name says what is in it, not which sample it is.
 _QUANTITY = re.compile(
-    r"%?\s*(?:reflectance|reflectance[ _]factor|reflectivity|albedo|reading|emissivity|values?|r|y|"
-    r"spectrum)?"
+    r"%?\s*(?:reflectance|reflect\.?|refl\.?|reflectance[ _]factor|reflectivity|albedo|reading|"
+    r"emissivity|values?|r|y|spectrum)?"
     r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
     re.IGNORECASE,
 )
 _NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
 # What stands beside a spectrum and is none.
 _ASIDE = re.compile(
-    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?",
+    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?|"
+    r"chan(?:nel)?s?\.?\s*#?|#|unnamed: 0",
     re.IGNORECASE,
 )
 # Names of columns that say what they are only together; their marks and brackets do not count.
@@ -94,6 +95,12 @@ def read(
         raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
     if {header[i].lower() for i in columns} == _PRIMARIES and shapes.all_vanish(values):
         raise document.not_reflectance("", _TOGETHER[frozenset("rgb")])
+    if len(columns) == 3 and not any(header[i] for i in columns) and shapes.all_vanish(values):
+        raise document.error(
+            "",
+            "three columns without names that all come down to nothing are the sensitivities of a "
+            "camera, not reflectance; if they are samples, give the columns names",
+        )
     samples = []
     for i, column in enumerate(columns):
         label = header[column]
@@ -123,6 +130,11 @@ def read(
             )
         )
     return samples
+
+
+def names_quantity(label: str) -> bool:
+    """Return whether a column's name says what is in it, and not which sample it is."""
+    return bool(label and _QUANTITY.fullmatch(label))
 
 
 def _check_kind(
@@ -182,7 +194,12 @@ def _columns(
     aside = {
         i
         for i in rest
-        if len(rest) > 1 and (_ASIDE.fullmatch(header[i]) or (named and _RAW.fullmatch(header[i])))
+        if len(rest) > 1
+        and (
+            _ASIDE.fullmatch(header[i])
+            or (named and _RAW.fullmatch(header[i]))
+            or (i < axis and not header[i])  # pandas writes its index without a name
+        )
     }
     found = [i for i in rest if not others[i] and i not in aside]
     if not found:
@@ -203,7 +220,7 @@ def _rows_above_numbers(
     for row in table:
         cells = [cell.strip() for cell in row.fields[: len(header)]]
         key = cells[axis] if axis < len(cells) else ""
-        if label_words.is_unit_row(cells) and not any(map(str.isdigit, "".join(cells))):
+        if label_words.is_unit_row(cells):
             units[: len(cells)] = cells
         elif statements.field_of(key):
             for i, cell in enumerate(cells):

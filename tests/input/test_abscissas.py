@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables whose first column is no wavelength in nm, and others that were once read wrong."""
+
+import numpy as np
+import pytest
+from rough_spectra.addon.samples import readers
+from rough_spectra.core.errors import InputError
+
+NM = np.array([400.0, 500.0, 600.0, 700.0])
+H_C_OVER_E = 6.62607015e-34 * 299792458 / 1.602176634e-19  # exact since 2019, eV m
+
+
+def read(tmp_path, text, name="wall.csv"):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return readers.read(path)
+
+
+def table(head, numbers):
+    rows = (f"{x!r},{value}" for x, value in zip(numbers, (0.125, 0.25, 0.5, 0.75), strict=True))
+    return "\n".join((head, *rows, ""))
+
+
+@pytest.mark.parametrize(
+    ("head", "numbers"),
+    [
+        ("wavenumber (cm-1),brick", 1e7 / NM),
+        ("Wavenumber,brick", 1e7 / NM),
+        ("cm^-1,brick", 1e7 / NM),
+        ("1/cm,brick", 1e7 / NM),
+        ("ν [cm⁻¹],brick", 1e7 / NM),
+        ("# wavelength_unit: cm-1\nx,brick", 1e7 / NM),
+        ("x,brick\ncm-1,%", 1e7 / NM),
+        ("Frequency (THz),brick", 299792.458 / NM),
+        ("THz,brick", 299792.458 / NM),
+        ("Energy (eV),brick", H_C_OVER_E * 1e9 / NM),
+        ("photon energy [eV],brick", H_C_OVER_E * 1e9 / NM),
+        ("Wavelength (Å),brick", NM * 10),
+        ("wavelength in angstrom,brick", NM * 10),
+        ("wavelength (um),brick", NM / 1000),
+    ],
+)
+def test_what_is_stated_becomes_nanometers(tmp_path, head, numbers):
+    (sample,) = read(tmp_path, table(head, numbers.tolist()))
+    np.testing.assert_allclose(sample.wavelengths, NM, atol=1e-6)
+    scale = 100 if "%" in head else 1
+    np.testing.assert_allclose(sample.values * scale, [0.125, 0.25, 0.5, 0.75], rtol=1e-15)
+    assert sample.name == "brick"
+
+
+@pytest.mark.parametrize(
+    ("head", "numbers", "said"),
+    [
+        ("Frequency,brick", 299792.458 / NM, "a frequency or an energy without its unit"),
+        ("Raman shift (cm-1),brick", 1e7 / NM, "a Raman shift"),
+        ("x,brick", 1e7 / NM, "14285.7 to 25000, have no unit"),
+        ("wavelength,brick", NM * 10, "4000 to 7000, have no unit"),
+        ("wavelength (nm),brick\n1/cm,-", NM, "disagree"),
+        ("wavelength (um),brick\nnm,-", NM, "disagree"),
+    ],
+)
+def test_what_is_no_wavelength_is_refused(tmp_path, head, numbers, said):
+    with pytest.raises(InputError, match=r"wall\.csv") as caught:
+        read(tmp_path, table(head, numbers.tolist()))
+    assert said in str(caught.value)
+
+
+def test_far_infrared_that_says_its_unit_is_read(tmp_path):
+    (sample,) = read(tmp_path, table("wavelength (nm),brick", [8000, 10000, 12000, 14000]))
+    assert sample.wavelengths.tolist() == [8000, 10000, 12000, 14000]
+
+
+def test_the_index_that_pandas_writes_is_no_sample(tmp_path):
+    for first in ("", "Unnamed: 0"):
+        text = f"{first},wavelength,brick\n0,400,0.125\n1,500,0.25\n2,600,0.5\n"
+        (sample,) = read(tmp_path, text)
+        assert (sample.name, sample.values.tolist()) == ("brick", [0.125, 0.25, 0.5])
+
+
+def test_spectral_evolution_with_channels_before_the_wavelengths(tmp_path):
+    text = (
+        "Comment:\nMeasurement: REFLECTANCE\nColumns [5]:\nData:\n"
+        "Chan.#\tWvl\tRad. (Ref.)\tRad. (Target)\tReflect. %\n"
+        "0\t400\t1\t0.5\t50.0\n1\t500\t1\t0.25\t25.0\n2\t600\t1\t0.5\t50.0\n"
+    )
+    (sample,) = read(tmp_path, text, "wall_00012.sed")
+    assert (sample.name, sample.values.tolist()) == ("wall_00012", [0.5, 0.25, 0.5])
+    assert sample.wavelengths.tolist() == [400, 500, 600]
+
+
+@pytest.mark.parametrize(
+    ("title", "quantity"),
+    [("Log(1/R)", "absorbance"), ("Transmittance [%]", "transmittance"), ("K/S", "Kubelka-Munk")],
+)
+def test_a_title_that_names_another_quantity_counts(tmp_path, title, quantity):
+    with pytest.raises(InputError, match=rf"line 1: the values are {quantity}"):
+        read(tmp_path, table(f"{title}\nwavelength,Sample 1", NM.tolist()))
+
+
+def test_three_columns_without_names_that_vanish_are_a_camera(tmp_path):
+    nm = np.arange(400, 701, 20)
+    lobes = np.exp(-(((nm - np.array([[650], [560], [480]])) / 25) ** 2))
+    lobes[lobes < 1e-3] = 0
+    rows = [f"{x} " + " ".join(f"{v:.4f}" for v in lobe) for x, lobe in zip(nm, lobes.T)]  # noqa: B905
+    with pytest.raises(InputError, match="sensitivities of a camera"):
+        read(tmp_path, "\n".join(rows), "camera.txt")
+
+
+def test_the_sentence_does_not_contradict_itself(tmp_path):
+    with pytest.raises(InputError, match="found one column") as caught:
+        read(tmp_path, "0804016U1- ", "0804016U1.TCM")
+    assert "found spaces" not in str(caught.value)
+
+
+@pytest.mark.parametrize("label", ["{}", "REFL_{}", "refl_{}nm"])
+def test_more_names_of_bands_in_cgats(tmp_path, label):
+    fields = " ".join(label.format(nm) for nm in (400, 500, 600, 700))
+    text = (
+        f"CGATS.17\nNUMBER_OF_FIELDS 5\nBEGIN_DATA_FORMAT\nSAMPLE_ID {fields}\nEND_DATA_FORMAT\n"
+        "NUMBER_OF_SETS 1\nBEGIN_DATA\n7 0.125 0.25 0.5 0.75\nEND_DATA\n"
+    )
+    (sample,) = read(tmp_path, text, "wall.txt")
+    assert sample.wavelengths.tolist() == NM.tolist()
+    assert sample.values.tolist() == [0.125, 0.25, 0.5, 0.75]
