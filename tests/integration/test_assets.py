@@ -103,7 +103,7 @@ def test_an_asset_carries_its_spectrum(appended):
     assert (brick.sample.source, brick.sample.lab) == (bundled.source, bundled.lab)
     assert degrees(brick.sigma) == pytest.approx(35.5)
     assert brick.sample.sigma_source == plan.CHOSEN
-    assert found["Brick σ 35.5°"].node_tree.nodes.keys() == ["Material Output", "Diffuse BSDF"]
+    assert found["Brick σ 35.5°"].node_tree.nodes.keys() == ["Material Output", "Principled BSDF"]
 
 
 def test_an_asset_says_what_it_is(library, appended):
@@ -120,8 +120,9 @@ def test_an_asset_says_what_it_is(library, appended):
     lines = asset.description.splitlines()
     assert lines[0] == f"σ 35.5°: {plan.CHOSEN}"
     assert lines[1].startswith("Predicted ΔE00: 0.00 at 45°/0°, over all angles mean 0.")
-    assert lines[2].startswith("Source: Physically Based database")
-    assert lines[3] == SENTENCE
+    assert lines[2].startswith("Gloss: Estimate, not measured: none")
+    assert lines[3].startswith("Source: Physically Based database")
+    assert lines[4] == SENTENCE
 
 
 def test_previews_are_balls_that_show_the_roughness(appended):
@@ -199,6 +200,7 @@ def test_a_sample_keeps_its_own_sigma_where_none_is_chosen(tmp_path):
     [brick] = plan.assets([plan.of_name("everyday/brick")], [], 63)
     assert degrees(brick.sigma) == pytest.approx(20)
     assert brick.sample.sigma_source.startswith("Estimate")
+    assert brick.name == "Brick"  # nothing to tell apart by σ
     [again] = plan.assets([plan.of_name("everyday/brick")], [20], 63)
     assert again.sample.sigma_source == brick.sample.sigma_source
     path = spectrum_csv(tmp_path / "paper.csv", "paper")
