@@ -15,6 +15,8 @@ from rough_spectra.addon.samples import presets
 from rough_spectra.core.cycles import gloss_estimate
 from rough_spectra.core.errors import MaterialError
 
+from tools.tables import make_shelf
+
 BLEND = str(shelf.folder() / shelf.BLEND)
 
 
@@ -24,12 +26,20 @@ def load(link=False, names=None, **options):
     return {material.name: material for material in wanted.materials}
 
 
+def _group(name):
+    collection, _, slug = name.partition("/")
+    return "ColorChecker" if collection == "colorchecker" else make_shelf.group(slug)
+
+
 def test_every_preset_is_on_the_shelf_and_up_to_date(empty_file):
     """If this fails, presets or what is derived changed: run `tools.tables.make_shelf` again."""
     found = load()
     samples = {sample.name: sample for sample in presets.load_all()}
     catalog_file = shelf.folder() / catalogs.FILE_NAME
-    ids = set(catalogs.merge(catalog_file, ["ColorChecker", "Everyday"]).ids.values())
+    merged = catalogs.merge(catalog_file, ["ColorChecker", *make_shelf.GROUPS])
+    assert merged.text == catalog_file.read_text("utf-8")
+    ids = {title: merged.ids[title] for title in ("ColorChecker", *make_shelf.GROUPS)}
+    groups = {presets.load(name).name: _group(name) for name in presets.names()}
     assert set(found) == set(samples)
     for name, material in found.items():
         stored = storage.load(material)
@@ -40,7 +50,7 @@ def test_every_preset_is_on_the_shelf_and_up_to_date(empty_file):
         assert state.state(material).kind == "fresh", name
         assert shader_nodes.shader_node(material).bl_idname == "ShaderNodeBsdfPrincipled"
         assert tuple(material.preview.image_size) == (128, 128)
-        assert material.asset_data.catalog_id in ids, name
+        assert material.asset_data.catalog_id == ids[groups[name]], name
 
 
 def test_a_glossy_sample_comes_with_its_gloss_and_a_matte_one_without(empty_file):

@@ -19,6 +19,38 @@ from tools.run.run_command_line import ROOT, load_extension
 FOLDER = ROOT / "presets" / "shelf"
 
 
+GROUPS = {
+    "Bricks and Stone": (
+        *("basalt", "brick", "chalk", "cinder-block", "clay", "concrete", "limestone", "paving"),
+        *("plaster", "terracotta", "tuff"),
+    ),
+    "Cloth and Carpet": ("burlap", "carpet", "cloth", "fleece", "nylon", "tarp-", "webbing"),
+    "Earth and Plants": ("grass", "mud", "pine-needles", "reed", "sage", "sand", "soil"),
+    "Kitchen": ("chocolate", "egg-shell", "lemon", "orange", "toothpaste"),
+    "Paper": ("cardboard", "paper", "printed", "toilet-paper", "tyvek"),
+    "Pigments": ("pigment",),
+    "Roofs and Roads": ("asphalt", "roofing", "shingle", "siding", "tar-paper"),
+    "Things": ("blackboard", "musou-black", "polystyrene", "rust", "tire"),
+    "Wood and Boards": ("cedar", "particle", "pine", "plywood", "strand", "willow"),
+}
+"""Catalogs of the everyday presets, by how their ids begin; the longest beginning counts."""
+
+
+def group(slug: str) -> str:
+    """Return the catalog of an everyday preset.
+
+    Raises
+    ------
+    KeyError
+        None is for it: add the beginning of its id to `GROUPS`.
+    """
+    found = {start: title for title, starts in GROUPS.items() for start in starts}
+    fitting = [start for start in found if slug.startswith(start)]
+    if not fitting:
+        raise KeyError(f"{slug} belongs to no group of the shelf")
+    return found[max(fitting, key=len)]
+
+
 def main(arguments: list[str]) -> int:
     """Make it and say where."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -37,7 +69,9 @@ def make(folder: Path) -> int:
     from rough_spectra.addon.assets import build, plan
     from rough_spectra.addon.samples import presets
 
-    chosen = [item for name in presets.collections() for item in plan.of_collection(name)]
+    chosen = plan.of_collection("colorchecker")
+    for name in presets.names_of("everyday"):
+        chosen.append(plan.Chosen(presets.load(name), group(name.partition("/")[2])))
     built = build.build(plan.assets(chosen, [], 63), folder)
     for name, sentences in built.warnings.items():
         for sentence in sentences:
