@@ -33,8 +33,8 @@ class ROUGHSPECTRA_AST_materials(bpy.types.AssetShelf):
         """Show it in object mode, unless the preferences say otherwise."""
         if not _asked:
             _asked.append(True)
-            # Preferences cannot be written while Blender draws.
-            bpy.app.timers.register(_offer, first_interval=0.0)
+            # Preferences cannot be written while Blender draws; and a file may be opened first.
+            bpy.app.timers.register(_offer, first_interval=0.0, persistent=True)
         return bool(context.mode == "OBJECT") and preferences.shows_shelf()
 
     @classmethod

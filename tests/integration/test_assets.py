@@ -11,7 +11,9 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.assets import build, catalogs, plan, previews
-from rough_spectra.addon.material import storage
+from rough_spectra.addon.interface.operators import build_assets
+from rough_spectra.addon.material import preferences, storage
+from rough_spectra.addon.samples import library as user_library
 from rough_spectra.addon.samples import presets
 from rough_spectra.core.errors import CancelledError, InputError, OutputError
 
@@ -285,9 +287,29 @@ def test_bad_words_on_the_command_line_write_nothing(main, tmp_path):
     assert not output.exists()
 
 
-def test_the_operator_says_what_is_wrong_with_sigma(extension, tmp_path):
+@pytest.mark.parametrize("collection", ["everyday", "*"])
+def test_the_operator_says_what_is_wrong_with_sigma(extension, tmp_path, collection):
     with pytest.raises(RuntimeError, match="give degrees with blanks between them"):
         bpy.ops.rough_spectra.build_assets(
-            directory=str(tmp_path), collection="everyday", sigmas="ten"
+            directory=str(tmp_path), collection=collection, sigmas="ten"
         )
     assert list(tmp_path.iterdir()) == []
+
+
+def test_all_are_the_presets_and_the_users_own(extension, tmp_path, monkeypatch):
+    monkeypatch.setattr(preferences, "user_folder", lambda: tmp_path)
+    wall = replace(presets.load("plaster"), name="My wall")
+    heat = replace(wall, name="My wall, warm", kind="emissivity")
+    user_library.add([wall, heat], "walls", tmp_path)
+    user_library.contents(tmp_path)
+    items = build_assets.collection_items(None, None)
+    assert [(name, label) for name, label, _ in items] == [
+        ("*", "All"),
+        ("colorchecker", "ColorChecker (Bundled)"),
+        ("everyday", "Everyday (Bundled)"),
+        ("walls", "Walls (Yours)"),
+    ]
+    chosen = plan.of_all(tmp_path)
+    # An emissivity has no color, of which no material is made.
+    assert len(chosen) == len(presets.names()) + 1
+    assert (chosen[-1].sample.name, chosen[-1].catalog) == ("My wall", "Walls")
