@@ -44,6 +44,7 @@ __all__ = [
     "gloss_at",
     "gloss_of",
     "new_material",
+    "put_gloss",
     "remove_gloss",
     "roughness_socket",
     "shader_node",
@@ -167,6 +168,25 @@ def new_material(name: str) -> Any:
     if node is not None:
         _without_gloss(node)
     return material
+
+
+def put_gloss(material: Any, gloss: Gloss) -> None:
+    """Set the gloss of the shader node that makes a material's surface, if its shader has any."""
+    node = shader_node(material)
+    if node is None or not OF_NODE[node.bl_idname].gloss:
+        return
+    fields = gloss._asdict()
+    node.distribution = "MULTI_GGX" if fields.pop("multiscatter") else "GGX"
+    names = OF_NODE[node.bl_idname].gloss
+    _set_sockets(
+        node,
+        {
+            names[field]: value if isinstance(value, tuple) else (value,)
+            for field, value in fields.items()
+        },
+    )
+    material.node_tree.update_tag()
+    material.update_tag()
 
 
 def remove_gloss(place: SocketTarget) -> None:

@@ -21,6 +21,7 @@ NO_CACHES = {
     # What is under way.
     ("addon/interface/operators/import_review.py", "_batch"),
     ("addon/interface/panels/redraw.py", "_last"),
+    ("addon/interface/shelf.py", "_asked"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
     # What is registered.

@@ -178,3 +178,13 @@ def test_adding_a_rough_sample(scene):
     assert scene["lights"] >= 8
     assert scene["material"]
     assert scene["same"]
+
+
+def test_dragging_from_the_shelf(scene):
+    assert scene["libraries"] == ["APPEND"]
+    assert scene["names"][1].startswith(f"{scene['sample']}.")  # each drag is a copy of its own
+    assert scene["names"][0] == scene["sample"]
+    assert scene["preset"]
+    assert scene["here"] == [True, True]
+    assert scene["state"] == "fresh"
+    assert scene["browser"] == [True, True]
