@@ -178,3 +178,10 @@ def test_adding_a_rough_sample(scene):
     assert scene["lights"] >= 8
     assert scene["material"]
     assert scene["same"]
+
+
+def test_first_list(scene):
+    assert scene["known"] == 0
+    assert "Foliage" in scene["chosen"]
+    for step in ("opened", "typed", "assigned"):
+        assert scene[step] < 0.2, step
