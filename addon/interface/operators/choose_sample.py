@@ -78,8 +78,8 @@ def _about(entry: Any) -> str:
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
-class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
-    """Choose a measured sample for the material; σ and the other settings stay as they are"""
+class ROUGHSPECTRA_OT_choose_sample(common.AssignOptions, bpy.types.Operator):
+    """Choose a measured sample for the materials of the selected objects; what you set stays"""
 
     bl_idname = "rough_spectra.choose_sample"
     bl_label = "Choose Sample"
@@ -98,18 +98,14 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
         """Let the user search presets and library by name."""
         ahead.begin()
         _fill()
+        common.begin_scope(self, context)
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
     def execute(self, context: Any) -> set[str]:
-        """Assign to the active material; an object without one gets one."""
-        from ...material import preferences
-        from ...samples import library
-
+        """Assign to all materials in scope, or to none; an object without one gets one."""
         try:
-            sample = library.load(self.sample, preferences.user_folder())
-            request, shader = common.replacing_request(common.active_material(context), sample)
-            assigned = common.assign_in_scope(context, "ACTIVE", request, shader)
+            sample, assigned = common.assign_from_library(self, context, self.sample)
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
