@@ -83,10 +83,18 @@ class Contents:
     faults: tuple[str, ...]
     _samples: list[Sample | None]
     _haystacks: tuple[str, ...]
-    _lab: Array
+    _labs: dict[tuple[str, int], Array]
     _places: dict[str, int]
     _named: dict[str, list[int]]
     _found: dict[str, tuple[Entry, ...]] = field(default_factory=dict)
+
+    def lab(self, illuminant: str, observer: int) -> Array:
+        """Return CIE L*a*b* of all readings, shape (entries, 3); NaN of those without a color."""
+        light = (illuminant, observer)
+        if light not in self._labs:
+            samples = [self.sample(number) for number in range(len(self.entries))]
+            self._labs[light] = swatches.of_samples(samples, illuminant, observer)[1]
+        return self._labs[light]
 
     def sample(self, number: int) -> Sample:
         """Return the sample of an entry; that of a preset is read when it is asked for.
@@ -188,20 +196,25 @@ def search(text: str, folder: Path) -> tuple[Entry, ...]:
     return everything._found[text]
 
 
-def nearest(lab: npt.ArrayLike, count: int, folder: Path) -> list[tuple[Entry, float]]:
+def nearest(
+    lab: npt.ArrayLike, count: int, folder: Path, illuminant: str = "D65", observer: int = 2
+) -> list[tuple[Entry, float]]:
     """Return the entries whose readings come nearest to a color, with their ΔE00 from it.
 
     Parameters
     ----------
     lab
-        CIE L*a*b* for D65 and 2°; `swatches.to_lab` makes it of sRGB.
+        CIE L*a*b*; `swatches.to_lab` makes it of sRGB.
     count
         How many at most; those without a color are left out.
+    illuminant, observer
+        What it was computed for, and readings are.
     """
     everything = contents(folder)
-    colored = np.flatnonzero(np.isfinite(everything._lab[:, 0]))
+    known = everything.lab(illuminant, observer)
+    colored = np.flatnonzero(np.isfinite(known[:, 0]))
     wanted = np.broadcast_to(np.asarray(lab, np.float64), (colored.size, 3))
-    differences = color_difference.delta_e(everything._lab[colored], wanted)
+    differences = color_difference.delta_e(known[colored], wanted)
     order = np.argsort(differences, kind="stable")[: max(count, 0)]
     return [(everything.entries[colored[i]], float(differences[i])) for i in order]
 
@@ -354,7 +367,7 @@ def _joined(files: list[_File]) -> Contents:
         faults=tuple(file.fault for file in files if file.fault),
         _samples=[sample for file in files for sample in file.samples],
         _haystacks=tuple(f"{e.name} {e.id} {e.source}".casefold() for e in found),
-        _lab=np.array([entry.lab or nothing for entry in found]).reshape(-1, 3),
+        _labs={("D65", 2): np.array([entry.lab or nothing for entry in found]).reshape(-1, 3)},
         _places=places,
         _named=named,
     )
