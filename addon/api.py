@@ -21,7 +21,7 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from math import degrees, radians
+from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Any
 
@@ -55,8 +55,10 @@ from .laboratory.experiment import Measured
 from .laboratory.kinds import RoughSample
 from .matching import compare as matching_compare
 from .matching import emission, roughness
+from .matching import metamerism as matching_metamerism
 from .matching.assess import Differences
 from .matching.compare import Apart, Comparison
+from .matching.metamerism import LIGHTS, InLight
 from .matching.request import AUTO, Request
 from .matching.solution import Solution
 from .material import changes, derive, preferences, selection, settled, storage
@@ -69,7 +71,9 @@ from .readings import writers
 from .readings.document import Reading, Readings
 from .readings.emission import Emissivity, InBand
 from .samples import filter_response, gloss_of_set, library, readers, stated_white
+from .samples import palette as palette_files
 from .samples import presets as preset_files
+from .samples.palette import Row
 from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
 from .textures import convert
@@ -91,6 +95,7 @@ __all__ = [
     "GlossEstimate",
     "GlossReadings",
     "InBand",
+    "InLight",
     "InputError",
     "Made",
     "MaterialError",
@@ -101,6 +106,7 @@ __all__ = [
     "Request",
     "RoughSample",
     "RoughSpectraError",
+    "Row",
     "Sample",
     "Settled",
     "Solution",
@@ -120,6 +126,9 @@ __all__ = [
     "match_by_measuring",
     "materials",
     "measure_rough",
+    "metamerism",
+    "nearest",
+    "palette",
     "paused",
     "presets",
     "read",
@@ -213,6 +222,105 @@ def find(name: str) -> Sample:
     'ColorChecker 14 Green'
     """
     return library.load(name, preferences.user_folder())
+
+
+def nearest(
+    lab: Sequence[float], count: int = 10, *, illuminant: str = "D65", observer: int = 2
+) -> list[tuple[str, float]]:
+    """Return the ids of the samples, presets and library, whose colors come nearest to one.
+
+    Parameters
+    ----------
+    lab
+        CIE L*a*b*.
+    count
+        How many at most.
+    illuminant, observer
+        What it was computed for.
+
+    Returns
+    -------
+    Each id, for `find`, and ΔE00 from the color, the nearest first.
+
+    Raises
+    ------
+    DomainError
+        Illuminant or observer is not known, or `lab` is not three numbers.
+
+    Examples
+    --------
+    >>> [(name, difference), *_] = nearest((42.16, 19.14, 18.67), 3)
+    >>> name, round(difference, 1)
+    ('everyday/brick', 0.0)
+    """
+    light = palette_files.checked_light(illuminant, observer)
+    if len(lab) != 3 or not all(map(isfinite, lab)):
+        raise DomainError(f"The color is {lab!r}; give L*, a* and b*.")
+    found = library.nearest(lab, count, preferences.user_folder(), *light)
+    return [(entry.id, difference) for entry, difference in found]
+
+
+def palette(path: str | os.PathLike[str]) -> list[Row]:
+    r"""Return the colors of a table of your own, in its order.
+
+    Parameters
+    ----------
+    path
+        A name and L*, a* and b*, or a name and ``#rrggbb``, in each row, with commas, semicolons or
+        tabs; or any file of spectra. Lines such as ``# illuminant: D50`` and ``# observer: 10`` say
+        what L*a*b* is for; D65 and 2° otherwise.
+
+    Returns
+    -------
+    Each has `name`, `lab`, `illuminant`, `observer`, and its `sample` where it has a spectrum.
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, or a row is no color.
+
+    Examples
+    --------
+    >>> _ = Path("own.csv").write_text("# illuminant: D50\nname,L,a,b\nHouse red,43,21,20\n")
+    >>> [red] = palette("own.csv")
+    >>> red.name, red.lab, red.illuminant, red.observer
+    ('House red', (43.0, 21.0, 20.0), 'D50', 2)
+    >>> name, difference = nearest(red.lab, illuminant=red.illuminant)[0]
+    """
+    return list(palette_files.read(Path(path)))
+
+
+def metamerism(
+    first: Sample | Request, second: Sample | Request, lights: Sequence[str] = LIGHTS
+) -> list[InLight]:
+    """Tell how far two materials that match under D65 are apart in other lights.
+
+    Parameters
+    ----------
+    first, second
+        What is compared. A sample alone stands for `request(sample)`.
+    lights
+        Illuminants, as in `request`.
+
+    Returns
+    -------
+    D65, then each of the lights: its name, `light`; `delta_e_00`, how far they are apart there; and
+    `index`, the special metamerism index of CIE 15:2004 with the correction of ISO 18314-4:2024:
+    the part of the difference that D65 does not show.
+
+    Raises
+    ------
+    DomainError
+        A light is not known, or a spectrum does not cover the visible range.
+
+    Examples
+    --------
+    >>> _, lamp = metamerism(find("brick"), find("dark skin"), ["A"])
+    >>> lamp.light, round(lamp.delta_e_00, 1), round(lamp.index, 1)
+    ('A', 5.9, 0.9)
+    """
+    one, other = (request(x) if isinstance(x, Sample) else x for x in (first, second))
+    return list(matching_metamerism.compare(one, other, lights))
 
 
 def estimate(

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Weights of ASTM E308 by colour-science, those of the usual grids from a file.
+"""Weights of ASTM E308, those of the usual grids from a file that colour-science wrote.
 
-Importing colour-science and computing one matrix takes half a second, in which a panel would stand
-still at its first use. At 5 and 10 nm the weights of every grid follow from those of the whole
-visible range: bands that were not measured count as equal to the nearest one that was.
-`tools/tables/make_e308_weights.py` writes the file.
+Importing colour-science takes half a second, after installing two and more, in which the window
+would stand still. At 5 and 10 nm the weights of every grid follow from those of the whole visible
+range: bands that were not measured count as equal to the nearest one that was. What was measured
+every 20 nm is brought to 10 nm first. `tools/tables/make_e308_weights.py` writes the file.
 """
 
 from __future__ import annotations
@@ -16,20 +16,12 @@ import numpy as np
 
 from ...core.limits import E308_NM
 from ...core.numerics.arrays import Array
-from ..support.colour_science import colour
-
-ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3")
-OBSERVERS = (2, 10)
-"""CIE 1931 (2°) and CIE 1964 (10°)."""
+from . import cie_tables
+from .cie_tables import ILLUMINANTS, OBSERVERS
 
 TABLED_STEPS = (5, 10)
-"""Nanometers. At 20 nm the first and last weights follow another rule."""
+"""Nanometers."""
 FILE = Path(__file__).with_name("e308_weights.npy")
-
-_OBSERVER_NAMES = {
-    2: "CIE 1931 2 Degree Standard Observer",
-    10: "CIE 1964 10 Degree Standard Observer",
-}
 
 
 def weights(wavelengths: Array, illuminant: str, observer: int) -> Array:
@@ -49,29 +41,15 @@ def weights(wavelengths: Array, illuminant: str, observer: int) -> Array:
     if step in TABLED_STEPS:
         matrix[visible] = _folded(seen, step, illuminant, observer)
     else:
-        matrix[visible] = by_science(seen, illuminant, observer)
+        fine = np.arange(seen[0], seen[-1] + 1, 10.0)
+        matrix[visible] = _halved(seen.size).T @ _folded(fine, 10, illuminant, observer)
     return matrix
 
 
-def by_science(seen: Array, illuminant: str, observer: int) -> Array:
-    """Compute the weights of visible bands, by ASTM E308 of every unit spectrum."""
-    science = colour()
-    xyz = science.msds_to_XYZ(
-        science.MultiSpectralDistributions(np.eye(seen.size), seen),
-        cmfs=science.MSDS_CMFS[_OBSERVER_NAMES[observer]],
-        illuminant=science.SDS_ILLUMINANTS[_science_name(illuminant)],
-        method="ASTM E308",
-    )
-    return np.asarray(xyz) / 100
-
-
-def integration(wavelengths: Array, illuminant: str, observer: int) -> Array:
-    """Weights of the plain sum over a 1 nm grid, with which ASTM E308 begins."""
-    science = colour()
-    shape = science.SpectralShape(wavelengths[0], wavelengths[-1], 1)
-    matching = science.MSDS_CMFS[_OBSERVER_NAMES[observer]].copy().align(shape).values
-    light = science.SDS_ILLUMINANTS[_science_name(illuminant)].copy().align(shape).values
-    matrix = np.asarray(matching * light[:, np.newaxis])
+def integration(illuminant: str, observer: int) -> Array:
+    """Weights of the plain sum over `cie_tables.GRID`, with which ASTM E308 begins."""
+    light = cie_tables.illuminant(illuminant)
+    matrix = np.asarray(cie_tables.observer(observer) * light[:, np.newaxis])
     return np.asarray(matrix / matrix[:, 1].sum())
 
 
@@ -93,10 +71,22 @@ def _folded(seen: Array, step: int, illuminant: str, observer: int) -> Array:
     return np.asarray(found)
 
 
+def _halved(count: int) -> Array:
+    """Matrix, shape (2 count - 1, count), that puts a band between every two.
+
+    By the cubic through the four bands around it; at the ends that of a band beyond, which
+    continues the parabola of the last three (ASTM E308-15, 7.3.2.2 and 7.3.2.3).
+    """
+    bands = np.eye(count)
+    before = 3 * bands[0] - 3 * bands[1] + bands[2]
+    after = 3 * bands[-1] - 3 * bands[-2] + bands[-3]
+    padded = np.vstack((before, bands, after))
+    found = np.empty((2 * count - 1, count))
+    found[::2] = bands
+    found[1::2] = (9 * (padded[1:-2] + padded[2:-1]) - padded[:-3] - padded[3:]) / 16
+    return found
+
+
 def _file() -> Array:
     """Weights, shape (observers, illuminants, bands of all steps in a row, 3)."""
     return np.asarray(np.load(FILE, allow_pickle=False))
-
-
-def _science_name(illuminant: str) -> str:
-    return illuminant.replace("F", "FL", 1) if illuminant[0] == "F" else illuminant

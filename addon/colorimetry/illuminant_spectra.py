@@ -18,7 +18,7 @@ from ...core.limits import E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
-from ..support.colour_science import colour
+from . import cie_tables
 
 GRID = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
 """Nanometers at which spectra of lights are held."""
@@ -32,7 +32,7 @@ DAYLIGHT_FROM = 5000.0
 
 _SECOND_RADIATION = 1.438776877e7
 """Planck's second constant, nm·K (CODATA 2018)."""
-_FINE = np.arange(E308_NM[0], E308_NM[1] + 1)
+_FINE = cie_tables.GRID
 _TEMPERATURES = 1e6 / np.linspace(1e6 / 25000, 1e6 / 1500, 1200)
 """Kelvin, even in mired, where eyes see even steps."""
 _STEPS, _NEWTON_STEPS, _LARGEST_STEP = 12, 12, 3.0
@@ -93,9 +93,9 @@ def weights(wavelengths: tuple[float, ...], spd: tuple[float, ...]) -> Array:
     to_fine = wavelength_grid.resample(
         np.eye(measured.size), measured, _FINE, method="cubic", ends="hold"
     )
-    light = np.asarray(spd) @ _to_fine()
-    matrix = to_fine @ (_matching() * light[:, np.newaxis])
-    matrix = np.asarray(matrix / (_matching()[:, 1] @ light))
+    light, matching = np.asarray(spd) @ _to_fine(), cie_tables.observer(2)
+    matrix = to_fine @ (matching * light[:, np.newaxis])
+    matrix = np.asarray(matrix / (matching[:, 1] @ light))
     matrix.setflags(write=False)
     return matrix
 
@@ -164,27 +164,18 @@ def _loci() -> Array:
     return to_uv(to_xyz(spectra))
 
 
-@memoized(maxsize=1)
-def _matching() -> Array:
-    science = colour()
-    observer = science.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy()
-    return np.asarray(observer.align(science.SpectralShape(_FINE[0], _FINE[-1], 1)).values)
-
-
 def _to_fine() -> Array:
     return wavelength_grid.resample(np.eye(GRID.size), GRID, _FINE, method="cubic", ends="hold")
 
 
 @memoized(maxsize=1)
 def _integration() -> Array:
-    return np.asarray(_to_fine() @ _matching())
+    return np.asarray(_to_fine() @ cie_tables.observer(2))
 
 
 def _daylight_parts() -> Array:
     """S0, S1 and S2 of CIE daylight at `GRID`, shape (3, wavelengths)."""
-    parts = colour().colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
-    known = (parts[name] for name in ("S0", "S1", "S2"))
-    return np.stack([np.interp(GRID, part.wavelengths, part.values) for part in known])
+    return cie_tables.daylight_parts()[:, :: round(GRID[1] - GRID[0])]
 
 
 def _daylight_mix(temperature: float) -> Array:

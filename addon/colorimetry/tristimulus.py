@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From spectra to XYZ and Lab. The tables are colour-science's.
+"""From spectra to XYZ and Lab.
 
 XYZ is linear in reflectance, so observer, illuminant and the ASTM E308 rules shrink to one matrix
 a wavelength grid; it is made once and a spectrum then costs one small matrix product.
@@ -8,8 +8,6 @@ XYZ here has Y = 1 for the perfect white diffuser.
 """
 
 from __future__ import annotations
-
-import warnings
 
 import numpy as np
 import numpy.typing as npt
@@ -20,10 +18,10 @@ from ...core.limits import COLOR_NM, E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
-from . import astm_e308
+from . import astm_e308, cie_tables
 
-ILLUMINANTS = astm_e308.ILLUMINANTS
-OBSERVERS = astm_e308.OBSERVERS
+ILLUMINANTS = cie_tables.ILLUMINANTS
+OBSERVERS = cie_tables.OBSERVERS
 
 _E308_STEPS = (5, 10, 20)
 """Intervals in nanometers for which ASTM E308 gives weights; at 1 nm it is the plain sum."""
@@ -62,7 +60,7 @@ def weights(wavelengths: npt.ArrayLike, illuminant: str = "D65", observer: int =
 @memoized(maxsize=256)
 def _sufficient_weights(bands: tuple[float, ...], illuminant: str, observer: int) -> Array:
     measured = wavelength_grid.check_wavelengths(bands)
-    # Before the weights: colour-science fails on the few bands of such grids.
+    # Before the weights: ASTM E308 needs more bands than the few of such grids.
     held = held_share(measured, illuminant, observer)
     if held > _LARGEST_HELD_SHARE:
         msg = (
@@ -111,25 +109,21 @@ def _weights(wavelengths: tuple[float, ...], illuminant: str, observer: int) -> 
     if observer not in OBSERVERS:
         msg = f"Observer {observer!r} is not known; choose 2 or 10 degrees."
         raise DomainError(msg)
-    with warnings.catch_warnings():
-        # colour-science tells on the console of every table that it aligns.
-        warnings.simplefilter("ignore")
-        matrix = _weights_of_grid(np.asarray(wavelengths), illuminant, observer)
+    matrix = _weights_of_grid(np.asarray(wavelengths), illuminant, observer)
     matrix.setflags(write=False)
     return matrix
 
 
 def _weights_of_grid(measured: Array, illuminant: str, observer: int) -> Array:
     step = wavelength_grid.step(measured) if measured.size > 1 else None
-    # colour-science refuses a grid that is a millionth of a nanometer from even.
+    # The steps of files are even to a millionth of a nanometer.
     nominal = np.round(measured)
     close = np.allclose(measured, nominal, rtol=0, atol=1e-3)
     if step is not None and close and _is_e308_step(step) and nominal[0] % round(step) == 0:
         return astm_e308.weights(nominal, illuminant, observer)
-    fine = np.arange(E308_NM[0], E308_NM[1] + 1)
-    units = np.eye(measured.size)
+    units, fine = np.eye(measured.size), cie_tables.GRID
     to_fine = wavelength_grid.resample(units, measured, fine, method="cubic", ends="hold")
-    return np.asarray(to_fine @ astm_e308.integration(fine, illuminant, observer))
+    return np.asarray(to_fine @ astm_e308.integration(illuminant, observer))
 
 
 def _is_e308_step(step: float) -> bool:

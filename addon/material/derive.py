@@ -16,13 +16,15 @@ from ..matching import shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import snapshot, storage, textures
+from . import snapshot, solid_color, storage, textures
 from .changes import Derived, Solved
 from .snapshot import Snapshot
 
 
 def assign(
-    pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO, keep_gloss: bool = True
+    pairs: Sequence[tuple[Any, Request]],
+    shader: str | Sequence[str] = shaders.AUTO,
+    keep_gloss: bool = True,
 ) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
@@ -31,7 +33,7 @@ def assign(
     pairs
         Each a `bpy.types.Material` and what it is to become.
     shader
-        Which node to set; see `shader_nodes.find`.
+        Which node to set, or which in each material; see `shader_nodes.find`.
     keep_gloss
         Whether a node that is there keeps the gloss that it has, which is then counted; else it is
         set to 0. What a request says of gloss is not looked at.
@@ -47,21 +49,24 @@ def assign(
     DomainError
         If a spectrum, a setting or the shader cannot be used; nothing was changed then.
     """
+    nodes = [shader] * len(pairs) if isinstance(shader, str) else shader
     work = [
         _under_gloss(
-            shader_nodes.find(material, shader, keep_gloss),
+            shader_nodes.find(material, node, keep_gloss),
             storage.in_scene(material, request),
             keep_gloss,
         )
-        for material, request in pairs
+        for (material, request), node in zip(pairs, nodes, strict=True)
     ]
     space, solutions = _solve(work)
     palettes, solutions, written = textures.scaled(work, solutions, space)
-    for (place, request), solution, palette in zip(work, written, palettes, strict=True):
+    together = zip(work, written, palettes, nodes, strict=True)
+    for (place, request), solution, palette, shader in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
         node = _write(place, solution, palette)
         storage.store(place.material, request, shader)
+        storage.note_own_sigma(place.material, request.sample)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
@@ -227,4 +232,5 @@ def _solve(
 
 def _write(place: shader_nodes.SocketTarget, solution: Solution, palette: Palette | None) -> str:
     red, green, blue = solution.color.tolist()
+    solid_color.show(place.material, solution.target)
     return shader_nodes.write(place, (red, green, blue), solution.roughness, palette)

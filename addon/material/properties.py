@@ -12,6 +12,7 @@ from bpy.props import (
     BoolProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
@@ -152,6 +153,16 @@ class RoughSpectraMaterial(PropertyGroup):
     details: StringProperty(name="Details", description="What else the file said, as JSON")
     sigma: FloatProperty(**SIGMA, update=changes.on_setting)
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
+    own_sigma: FloatProperty(
+        name="Sample's σ",
+        description="Roughness that the sample came with, radians; below 0 where nobody knows",
+        default=-1.0,
+    )
+    solid_color: FloatVectorProperty(
+        name="Viewport Color",
+        description="What we set as the color of solid shading; another one is the user's",
+        default=(-1.0, -1.0, -1.0),
+    )
     illuminant: EnumProperty(
         name="Illuminant",
         description="Light under which the color is right",

@@ -98,6 +98,21 @@ def store(material: Any, request: Request, shader: str) -> None:
             group.use_scene, group.scene_view = True, request.scene.to_json()
 
 
+def note_own_sigma(material: Any, sample: Sample) -> None:
+    """Note the roughness that a sample came with, so that one set by the user is known."""
+    material.rough_spectra.own_sigma = math.radians(sample.sigma_degrees or 0.0)
+
+
+def is_sigma_set(material: Any) -> bool:
+    """Whether a material's σ is the user's, and not the one that its sample came with.
+
+    So is that of a material of an earlier version, of which nobody knows.
+    """
+    group = material.rough_spectra
+    own = snapshot.entered_degrees(group.own_sigma)
+    return own < 0 or own != snapshot.sigma_degrees(group)
+
+
 def load(material: Any, view: SceneView | None = None) -> Request:
     """Read back what `store` wrote.
 

@@ -24,12 +24,14 @@ from ...core.numerics.memoized import kept, memoized
 from ..support import journal
 from . import (
     library_files,
+    preset_index,
     presets,
     quality,
     readers,
     sets,
     swatches,
 )
+from .entry import Entry
 from .library_files import (
     Added,
     add,
@@ -52,6 +54,7 @@ __all__ = [
     "entries",
     "load",
     "nearest",
+    "read_next",
     "remove",
     "rename",
     "search",
@@ -62,51 +65,6 @@ _Stamp = tuple[int, int, int]
 
 
 _SEARCHES_KEPT = 16
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """One sample as a list shows it.
-
-    Parameters
-    ----------
-    id
-        ``"collection/name-of-sample"``; `load` takes it.
-    swatch
-        sRGB of the reading under D65 for the 2° observer, 0 to 1; None where the bands do not
-        cover the visible range.
-    lab
-        CIE L*a*b* of the same, unclipped.
-    warnings
-        Sentences of `quality`.
-    path
-        The file that holds it.
-    is_preset
-        Whether it came with the extension.
-    readings
-        How many of the surface it holds.
-    """
-
-    id: str
-    name: str
-    collection: str
-    kind: str
-    instrument: str
-    condition: str
-    device: str
-    source: str
-    sigma_degrees: float | None
-    swatch: tuple[float, float, float] | None
-    lab: tuple[float, float, float] | None
-    warnings: tuple[str, ...]
-    path: Path
-    is_preset: bool
-    readings: int = 1
-
-    @property
-    def title(self) -> str:
-        """The name, and of a set how many readings it has."""
-        return f"{self.name} ({self.readings} readings)" if self.readings > 1 else self.name
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,18 +81,39 @@ class Contents:
 
     entries: tuple[Entry, ...]
     faults: tuple[str, ...]
-    _samples: tuple[Sample, ...]
+    _samples: list[Sample | None]
     _haystacks: tuple[str, ...]
-    _lab: Array
+    _labs: dict[tuple[str, int], Array]
     _places: dict[str, int]
     _named: dict[str, list[int]]
     _found: dict[str, tuple[Entry, ...]] = field(default_factory=dict)
+
+    def lab(self, illuminant: str, observer: int) -> Array:
+        """Return CIE L*a*b* of all readings, shape (entries, 3); NaN of those without a color."""
+        light = (illuminant, observer)
+        if light not in self._labs:
+            samples = [self.sample(number) for number in range(len(self.entries))]
+            self._labs[light] = swatches.of_samples(samples, illuminant, observer)[1]
+        return self._labs[light]
+
+    def sample(self, number: int) -> Sample:
+        """Return the sample of an entry; that of a preset is read when it is asked for.
+
+        Raises
+        ------
+        InputError
+            A preset's file has a fault.
+        """
+        found = self._samples[number]
+        if found is None:
+            found = self._samples[number] = presets.load(self.entries[number].path)
+        return found
 
 
 @dataclass(frozen=True, eq=False)
 class _File:
     entries: tuple[Entry, ...] = ()
-    samples: tuple[Sample, ...] = ()
+    samples: tuple[Sample | None, ...] = ()
     fault: str = ""
 
 
@@ -181,6 +160,20 @@ def cached(folder: Path) -> Contents | None:
     return known[2]
 
 
+def read_next(folder: Path) -> bool:
+    """Read one file that `contents` would have to read, so that none waits for all of them.
+
+    Returns
+    -------
+    Whether there was one.
+    """
+    for path, collection, stamp in _library_files(folder):
+        if path not in _files or _files[path][0] != stamp:
+            _files[path] = (stamp, _read(path, collection, is_preset=False))
+            return True
+    return False
+
+
 def entries(folder: Path) -> tuple[Entry, ...]:
     """Return the entries of presets and library."""
     return contents(folder).entries
@@ -203,20 +196,25 @@ def search(text: str, folder: Path) -> tuple[Entry, ...]:
     return everything._found[text]
 
 
-def nearest(lab: npt.ArrayLike, count: int, folder: Path) -> list[tuple[Entry, float]]:
+def nearest(
+    lab: npt.ArrayLike, count: int, folder: Path, illuminant: str = "D65", observer: int = 2
+) -> list[tuple[Entry, float]]:
     """Return the entries whose readings come nearest to a color, with their ΔE00 from it.
 
     Parameters
     ----------
     lab
-        CIE L*a*b* for D65 and 2°; `swatches.to_lab` makes it of sRGB.
+        CIE L*a*b*; `swatches.to_lab` makes it of sRGB.
     count
         How many at most; those without a color are left out.
+    illuminant, observer
+        What it was computed for, and readings are.
     """
     everything = contents(folder)
-    colored = np.flatnonzero(np.isfinite(everything._lab[:, 0]))
+    known = everything.lab(illuminant, observer)
+    colored = np.flatnonzero(np.isfinite(known[:, 0]))
     wanted = np.broadcast_to(np.asarray(lab, np.float64), (colored.size, 3))
-    differences = color_difference.delta_e(everything._lab[colored], wanted)
+    differences = color_difference.delta_e(known[colored], wanted)
     order = np.argsort(differences, kind="stable")[: max(count, 0)]
     return [(everything.entries[colored[i]], float(differences[i])) for i in order]
 
@@ -239,20 +237,20 @@ def load(name: str, folder: Path) -> Sample:
         everything = contents(folder)
         place = everything._places.get(name)
         if place is not None:
-            return everything._samples[place]
+            return everything.sample(place)
     if not name.lower().endswith(".json") and not presets.is_called(name):
         # Without the presets' names that come closest: seeking them takes longer than all else.
         everything = contents(folder)
         named = everything._named.get(name, [])
         if len(named) == 1:
-            return everything._samples[named[0]]
+            return everything.sample(named[0])
     try:
         return presets.load(name)
     except InputError as error:
         everything = contents(folder)
         named = everything._named.get(name, [])
         if len(named) == 1:
-            return everything._samples[named[0]]
+            return everything.sample(named[0])
         if named:
             could = ", ".join(everything.entries[i].id for i in named[:5])
             msg = f"{folder}: sample {name!r} could be any of {could}; give the whole id."
@@ -275,6 +273,14 @@ def _finished(folder: Path) -> str:
 
 @memoized(maxsize=1)
 def _presets() -> tuple[_File, ...]:
+    indexed = preset_index.entries()
+    if indexed is not None:
+        return (_File(indexed, (None,) * len(indexed)),)
+    return read_presets()
+
+
+def read_presets() -> tuple[_File, ...]:
+    """Read all presets, as `preset_index` spares it; each file's entries and samples."""
     paths = (presets.folder() / f"{name}.json" for name in presets.names())
     return tuple(_read(path, path.parent.name, is_preset=True) for path in paths)
 
@@ -359,9 +365,9 @@ def _joined(files: list[_File]) -> Contents:
     return Contents(
         entries=found,
         faults=tuple(file.fault for file in files if file.fault),
-        _samples=tuple(sample for file in files for sample in file.samples),
+        _samples=[sample for file in files for sample in file.samples],
         _haystacks=tuple(f"{e.name} {e.id} {e.source}".casefold() for e in found),
-        _lab=np.array([entry.lab or nothing for entry in found]).reshape(-1, 3),
+        _labs={("D65", 2): np.array([entry.lab or nothing for entry in found]).reshape(-1, 3)},
         _places=places,
         _named=named,
     )

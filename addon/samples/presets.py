@@ -18,14 +18,14 @@ from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...core.numerics.memoized import memoized
-from . import readers
+from . import preset_index, readers
 from .readers.formats import preset as preset_file
 from .sample import Sample
 
 
 def folder() -> Path:
     """Return the folder of the bundled presets."""
-    return Path(__file__).resolve().parents[2] / "presets"
+    return preset_index.FOLDER
 
 
 def names() -> list[str]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The color of samples for lists and for searching: under D65, for the 2° observer."""
+"""The color of samples for lists and for searching: under D65 for the 2° observer, as a rule."""
 
 from __future__ import annotations
 
@@ -16,8 +16,12 @@ from ..colorimetry import srgb, tristimulus
 from .sample import Sample
 
 
-def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
+def of_samples(
+    samples: Sequence[Sample], illuminant: str = "D65", observer: int = 2
+) -> tuple[Array, Array]:
     """Return gamma-encoded sRGB, clipped to 0 to 1, and CIE L*a*b* of readings or albedos.
+
+    sRGB is that of a picture whose white is the light's.
 
     Returns
     -------
@@ -29,10 +33,10 @@ def of_samples(samples: Sequence[Sample]) -> tuple[Array, Array]:
     for i, sample in enumerate(samples):
         if sample.has_color:
             grids.setdefault(sample.wavelengths.tobytes(), []).append(i)
-    white = tristimulus.white("D65", 2)
+    white = tristimulus.white(illuminant, observer)
     for members in grids.values():
         try:
-            matrix = tristimulus.weights(samples[members[0]].wavelengths)
+            matrix = tristimulus.weights(samples[members[0]].wavelengths, illuminant, observer)
         except DomainError:
             continue
         # Whites of different grids differ in the last digits; each swatch of white is white.

@@ -30,6 +30,9 @@ SIGNATURES = {
     "match_by_measuring": "(material, sample=None, color='', progress=None)",
     "materials": "()",
     "measure_rough": "(sample, albedos, spot=None, *, seeds=4, samples=256, progress=None)",
+    "metamerism": "(first, second, lights=('A', 'F11', 'LED-B3'))",
+    "nearest": "(lab, count=10, *, illuminant='D65', observer=2)",
+    "palette": "(path)",
     "paused": "()",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
@@ -64,6 +67,8 @@ FIELDS = {
     "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
     "directional hemispherical bands warnings",
     "InBand": "name first last directional hemispherical apparent",
+    "InLight": "light delta_e_00 index",
+    "Row": "name lab illuminant observer sample",
     "Filter": "wavelengths response",
     "GlossReadings": "sphere units",
     "GlossEstimate": "gloss misfit level_is_known",

@@ -32,6 +32,7 @@ def everything(material):
     group = material.rough_spectra
     stored = {p.identifier: getattr(group, p.identifier) for p in group.bl_rna.properties}
     stored.pop("rna_type")
+    stored["solid_color"] = tuple(stored["solid_color"])  # what Blender gives goes with the file
     return stored, sorted(node.name for node in material.node_tree.nodes), sockets(material)
 
 

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from rough_spectra.addon.colorimetry import astm_e308, tristimulus
+from rough_spectra.addon.colorimetry import cie_tables, tristimulus
 from rough_spectra.addon.support.colour_science import colour
 from rough_spectra.core import reading
 from rough_spectra.core.color import color_difference
@@ -64,13 +64,21 @@ def test_weights_are_e308_where_ends_are_missing(step, first, last):
     )
 
 
-@pytest.mark.parametrize("step", [5, 10])
-def test_usual_grids_need_no_import_of_colour_science(monkeypatch, step):
-    """It takes half a second, in which a panel would stand still at its first use."""
-    tristimulus._weights.cache_clear()
-    monkeypatch.setattr(astm_e308, "colour", None)
-    wavelengths = np.arange(400.0, 701.0, step)
-    assert tristimulus.weights(wavelengths, "F11", 10).shape == (wavelengths.size, 3)
+def test_tables_are_those_of_colour_science():
+    science = colour()
+    grid = cie_tables.GRID
+    shape = science.SpectralShape(grid[0], grid[-1], 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for observer, name in OBSERVERS.items():
+            expected = science.MSDS_CMFS[name].copy().align(shape).values
+            np.testing.assert_array_equal(cie_tables.observer(observer), expected)
+        for illuminant in cie_tables.ILLUMINANTS:
+            table = science.SDS_ILLUMINANTS[TABLES.get(illuminant, illuminant)]
+            expected = table.copy().align(shape).values
+            np.testing.assert_array_equal(cie_tables.illuminant(illuminant), expected)
+    # CIE 15, table T.2: S0, S1 and S2 at 560 nm.
+    np.testing.assert_array_equal(cie_tables.daylight_parts()[:, 200], [100.0, 0.0, 0.0])
 
 
 def test_white_points_are_the_published_ones():

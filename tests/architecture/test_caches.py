@@ -15,10 +15,12 @@ NO_CACHES = {
     # What Blender reads later, so that somebody has to hold it.
     ("addon/interface/operators/build_assets.py", "_items"),
     ("addon/interface/operators/choose_sample.py", "_items"),
+    ("addon/interface/operators/choose_sample.py", "_before"),
     ("addon/interface/operators/assign_preset.py", "_items"),
     ("addon/interface/operators/assign_file.py", "_items"),
     ("addon/commands/command_line.py", "_handles"),
     # What is under way.
+    ("addon/interface/operators/ahead.py", "_left"),
     ("addon/interface/operators/import_review.py", "_batch"),
     ("addon/interface/panels/redraw.py", "_last"),
     ("addon/interface/shelf.py", "_asked"),

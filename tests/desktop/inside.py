@@ -9,6 +9,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
 import driver
+import scenes_at_first  # noqa: F401
 import scenes_background  # noqa: F401
 import scenes_comfort  # noqa: F401
 import scenes_files  # noqa: F401

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel under mouse and keys."""
 
+import bpy
 from driver import TICK, area, click, find, move, press, scene, window, write
-from stage import empty_file, green_file, state
+from stage import empty_file, green_file, state, undo_step
 
 
 @scene
@@ -55,3 +56,49 @@ def choosing_a_sample(found):
     yield from press("ESC")
     yield 0.3
     found["left"] = state()
+
+
+@scene
+def choosing_for_several(found):
+    """Do the same with three objects selected, two of them without a material; then undo."""
+    yield from empty_file()
+    wall = bpy.data.objects["Wall"]
+    for name in ("Box", "Ball"):
+        other = bpy.data.objects.new(name, wall.data.copy())
+        bpy.context.scene.collection.objects.link(other)
+        other.select_set(True)
+    own = bpy.data.materials.new("Own")
+    own.use_fake_user = True
+    bpy.data.objects["Ball"].active_material = own
+    undo_step("Three")
+    yield 0.5
+    panel = area("PROPERTIES")
+    x, y = yield from find(panel, "rough_spectra.choose_sample")
+    yield from click(x, y)
+    yield 1.0
+    yield from write("brick")
+    yield 0.5
+    yield from press("RET")
+    yield 1.0
+    found["chosen"] = _materials()
+    found["sigma"] = round(state()["sigma"], 4)
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = _materials()
+    yield from press("Z", ctrl=True, shift=True)
+    yield 0.5
+    found["redone"] = _materials()
+
+
+def _materials():
+    """Give the material of each object, what sample it is of, and its color in solid shading."""
+    return {
+        thing.name: None
+        if thing.active_material is None
+        else [
+            thing.active_material.name,
+            thing.active_material.rough_spectra.sample_name,
+            [round(value, 3) for value in thing.active_material.diffuse_color],
+        ]
+        for thing in bpy.data.objects
+    }

@@ -32,6 +32,17 @@ def test_choosing_a_sample(scene):
     assert scene["redone"] == scene["left"] == scene["chosen"]
 
 
+def test_choosing_for_several(scene):
+    names = {name: it[:2] for name, it in scene["chosen"].items()}
+    new, own = ["Brick", "Brick"], ["Own", "Brick"]
+    assert names == {"Wall": new, "Box": new, "Ball": own}
+    assert scene["sigma"] == pytest.approx(0.3491, abs=1e-4)  # the brick's own 20°
+    gray = [0.8, 0.8, 0.8, 1.0]
+    assert all(it[2] != gray for it in scene["chosen"].values())
+    assert scene["undone"] == {"Wall": None, "Box": None, "Ball": ["Own", "", gray]}
+    assert scene["redone"] == scene["chosen"]
+
+
 BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
 TOLD = (" σ 20°: ",)
 """What a user is told of the samples in a library that a scene builds."""
@@ -188,3 +199,10 @@ def test_dragging_from_the_shelf(scene):
     assert scene["here"] == [True, True]
     assert scene["state"] == "fresh"
     assert scene["browser"] == [True, True]
+
+
+def test_first_list(scene):
+    assert scene["known"] == 0
+    assert "Foliage" in scene["chosen"]
+    for step in ("opened", "typed", "assigned"):
+        assert scene[step] < 0.2, step

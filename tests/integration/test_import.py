@@ -8,6 +8,7 @@ import shutil
 
 import bpy
 import pytest
+from rough_spectra.addon import api
 from rough_spectra.addon.interface.operators import import_review, import_samples
 from rough_spectra.addon.material import preferences
 from rough_spectra.addon.samples import importing, library, readers
@@ -276,6 +277,37 @@ def test_search_verb_by_words_and_by_color(main, folder, two):
         assert result.sentence.startswith("rough_spectra search: ")
     (folder / "bad.json").write_text("{", encoding="utf-8")
     assert "bad.json" in main("search", "chalk").err
+
+
+def test_search_verb_takes_a_palette_and_compares_in_other_lights(main, folder, tmp_path):
+    entry = library.entries(folder)[0]
+    exact = ",".join(map(repr, entry.lab))
+    own = tmp_path / "own.csv"
+    own.write_text(f"name,L,a,b\nmine,{exact}\nother,50,0,0\n", encoding="utf-8")
+    rows = main("search", "--palette", own, "--count", 2).out.splitlines()
+    assert [row.split("\t")[0] for row in rows] == ["mine", "mine", "other", "other"]
+    assert rows[0] == f"mine\t{entry.id}\t{entry.name}\t0.00"
+    (row,) = main("search", "--palette", own, "--row", "mine", "--count", 1).out.splitlines()
+    assert row == rows[0]
+    # Of another observer everything has another color.
+    (row,) = main("search", "--near", exact, "--observer", 10, "--count", 1).out.splitlines()
+    assert float(row.split("\t")[2]) > 0.1
+    first, second = main(
+        *("search", "--like", entry.id, "--lights", "A", "F11", "--count", 2)
+    ).out.splitlines()
+    assert first.split("\t")[2:] == ["0.00", "0.00", "0.00"]
+    one, other = library.load(entry.id, folder), library.load(second.split("\t")[0], folder)
+    expected = [f"{light.index:.2f}" for light in api.metamerism(one, other, ["A", "F11"])[1:]]
+    assert second.split("\t")[3:] == expected
+    for words, said in (
+        (["--palette", own, "--lights", "A"], "compare spectra, and 'mine' has none"),
+        (["--like", entry.id, "--lights", "B"], "'B'"),
+        (["--near", "1,2,3", "--illuminant", "B"], "'B' is not known"),
+        (["x", "--row", "mine"], "--palette FILE"),
+    ):
+        result = main("search", *words)
+        assert result.status == 2
+        assert said in result.sentence
 
 
 def test_mapping_and_assign_take_library_ids(main, folder, two, tmp_path):

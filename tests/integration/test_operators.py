@@ -60,7 +60,7 @@ def test_preset_goes_to_the_active_material_with_sigma():
 def test_object_without_a_material_gets_one():
     wall = mesh_object("Wall")
     assert OPS.assign_preset("EXEC_DEFAULT", preset=GREEN) == {"FINISHED"}
-    assert wall.active_material.name == "Wall"
+    assert wall.active_material.name == "ColorChecker 14 Green"
     assert wall.active_material.rough_spectra.spectrum
 
 
@@ -68,7 +68,7 @@ def test_object_with_an_empty_slot_gets_a_material_in_it():
     wall = mesh_object("Wall", rgb_material("Old"))
     wall.material_slots[0].material = None
     assert OPS.assign_preset("EXEC_DEFAULT", preset=GREEN) == {"FINISHED"}
-    assert [slot.material.name for slot in wall.material_slots] == ["Wall"]
+    assert [slot.material.name for slot in wall.material_slots] == ["ColorChecker 14 Green"]
 
 
 def test_failed_assignment_leaves_the_object_without_a_material(tmp_path):
@@ -125,13 +125,16 @@ def test_polls_of_renew_and_bake_say_what_is_missing():
         OPS.bake("EXEC_DEFAULT")
 
 
-def test_dialogs_begin_with_the_roughness_that_the_material_has():
+def test_dialogs_begin_with_the_roughness_that_the_user_gave_the_material():
     dialog = types.SimpleNamespace(sigma=0.1)
     mesh_object("Wall", rgb_material("Wall"))
-    common.begin_with_sigma(dialog, bpy.context)
+    common.begin(dialog, bpy.context)
+    assert dialog.sigma == 0.1
+    OPS.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+    common.begin(dialog, bpy.context)
     assert dialog.sigma == 0.1
     OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=math.radians(30))
-    common.begin_with_sigma(dialog, bpy.context)
+    common.begin(dialog, bpy.context)
     assert dialog.sigma == math.radians(30)
 
 

@@ -49,7 +49,7 @@ class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the file."""
-        common.begin_with_sigma(self, context)
+        common.begin(self, context)
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -69,8 +69,7 @@ class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy
             if self.kind != common.AS_FILE:
                 sample = sample.taken_as(self.kind)
             sample = stated_white.given(sample, *common.stated_white(self))
-            request = common.request_in_scope(context, self.scope, sample, self.sigma)
-            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+            assigned = common.assign_sample(self, context, sample)
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}

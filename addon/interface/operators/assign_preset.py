@@ -45,6 +45,7 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search the presets by name."""
+        common.begin_scope(self, context)
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
@@ -54,12 +55,11 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
 
         try:
             sample = presets.load(self.preset)
-            request = common.request_in_scope(context, self.scope, sample, self.sigma)
-            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
+            assigned = common.assign_sample(self, context, sample)
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
-        common.report_assigned(self, assigned, request.sample)
+        common.report_assigned(self, assigned, sample)
         return {"FINISHED"}
 
 

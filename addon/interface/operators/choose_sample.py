@@ -5,33 +5,44 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import ahead, common
+
+if TYPE_CHECKING:
+    from ...samples.entry import Entry
 
 _items: list[tuple[str, str, str, int, int]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
+
+_before: list[tuple[str, str, str, int, int]] = []
+"""What an open list was filled with: Blender may still show these texts."""
+_is_partial = False
+"""Whether only the presets are in the list."""
 
 _UNKNOWN = "NONE"
 
 
 def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int, int]]:
-    """List what was there when the list was opened; a script gets it at the first look."""
-    if not _items:
+    """List what was there when the list was opened; a script gets it at the first look.
+
+    While the list is open, the user's own samples come along as soon as they are read.
+    """
+    if not _items or (_is_partial and ahead.is_done()):
         _fill()
     return _items
 
 
 def _fill() -> None:
-    from ...material import preferences
+    global _is_partial
     from ...preview import icons
-    from ...samples import library
 
-    entries = library.contents(preferences.user_folder()).entries
+    entries, _is_partial = _entries()
+    _before[:] = _items
     gray = (0.5, 0.5, 0.5)
     swatches = icons.swatch_icons([entry.swatch or gray for entry in entries])
     count = Counter(entry.name for entry in entries)
@@ -47,14 +58,28 @@ def _fill() -> None:
     ] or [(_UNKNOWN, "No Samples", "Install the extension again", 0, 0)]
 
 
+def _entries() -> tuple[tuple[Entry, ...], bool]:
+    """Give the samples to list, and whether the user's own are missing: they are being read."""
+    from ...samples import preset_index
+
+    if not bpy.app.background and not ahead.is_done():
+        presets = preset_index.entries()
+        if presets is not None:
+            return presets, True
+    from ...material import preferences
+    from ...samples import library
+
+    return library.contents(preferences.user_folder()).entries, False
+
+
 def _about(entry: Any) -> str:
     what = entry.kind.capitalize()
     sigma = "" if entry.sigma_degrees is None else f", σ {entry.sigma_degrees:g}°"
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
-class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
-    """Choose a measured sample for the material; σ and the other settings stay as they are"""
+class ROUGHSPECTRA_OT_choose_sample(common.AssignOptions, bpy.types.Operator):
+    """Choose a measured sample for the materials of the selected objects; what you set stays"""
 
     bl_idname = "rough_spectra.choose_sample"
     bl_label = "Choose Sample"
@@ -71,19 +96,16 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search presets and library by name."""
+        ahead.begin()
         _fill()
+        common.begin_scope(self, context)
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
     def execute(self, context: Any) -> set[str]:
-        """Assign to the active material; an object without one gets one."""
-        from ...material import preferences
-        from ...samples import library
-
+        """Assign to all materials in scope, or to none; an object without one gets one."""
         try:
-            sample = library.load(self.sample, preferences.user_folder())
-            request, shader = common.replacing_request(common.active_material(context), sample)
-            assigned = common.assign_in_scope(context, "ACTIVE", request, shader)
+            sample, assigned = common.assign_from_library(self, context, self.sample)
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}

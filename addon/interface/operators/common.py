@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import radians
 from typing import TYPE_CHECKING, Any
@@ -34,8 +34,20 @@ SCOPE_ITEMS = (
     ("ACTIVE", "Active Material", "Only the active object's active material"),
     ("SELECTED", "Selected Objects", "Every material on the selected objects"),
 )
+ASSIGN_SCOPE_ITEMS = (
+    SCOPE_ITEMS[0],
+    (
+        "EACH",
+        "Selected Objects",
+        "The active material of each selected object; objects without a material get one",
+    ),
+    ("SELECTED", "Selected Objects, All Slots", "Every material on the selected objects"),
+)
 ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
 
+
+_WITHOUT_SURFACE = {"GREASEPENCIL", "GPENCIL", "VOLUME"}
+"""Types of objects whose materials are not of surfaces."""
 
 _CHARACTERS_A_LINE = 100
 _SWATCH_WIDTH = 1.6
@@ -43,11 +55,21 @@ _SWATCH_WIDTH = 1.6
 
 
 class AssignOptions:
-    """Properties of every operator that assigns a spectrum."""
+    """Properties of every operator that assigns a spectrum.
 
-    sigma: FloatProperty(**SIGMA)
-    shader: EnumProperty(name="Shader", description="Node that is set", items=SHADER_ITEMS)
-    scope: EnumProperty(name="For", description="Materials that get it", items=SCOPE_ITEMS)
+    None is taken over from the last time: of one that is set, somebody said so now.
+    """
+
+    sigma: FloatProperty(**SIGMA, options={"SKIP_SAVE"})
+    shader: EnumProperty(
+        name="Shader", description="Node that is set", items=SHADER_ITEMS, options={"SKIP_SAVE"}
+    )
+    scope: EnumProperty(
+        name="For",
+        description="Materials that get it",
+        items=ASSIGN_SCOPE_ITEMS,
+        options={"SKIP_SAVE"},
+    )
 
 
 AS_FILE = "FILE"
@@ -166,13 +188,18 @@ def new_request(sample: Sample, sigma: float) -> Request:
     )
 
 
-def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, str]:
+def replacing_request(
+    material: Any | None, sample: Sample, sigma: float | None = None
+) -> tuple[Request, str]:
     """Give the request of a material with another sample, and its shader; the settings stay.
 
     Parameters
     ----------
     material
         A `bpy.types.Material`, or None where it has yet to be made.
+    sigma
+        Radians, where somebody said so. None keeps the roughness that the user set, and else takes
+        the sample's own.
 
     Raises
     ------
@@ -181,43 +208,49 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, st
     """
     from ...material import snapshot, state, storage
 
-    own = radians(sample.sigma_degrees or 0.0)
+    own = radians(sample.sigma_degrees or 0.0) if sigma is None else sigma
     if material is None or not snapshot.has_spectrum(material):
         return new_request(sample, own), "AUTO"
-    shader = material.rough_spectra.shader
-    beyond = state.beyond(snapshot.sigma_degrees(material.rough_spectra))
-    if beyond:
+    group = material.rough_spectra
+    shader, kept = group.shader, sigma is None and storage.is_sigma_set(material)
+    beyond = state.beyond(snapshot.sigma_degrees(group))
+    if kept and beyond:
         msg = f"Material {material.name!r}: {beyond}."
         raise MaterialError(msg)
+    fresh = new_request(sample, snapshot.sigma(group) if kept else own)
     try:
-        return replace(storage.load(material), sample=sample), shader
+        return replace(storage.load(material), sample=sample, sigma=fresh.sigma), shader
     except MaterialError:
         # What is stored is damaged: assigning anew is what mends it.
-        return new_request(sample, own), shader
+        return fresh, shader
 
 
-def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> Request:
-    """Give the request for the materials in scope.
-
-    The active material keeps its light, model and tolerance, as with `replacing_request`; several
-    materials, which may differ, get the user's preferences.
-    """
-    from ...material import snapshot
-
-    fresh, material = new_request(sample, sigma), active_material(context)
-    if scope != "ACTIVE" or material is None or not snapshot.has_spectrum(material):
-        return fresh
-    request, _ = replacing_request(material, sample)
-    return replace(request, sigma=fresh.sigma)
-
-
-def begin_with_sigma(operator: Any, context: Any) -> None:
-    """Let a dialog begin with the roughness that the material has: another sample keeps it."""
-    from ...material import snapshot
+def begin(operator: Any, context: Any) -> None:
+    """Let a dialog begin with the roughness that the user gave the material, and the selection."""
+    from ...material import snapshot, storage
 
     material = active_material(context)
-    if material is not None and snapshot.has_spectrum(material):
+    if material is not None and snapshot.has_spectrum(material) and storage.is_sigma_set(material):
         operator.sigma = snapshot.sigma(material.rough_spectra)
+    begin_scope(operator, context)
+
+
+def begin_scope(operator: Any, context: Any) -> None:
+    """Mean all selected objects where there are several, one of which is the active one."""
+    chosen, active = _carriers(context), active_object(context)
+    if len(chosen) > 1 and active in chosen and active.active_material == active_material(context):
+        operator.scope = "EACH"
+
+
+def _carriers(context: Any) -> list[Any]:
+    """Give the selected objects that a surface can be assigned to, the active one first."""
+    active = active_object(context)
+    found = [
+        thing
+        for thing in context.selected_objects
+        if hasattr(thing.data, "materials") and thing.type not in _WITHOUT_SURFACE
+    ]
+    return sorted(found, key=lambda thing: (thing != active, thing.name))
 
 
 def is_material_tree(context: Any) -> bool:
@@ -234,7 +267,16 @@ def is_material_tree(context: Any) -> bool:
 def assign_in_scope(
     context: Any, scope: str, request: Request, shader: str
 ) -> list[tuple[Any, Solution]]:
-    """Assign to all materials in scope, or to none; an active object without one gets one.
+    """Assign one request to all materials in scope, or to none; see `assign_sample`."""
+    return _assign(context, scope, lambda _material: (request, shader), request.sample.name)
+
+
+def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any, Solution]]:
+    """Assign a sample by an operator's `AssignOptions` to all materials in scope, or to none.
+
+    Each material keeps its light, model, tolerance, shader and gloss, unless the operator was told
+    otherwise, and its roughness if the user set it. An object without a material gets one that is
+    called as the sample; several share it.
 
     Returns
     -------
@@ -245,28 +287,73 @@ def assign_in_scope(
     RoughSpectraError
         If it cannot be done; nothing was changed then.
     """
+    told = operator.properties.is_property_set
+    sigma = operator.sigma if told("sigma") else None
+
+    def wanted(material: Any | None) -> tuple[Request, str]:
+        request, shader = replacing_request(material, sample, sigma)
+        return request, operator.shader if told("shader") else shader
+
+    assigned = _assign(context, operator.scope, wanted, sample.name)
+    given = {material.rough_spectra.sigma for material, _ in assigned}
+    if sigma is None and len(given) == 1:
+        [operator.sigma] = given  # to be seen, and changed, afterwards
+    return assigned
+
+
+def _assign(
+    context: Any, scope: str, wanted: Callable[[Any], tuple[Request, str]], name: str
+) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
     from ...material import derive
 
-    if scope == "SELECTED" or active_material(context) is not None:
-        materials = materials_in_scope(context, scope)
-        solutions = derive.assign([(material, request) for material in materials], shader)
-        return list(zip(materials, solutions, strict=True))
-    thing = active_object(context)
-    if thing is None or not hasattr(thing.data, "materials"):
-        msg = "There is no object that can carry a material; select a mesh first."
-        raise RoughSpectraError(msg)
-    if not (thing.is_editable and thing.data.is_editable):
-        msg = f"Object {thing.name!r} is linked; make it local first, to give it a material."
-        raise RoughSpectraError(msg)
-    material = shader_nodes.new_material(thing.name)
+    materials, bare = _in_scope(context, scope)
+    made = None
+    if bare:
+        for thing in bare:
+            if not (thing.is_editable and thing.data.is_editable):
+                msg = f"Object {thing.name!r} is linked; make it local first, to give it one."
+                raise RoughSpectraError(msg)
+        active = active_object(context)
+        if not (materials and active not in bare):
+            made = shader_nodes.new_material(name)
+            materials = [made, *materials]
     try:
-        solutions = derive.assign([(material, request)], shader)
+        found = [wanted(None if material == made else material) for material in materials]
+        pairs = [
+            (material, request) for material, (request, _) in zip(materials, found, strict=True)
+        ]
+        solutions = derive.assign(pairs, [shader for _, shader in found])
     except RoughSpectraError:
-        bpy.data.materials.remove(material)
+        if made is not None:
+            bpy.data.materials.remove(made)
         raise
-    thing.active_material = material
-    return [(material, solutions[0])]
+    for thing in bare:
+        if thing.active_material is None:  # one of the same mesh may have been given it
+            thing.active_material = materials[0]
+    return list(zip(materials, solutions, strict=True))
+
+
+def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
+    """Give the materials that an assignment means, that of the active object first.
+
+    And the objects without one.
+    """
+    if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
+        return materials_in_scope(context, scope), []
+    if scope == "ACTIVE":
+        things = [thing for thing in (active_object(context),) if hasattr(thing, "data")]
+        if not things or not hasattr(things[0].data, "materials"):
+            msg = "There is no object that can carry a material; select a mesh first."
+            raise RoughSpectraError(msg)
+    else:
+        things = _carriers(context)
+        if not things:
+            msg = "No selected object can carry a material; select meshes first."
+            raise RoughSpectraError(msg)
+    found = dict.fromkeys(thing.active_material for thing in things)
+    found.pop(None, None)
+    return list(found), [thing for thing in things if thing.active_material is None]
 
 
 def assign_from_library(
@@ -274,11 +361,9 @@ def assign_from_library(
 ) -> tuple[Sample, list[tuple[Any, Solution]]]:
     """Assign a sample of library or presets by an operator's `AssignOptions`.
 
-    σ is the sample's unless the caller of the operator gave one.
-
     Returns
     -------
-    The sample, and what `assign_in_scope` gave.
+    The sample, and what `assign_sample` gave.
 
     Raises
     ------
@@ -289,12 +374,7 @@ def assign_from_library(
     from ...samples import library
 
     sample = library.load(name, preferences.user_folder())
-    sigma = operator.sigma
-    if not operator.properties.is_property_set("sigma"):
-        sigma = radians(sample.sigma_degrees or 0.0)
-        operator.sigma = sigma  # Blender holds it within the slider: what counts is the sample's
-    request = request_in_scope(context, operator.scope, sample, sigma)
-    return sample, assign_in_scope(context, operator.scope, request, operator.shader)
+    return sample, assign_sample(operator, context, sample)
 
 
 def can_have_material(operator: Any, context: Any) -> bool:

@@ -117,7 +117,7 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Show the matches while a color is picked."""
-        common.begin_with_sigma(self, context)
+        common.begin(self, context)
         with waiting(context):
             _find(self)
         return context.window_manager.invoke_props_dialog(self, width=480, confirm_text="Assign")

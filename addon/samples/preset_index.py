@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What lists show of the presets, from one file: their spectra are read when they are wanted.
+
+Reading and judging all of them takes a quarter of a second, after installing a whole one.
+`tools/tables/make_preset_index.py` writes the file. Of other presets than those it does not speak.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from .entry import Entry
+
+FOLDER = Path(__file__).resolve().parents[2] / "presets"
+FILE = FOLDER / "index.json"
+
+_PLACED = {"id", "collection", "path", "is_preset"}
+"""What follows from where the preset is."""
+
+
+def entries() -> tuple[Entry, ...] | None:
+    """Return an entry for each preset, in the order of their ids; None where the file has others.
+
+    Reads no preset: whether they are the same is told by names and sizes.
+    """
+    try:
+        rows = json.loads(FILE.read_bytes())
+        if {name: row["bytes"] for name, row in rows.items()} != _sizes():
+            return None
+        return tuple(_entry(name, row) for name, row in rows.items())
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):
+        return None  # they are read instead
+
+
+def text(found: tuple[Entry, ...]) -> str:
+    """Return the file's content for the entries of all presets, a preset a line."""
+    sizes = _sizes()
+    rows = []
+    for entry in found:
+        row = {key: value for key, value in asdict(entry).items() if key not in _PLACED}
+        row["bytes"] = sizes[entry.id]
+        rows.append(f"{json.dumps(entry.id)}: {json.dumps(row, ensure_ascii=False)}")
+    return "{\n" + ",\n".join(rows) + "\n}\n"
+
+
+def _entry(name: str, row: dict[str, Any]) -> Entry:
+    known = {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
+    del known["bytes"]
+    collection = name.partition("/")[0]
+    path = FOLDER / f"{name}.json"
+    return Entry(id=name, collection=collection, path=path, is_preset=True, **known)
+
+
+def _sizes() -> dict[str, int]:
+    """Give the bytes of each preset's file, by its id."""
+    found = {}
+    for folder in os.scandir(FOLDER):
+        if folder.is_dir():
+            for file in os.scandir(folder.path):
+                stem, ending = os.path.splitext(file.name)
+                if ending == ".json":
+                    found[f"{folder.name}/{stem}"] = file.stat().st_size
+    return found

@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Choosing a sample: what is loaded before it is needed, and what then becomes of materials."""
+
+import math
+from dataclasses import asdict
+
+import bpy
+import pytest
+from rough_spectra.addon.samples import library, preset_index
+
+from tests.integration.support import rgb_material
+from tests.integration.test_operators import mesh_object
+
+OPS = bpy.ops.rough_spectra
+BRICK, GREEN = "everyday/brick", "colorchecker/14-green"
+LARGEST_STEP = 50_000  # bytes of source: some 30 ms to compile
+
+
+def test_index_says_of_the_presets_what_reading_them_does():
+    read = [entry for file in library.read_presets() for entry in file.entries]
+    # Else: .venv/bpy-5.2/bin/python -m tools.tables.make_preset_index
+    indexed = preset_index.entries()
+    assert indexed is not None
+    for one, other in zip(indexed, read, strict=True):
+        one, other = asdict(one), asdict(other)
+        for colors in ("swatch", "lab"):
+            assert one.pop(colors) == pytest.approx(other.pop(colors), abs=1e-9)
+        assert one == other
+
+
+def test_presets_that_the_index_does_not_know_are_read(tmp_path, monkeypatch):
+    known = preset_index.FILE.read_text(encoding="utf-8")
+    other = tmp_path / "index.json"
+    monkeypatch.setattr(preset_index, "FILE", other)
+    assert preset_index.entries() is None
+    for text in ("[]", "{", known.replace('"bytes": 1', '"bytes": 2', 1)):
+        other.write_text(text, encoding="utf-8")
+        assert preset_index.entries() is None
+    other.write_text(known, encoding="utf-8")
+    assert preset_index.entries()
+
+
+def test_after_loading_ahead_an_assignment_brings_no_module(blender):
+    found = blender("""
+        extension = load_extension()
+        extension.register()
+        from rough_spectra.addon.interface.operators import ahead
+        def ours():
+            return {
+                name: module.__file__ for name, module in sys.modules.items()
+                if name.startswith("rough_spectra.") and module.__file__
+            }
+        import os
+        steps, before = [], ours()
+        for name in ahead.STEPS:
+            importlib.import_module(f"rough_spectra.{name}")
+            new = {n: os.path.getsize(f) for n, f in ours().items() if n not in before}
+            steps.append([name, sum(new.values()) - new.get("rough_spectra.core.surface.data", 0)])
+            before = ours()
+        for work in ahead._WORK:
+            work()
+        before = set(sys.modules)
+        mesh = bpy.data.meshes.new("Wall")
+        thing = bpy.data.objects.new("Wall", mesh)
+        bpy.context.collection.objects.link(thing)
+        bpy.context.view_layer.objects.active = thing
+        bpy.ops.rough_spectra.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+        from rough_spectra.addon.preview import icons
+        made = thing.active_material
+        icons._make(made, [icons._Wish(made.session_uid, "sheet", 300)])
+        new = [name for name in sys.modules if name not in before]
+        left = [name for name in new if name.startswith(("rough_spectra.", "numpy."))]
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        extension.unregister()
+        print(json.dumps([steps, left]))
+    """)
+    steps, left = found
+    assert [step for step in steps if step[1] > LARGEST_STEP] == []
+    assert left == []
+
+
+def degrees(material):
+    return round(math.degrees(material.rough_spectra.sigma), 3)
+
+
+def choose(sample, **options):
+    assert OPS.choose_sample("EXEC_DEFAULT", sample=sample, **options) == {"FINISHED"}
+
+
+def test_a_sample_brings_its_own_roughness_until_the_user_sets_one():
+    wall = rgb_material("Wall")
+    mesh_object("Wall", wall)
+    choose(BRICK)
+    assert degrees(wall) == 20  # as presets/everyday/brick.json says
+    choose(GREEN)
+    assert degrees(wall) == 0
+    choose("everyday/blackboard")
+    own = degrees(wall)
+    assert own not in (0, 12)
+    wall.rough_spectra.sigma = math.radians(12)
+    for sample in (BRICK, GREEN):
+        choose(sample)
+        assert degrees(wall) == 12
+    choose(BRICK, sigma=math.radians(5))
+    assert degrees(wall) == 5
+
+
+def test_a_material_of_which_nobody_knows_keeps_its_roughness():
+    wall = rgb_material("Wall")
+    mesh_object("Wall", wall)
+    choose(BRICK)
+    wall.rough_spectra.property_unset("own_sigma")  # as in a file of an earlier version
+    choose(GREEN)
+    assert degrees(wall) == 20
+
+
+def test_several_objects_are_as_one_and_keep_what_is_theirs():
+    first, second, other = (rgb_material(name) for name in ("First", "Second", "Other"))
+    left_out = rgb_material("Left out")
+    mesh_object("Away", left_out).select_set(False)
+    two = mesh_object("Two", other, second)
+    two.active_material_index = 1
+    bare, also = mesh_object("Bare"), mesh_object("Also bare")
+    mesh_object("One", first)
+    choose(BRICK)
+    first.rough_spectra.illuminant = "A"
+    choose(GREEN, scope="EACH")
+    named = "ColorChecker 14 Green"
+    assert [m.rough_spectra.sample_name for m in (first, second)] == [named, named]
+    assert (first.rough_spectra.illuminant, second.rough_spectra.illuminant) == ("A", "D65")
+    assert not other.rough_spectra.spectrum  # of another slot
+    assert not left_out.rough_spectra.spectrum
+    assert bare.active_material == also.active_material == first  # that of the active object
+
+
+def test_objects_without_a_material_share_a_new_one_that_is_called_as_the_sample():
+    things = [mesh_object(name) for name in ("One", "Two", "Three")]
+    choose(BRICK, scope="EACH")
+    [material] = bpy.data.materials
+    assert [thing.active_material for thing in things] == [material] * 3
+    assert material.name == "Brick"
+    choose(GREEN)
+    assert material.name == "Brick"
+
+
+def test_one_of_several_that_cannot_be_set_leaves_all_as_they_were():
+    from tests.integration.support import checkered_and_glowing
+
+    mesh_object("Bad", checkered_and_glowing("Bad"))
+    bare = mesh_object("Bare")
+    with pytest.raises(RuntimeError, match="'Bad'"):
+        OPS.choose_sample("EXEC_DEFAULT", sample=BRICK, scope="EACH")
+    assert bare.active_material is None
+    assert [material.name for material in bpy.data.materials] == ["Bad"]
+
+
+def test_solid_shading_shows_the_reading_unless_the_user_gave_it_a_color():
+    from rough_spectra.addon.colorimetry import srgb, tristimulus
+    from rough_spectra.addon.samples import presets
+
+    wall = rgb_material("Wall")
+    mesh_object("Wall", wall)
+    alpha = wall.diffuse_color[3]
+    choose(BRICK)
+    sample = presets.load(BRICK)
+    xyz = sample.values @ tristimulus.weights(sample.wavelengths)
+    expected = srgb.from_xyz(tristimulus.white("D65", 2)) @ xyz
+    # Blender's own matrix to Rec.709 is another in the fourth digit.
+    assert tuple(wall.diffuse_color)[:3] == pytest.approx(expected.tolist(), abs=2e-3)
+    assert wall.diffuse_color[3] == alpha
+    choose(GREEN)
+    green = tuple(wall.diffuse_color)
+    assert green[1] > max(green[0], green[2])
+    wall.rough_spectra.sigma = math.radians(40)  # an albedo reads darker then
+    assert wall.diffuse_color[1] < green[1]
+    wall.diffuse_color = (1, 0, 0, 0.5)
+    choose(BRICK)
+    assert tuple(wall.diffuse_color) == (1, 0, 0, 0.5)

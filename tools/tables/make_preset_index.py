@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write presets/index.json: what lists show of the presets.
+
+    .venv/bpy-5.2/bin/python -m tools.tables.make_preset_index
+
+To be run whenever a preset is added or changed; a test says so.
+"""
+
+from tools.run.run_command_line import load_extension
+
+
+def main() -> None:
+    """Read all presets and write the index."""
+    load_extension()
+    from rough_spectra.addon.samples import library, preset_index
+
+    found = tuple(entry for file in library.read_presets() for entry in file.entries)
+    preset_index.FILE.write_text(preset_index.text(found), encoding="utf-8", newline="\n")
+    print(f"{preset_index.FILE}: {len(found)} presets")
+
+
+if __name__ == "__main__":
+    main()
