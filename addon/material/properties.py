@@ -8,6 +8,8 @@ would change measured values. `storage` reads and writes all of this.
 
 from __future__ import annotations
 
+from typing import Any
+
 from bpy.props import (
     BoolProperty,
     EnumProperty,
@@ -21,7 +23,7 @@ from bpy.types import Material, PropertyGroup
 from ...core import limits, models, white_scale
 from ...core.instruments import DEFAULT, REGISTRY
 from ..matching import shaders
-from . import changes
+from . import changes, gloss
 
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
@@ -130,6 +132,14 @@ WHITE_FACTOR = {
 """The white of a reading, wherever it is asked for."""
 
 
+def _gloss(group: Any) -> float:
+    return gloss.shown(group.id_data)
+
+
+def _put_gloss(group: Any, value: float) -> None:
+    gloss.put(group.id_data, value)
+
+
 class RoughSpectraMaterial(PropertyGroup):
     """Measured spectrum of a material, its roughness, and what was derived from them."""
 
@@ -152,6 +162,19 @@ class RoughSpectraMaterial(PropertyGroup):
     details: StringProperty(name="Details", description="What else the file said, as JSON")
     sigma: FloatProperty(**SIGMA, update=changes.on_setting)
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
+    gloss: FloatProperty(
+        name="Gloss",
+        description="How sharp the shine is, from 0, which is matte, to that of a mirror; how strong it "
+        "is, Specular IOR Level, stays as it was set, and so does the coat",
+        subtype="FACTOR",
+        precision=2,
+        min=0.0,
+        max=1.0,
+        get=_gloss,
+        set=_put_gloss,
+        update=changes.on_setting,
+        options=set(),  # what it sets can be animated, and it would be set twice
+    )
     illuminant: EnumProperty(
         name="Illuminant",
         description="Light under which the color is right",
