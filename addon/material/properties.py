@@ -164,8 +164,8 @@ class RoughSpectraMaterial(PropertyGroup):
     sigma_source: StringProperty(name="σ from", description="Where the roughness comes from")
     gloss: FloatProperty(
         name="Gloss",
-        description="How sharp the shine is, from 0, which is matte, to that of a mirror; how strong it "
-        "is, Specular IOR Level, stays as it was set, and so does the coat",
+        description="How sharp the shine is, from 0, which is matte, to that of a mirror; how "
+        "strong it is, Specular IOR Level, stays as it was set, and so does the coat",
         subtype="FACTOR",
         precision=2,
         min=0.0,

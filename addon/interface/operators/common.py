@@ -37,6 +37,7 @@ SCOPE_ITEMS = (
 ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
 
 
+_STROKES = {"GREASEPENCIL", "GPENCIL"}
 _CHARACTERS_A_LINE = 100
 _SWATCH_WIDTH = 1.6
 """Of a color in a list, in heights of a button."""
@@ -79,14 +80,17 @@ def stated_white(operator: Any) -> tuple[str | None, Any]:
     return operator.white, factors.get(operator.plaque, operator.plaque)
 
 
+def white_settings(owner: Any) -> list[str]:
+    """Name those of `WhiteOptions` that count for an owner of all of them."""
+    if owner.white in ("", AS_FILE, white_scale.PERFECT):
+        return ["white"]
+    return ["white", "plaque"] + ["white_factor"] * (owner.plaque == white_scale.STATED)
+
+
 def draw_white(layout: Any, owner: Any) -> None:
     """Ask which white values are relative to; `owner` has the properties of `WhiteOptions`."""
-    layout.prop(owner, "white")
-    if owner.white in ("", AS_FILE, white_scale.PERFECT):
-        return
-    layout.prop(owner, "plaque")
-    if owner.plaque == white_scale.STATED:
-        layout.prop(owner, "white_factor")
+    for name in white_settings(owner):
+        layout.prop(owner, name)
 
 
 def draw_in_browser(operator: Any, names: Sequence[str]) -> None:
@@ -105,13 +109,18 @@ def active_object(context: Any) -> Any | None:
     return pinned if pinned is not None else context.view_layer.objects.active
 
 
+def can_carry(thing: Any | None) -> bool:
+    """Whether an object may have surface materials: Grease Pencil has materials of its own."""
+    return hasattr(getattr(thing, "data", None), "materials") and thing.type not in _STROKES
+
+
 def active_material(context: Any) -> Any | None:
     """Give the material that the Material tab shows."""
-    shown = getattr(context, "material", None)
-    if shown is not None:
-        return shown
-    thing = active_object(context)
-    return None if thing is None else thing.active_material
+    found = getattr(context, "material", None)
+    if found is None:
+        thing = active_object(context)
+        found = None if thing is None else thing.active_material
+    return None if found is None or found.is_grease_pencil else found
 
 
 def materials_in_scope(context: Any, scope: str) -> list[Any]:
@@ -253,7 +262,7 @@ def assign_in_scope(
         solutions = derive.assign([(material, request) for material in materials], shader)
         return list(zip(materials, solutions, strict=True))
     thing = active_object(context)
-    if thing is None or not hasattr(thing.data, "materials"):
+    if thing is None or not can_carry(thing):
         msg = "There is no object that can carry a material; select a mesh first."
         raise RoughSpectraError(msg)
     if not (thing.is_editable and thing.data.is_editable):
@@ -299,8 +308,7 @@ def assign_from_library(
 
 def can_have_material(operator: Any, context: Any) -> bool:
     """Poll for operators that assign to the active material."""
-    thing = active_object(context)
-    if active_material(context) is not None or hasattr(getattr(thing, "data", None), "materials"):
+    if active_material(context) is not None or can_carry(active_object(context)):
         return True
     operator.poll_message_set("Select an object that can carry a material")
     return False
@@ -320,6 +328,35 @@ def is_local(operator: Any, material: Any) -> bool:
         return True
     operator.poll_message_set("The material is linked; make it local first")
     return False
+
+
+def has_own_spectrum(operator: Any, context: Any) -> bool:
+    """Poll for operators that change the active material's settings."""
+    from ...material import snapshot
+
+    material = active_material(context)
+    if material is None or not snapshot.has_spectrum(material):
+        operator.poll_message_set("The material has no measured spectrum; assign one first")
+        return False
+    return is_local(operator, material)
+
+
+def previews(context: Any) -> list[Any]:
+    """Give the 3D views that show Material Preview, which is Eevee whatever the scene's engine is.
+
+    In a 3D view that one alone; elsewhere those of the window, unless one of them is rendered.
+    """
+    screen = getattr(context, "screen", None)
+    own = getattr(context, "space_data", None)
+    if getattr(own, "type", "") == "VIEW_3D":
+        spaces = [own]
+    else:
+        areas = () if screen is None else screen.areas
+        spaces = [area.spaces.active for area in areas if area.type == "VIEW_3D"]
+    kinds = [space.shading.type for space in spaces]
+    if "RENDERED" in kinds:
+        return []
+    return [space for space, kind in zip(spaces, kinds, strict=True) if kind == "MATERIAL"]
 
 
 def has_spectra(operator: Any) -> bool:

@@ -7,7 +7,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .. import redraw, sentences
+    from ....material import verdict
+    from .. import redraw
 
 LABEL = "Difference"
 TOOLTIP = "Target and Blender side by side, and what the difference means"
@@ -53,7 +54,7 @@ def draw(layout: Any, context: Any) -> None:
 
 def _draw_swatches(
     layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
-) -> sentences.Numbers | None:
+) -> verdict.Numbers | None:
     """Draw the colors with their numbers, which are None until they are computed."""
     from .. import sentences, text
 
