@@ -306,7 +306,7 @@ def test_a_smooth_surface_is_the_same_in_every_engine(green):
         drawn()
         icons._work()
         assert sentence_with("Limited by nothing")
-        assert sentence_with("Material lambert: at worst")
+        assert sentence_with("Material lambert: ΔE00 0.00 in the worst direction")
 
 
 def test_what_another_node_sets_is_not_compared(green):

@@ -10,13 +10,14 @@ from pathlib import Path
 import bpy
 import pytest
 from rough_spectra.addon.blender import shader_nodes
-from rough_spectra.addon.interface.panels import panels, renewal, simple
+from rough_spectra.addon.interface.operators import common
+from rough_spectra.addon.interface.panels import panels, renewal, sentences, simple, text
 from rough_spectra.addon.material import snapshot, state, storage, verdict
 from rough_spectra.addon.preview import balls, icons, theme
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object
-from tests.integration.test_panels import OPS, Layout, context
+from tests.integration.test_panels import OPS, Layout, context, drawn
 
 BRICK, CYAN = "everyday/brick", "colorchecker/18-cyan"
 MARKS = {simple.icon_value(icon): mark for mark, icon in simple._MARKS.items()}
@@ -406,3 +407,72 @@ def test_what_limits_and_the_verdict_do_not_contradict_each_other():
     found = state.evaluate(known).stamp
     assert verdict.limit(known, found, (3.0, 3.0, 3.0)) == "gloss"
     assert theme.current(bpy.context.preferences).scale == 1
+
+
+@pytest.mark.parametrize("preset", ["concrete", "sand", "chalk"])
+def test_presets_carry_no_warnings_that_read_like_faults(preset):
+    """What their readers left out is told with the source."""
+    material = wall(f"everyday/{preset}", 20)
+    found = state.state(material).stamp
+    assert found.warnings
+    last = storage.load(material)
+    reported = []
+    solution = types.SimpleNamespace(warnings=(*found.warnings, "Too dark."))
+    operator = types.SimpleNamespace(report=lambda kind, text: reported.append((kind, text)))
+    common.report_warnings(operator, [(material, solution)])
+    assert reported[-1] == ({"WARNING"}, "Wall: Too dark.")
+    assert {*map(str, (kind for kind, _ in reported[:-1]))} == {"{'INFO'}"}
+    assert len(reported) == 1 + len(last.sample.altered)
+    style = sentences.style(text.Format(2000, False, 1.0, 11.0))
+    known = snapshot.of(material)
+    details = material.rough_spectra.details
+    told = sentences.difference(known, (0.0, 0.5, 1.0), style, details)
+    fault = simple.icon_value("ERROR")
+    assert not [line for [(line, icon), *_] in told if icon == fault]
+    white = (*snapshot.white(material.rough_spectra), "45a:0")
+    about = sentences.source("", details, (20.0, ""), white, style)
+    assert any(last.sample.altered[0] in line for [(line, _), *_] in about[2])
+
+
+def test_no_two_lines_of_the_numbers_contradict_each_other():
+    """What is visible is told of the mean; of the few angles that are further off, the number."""
+    wall()
+    drawn()
+    icons._work()
+    page = drawn()
+    [spread] = [line for line in page if line.startswith("95 %")]
+    assert re.fullmatch(r"95 % of them: below ΔE00 \d\.\d\d", spread)
+    assert not any("at worst" in line or " off" in line for line in page)
+
+
+def test_what_a_sentence_names_is_a_button_below_it():
+    flat()
+    drawn()
+    icons._work()
+    page = drawn()
+    difference = page[page.index("[Difference]") : page.index("[Plots]")]
+    assert any(
+        "analyze the scene" in " ".join(difference[i : i + 3]) for i in range(len(difference))
+    )
+    assert difference[-2:] == ["rough_spectra.switch_to_cycles", "rough_spectra.analyze_scene"]
+    OPS.switch_to_cycles()
+    OPS.assign_preset("EXEC_DEFAULT", preset=CYAN, sigma=0.0)
+    wide = "rough_spectra.use_wide_gamut" in drawn()
+    assert wide == hasattr(bpy.data, "colorspace")
+
+
+def test_counts_leave_out_materials_that_nobody_uses_any_more():
+    """A material that was taken off its object is deleted for who does not save it."""
+    wall()
+    gone = bpy.data.materials.new("Gone")
+    other = mesh_object("Door", gone)
+    OPS.assign_preset("EXEC_DEFAULT", preset=BRICK, sigma=0.3)
+    for material in (gone, bpy.data.materials["Wall"]):
+        shader(material).inputs[0].default_value = (0.5, 0.1, 0.1, 1)
+    where = types.SimpleNamespace()
+    assert len(common.materials_in_scope(where, "ALL")) == 2
+    other.data.materials.clear()
+    assert [m.name for m in common.materials_in_scope(where, "ALL")] == ["Wall"]
+    assert OPS.renew(scope="ALL_STALE", overwrite_edits=True) == {"FINISHED"}
+    assert state.state(gone).kind == "stale"
+    assert state.state(bpy.data.materials["Wall"]).kind == "fresh"

@@ -34,7 +34,7 @@ SCOPE_ITEMS = (
     ("ACTIVE", "Active Material", "Only the active object's active material"),
     ("SELECTED", "Selected Objects", "Every material on the selected objects"),
 )
-ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
+ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material in use with a spectrum")
 
 
 _STROKES = {"GREASEPENCIL", "GPENCIL"}
@@ -142,7 +142,11 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
     if scope == "ALL":
         from ...material import selection
 
-        return [material for _, material in selection.surfaces((), ())]
+        found = selection.in_use(material for _, material in selection.surfaces((), ()))
+        if not found:
+            msg = "No material in use has a measured spectrum; assign one first."
+            raise RoughSpectraError(msg)
+        return found
     material = active_material(context)
     if material is None:
         msg = "The active object has no material; give it one first."
@@ -403,7 +407,15 @@ def report_error(operator: Any, error: Exception | str) -> None:
 
 
 def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:
-    """Report every warning of the solutions, with the material's name."""
+    """Report every warning of the solutions, with the material's name.
+
+    What was altered when the file was read is told, too, but is no fault of the match. `pairs` are
+    materials that store what was solved, and their solutions.
+    """
+    from ...material import storage
+
     for material, solution in pairs:
+        altered = storage.load(material).sample.altered if solution.warnings else ()
         for warning in solution.warnings:
-            operator.report({"WARNING"}, f"{material.name}: {warning}")
+            level = "INFO" if warning in altered else "WARNING"
+            operator.report({level}, f"{material.name}: {warning}")

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import bpy
 
+from ....core.numerics.memoized import kept
 from ...material.snapshot import Snapshot
 from ...preview import icons
 from ...support import events
@@ -30,7 +31,7 @@ class _Answer(NamedTuple):
     reason: str
 
 
-_answers: dict[int, _Answer] = {}
+_answers: dict[int, _Answer] = kept(__name__, "_answers")
 _asked: set[int] = set()
 
 

@@ -21,6 +21,8 @@ _LIGHT = (-0.26, 0.3, 0.92)
 most is how bright a ball stays toward its edge."""
 _FINER = 4
 """Points along each side of a pixel that its share of the disk is counted from."""
+_FINEST = 96
+"""Pixels of a side up to which each is shaded; of more, every second one: a slider is dragged."""
 
 
 class _Ball(NamedTuple):
@@ -28,8 +30,10 @@ class _Ball(NamedTuple):
 
     Parameters
     ----------
+    step
+        Pixels that are shaded as one, in both directions.
     lit
-        Which pixels the light reaches, bool, (side, side).
+        Which of these the light reaches, bool.
     angles
         Light, view and the azimuth between them there, radians, each (lit,).
     directions
@@ -40,6 +44,7 @@ class _Ball(NamedTuple):
         Each pixel's share of the disk, (side, side).
     """
 
+    step: int
     lit: Array
     angles: tuple[Array, Array, Array]
     directions: tuple[Array, Array]
@@ -71,15 +76,18 @@ def ball(
     shown = cycles.reflected(color, cycles.lobe(np.asarray(roughness, float), *seen.directions))
     if gloss is not None:
         shown = gloss_lobe.layer(gloss, *seen.angles).over(shown)
-    image = np.zeros((side, side, 3))
-    image[seen.lit] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
-    pixels = np.concatenate((image, np.ones((side, side, 1))), axis=-1)
-    return raster.encoded(pixels * seen.coverage[..., np.newaxis])
+    image = np.ones((*seen.lit.shape, 4), np.float32)
+    image[..., :3] = 0
+    image[seen.lit, :3] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
+    if seen.step > 1:
+        image = image.repeat(seen.step, axis=0).repeat(seen.step, axis=1)[:side, :side]
+    return raster.encoded(image * seen.coverage[..., np.newaxis])
 
 
 @memoized(maxsize=8)
 def _of_size(side: int) -> _Ball:
-    x, y = _places(side)
+    step = 1 if side <= _FINEST else 2
+    x, y = _places(side, step)
     height = np.sqrt(np.maximum(1 - x * x - y * y, 0))
     light = np.array(_LIGHT) / np.linalg.norm(_LIGHT)
     toward = np.clip(x * light[0] + y * light[1] + height * light[2], -1, 1)
@@ -88,14 +96,14 @@ def _of_size(side: int) -> _Ball:
     across = np.sqrt((1 - toward**2) * (1 - height**2))
     turn = (light[2] - toward * height) / np.maximum(across, 1e-9)
     angles = np.arccos(toward), np.arccos(height), np.arccos(np.clip(turn, -1, 1))
-    fine_x, fine_y = _places(side * _FINER)
-    inside = (fine_x**2 + fine_y**2 < 1).astype(float)
-    coverage = inside.reshape(side, _FINER, side, _FINER).mean(axis=(1, 3))
-    return _Ball(lit, angles, cycles.directions(*angles), toward[:, np.newaxis], coverage)
+    fine_x, fine_y = _places(side * _FINER, 1)
+    inside = fine_x**2 + fine_y**2 < 1
+    coverage: Array = inside.reshape(side, _FINER, side, _FINER).mean(axis=(1, 3), dtype=np.float32)
+    return _Ball(step, lit, angles, cycles.directions(*angles), toward[:, np.newaxis], coverage)
 
 
-def _places(side: int) -> tuple[Array, Array]:
-    """Give the middles of pixels, from -1 to 1, x to the right and y up."""
-    at = (np.arange(side) + 0.5) / side * 2 - 1
+def _places(side: int, step: int) -> tuple[Array, Array]:
+    """Give the middles of pixels, each as wide as `step`: from -1 to 1, x to the right and y up."""
+    at = np.arange(step / 2, side + step / 2, step) / side * 2 - 1
     x, y = np.meshgrid(at, -at)
     return x, y
