@@ -16,6 +16,7 @@ from typing import Any
 import bpy
 
 from ...core.errors import OutputError
+from ...core.instruments import DEFAULT
 from ..blender import blend_file
 from ..blender.background_job import Job
 from ..matching import shaders
@@ -38,7 +39,7 @@ class Settings:
 
     Parameters
     ----------
-    model, illuminant, observer
+    model, illuminant, observer, read_at
         As in `request.Request`.
     shader
         Node that is made, as in `shader_nodes.find`.
@@ -51,6 +52,7 @@ class Settings:
     observer: int = 2
     shader: str = shaders.DEFAULT.name
     author: str = AUTHOR
+    read_at: str = DEFAULT
 
 
 @dataclass(frozen=True)
@@ -119,6 +121,7 @@ class Build(Job):
                 "illuminant": settings.illuminant,
                 "observer": settings.observer,
                 "shader": settings.shader,
+                "read_at": settings.read_at,
                 "assets": [
                     {
                         "name": asset.name,

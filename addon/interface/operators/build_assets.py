@@ -12,6 +12,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ....core.errors import InputError
+from ....core.instruments import DEFAULT
+from ...material.properties import INSTRUMENT_ITEMS
 from . import background
 
 _items: list[tuple[str, str, str]] = []
@@ -57,6 +59,12 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         description="Roughnesses in degrees, such as 10 20 30; empty for what the samples say",
         default="10 20 30",
     )
+    read_at: EnumProperty(
+        name="Read At",
+        description="Virtual instrument that the materials read right at, and are measured with",
+        items=INSTRUMENT_ITEMS,
+        default=DEFAULT,
+    )
     add_to_preferences: BoolProperty(
         name="Add to Preferences",
         description="Show the folder in every Asset Browser",
@@ -65,6 +73,10 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the folder."""
+        from ...material import preferences
+
+        if not self.properties.is_property_set("read_at"):
+            self.read_at = preferences.defaults().read_at
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -79,7 +91,7 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         self._folder = Path(bpy.path.abspath(self.directory))
         chosen = plan.of_collection(self.collection, preferences.user_folder())
         assets = plan.assets(chosen, _degrees(self.sigmas), build.LONGEST_NAME)
-        return build.Build(assets, self._folder)
+        return build.Build(assets, self._folder, build.Settings(read_at=self.read_at))
 
     def state(self, done: int, total: int) -> str:
         """Say how many previews are done."""
