@@ -22,7 +22,7 @@ from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
-from ..samples import quality
+from ..samples import quality, sets
 from . import glossy, scene_match, surface_spectra
 from .request import AUTO, Request
 from .scene_view import SceneView
@@ -67,13 +67,20 @@ def target_reading(request: Request) -> Array:
 
 
 def settle(requests: Sequence[Request]) -> list[tuple[Request, str]]:
-    """Replace "auto" by the model it means, and say why; other models stay as asked for."""
-    return [
-        (replace(request, model=TARGET), BY_DEFAULT)
-        if request.model == AUTO
-        else (request, ASKED_FOR)
-        for request in requests
-    ]
+    """Replace "auto" by the model it means, and say why; other models stay as asked for.
+
+    Of a set, the reading at the virtual instrument comes first: what was read there is the target.
+    """
+    return [_settled(request) for request in requests]
+
+
+def _settled(request: Request) -> tuple[Request, str]:
+    sample = sets.at(request.sample, request.read_at)
+    if sample is not request.sample:
+        request = replace(request, sample=sample)
+    if request.model == AUTO:
+        return replace(request, model=TARGET), BY_DEFAULT
+    return request, ASKED_FOR
 
 
 def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
