@@ -17,6 +17,7 @@ from ....core import instruments, limits, roughness, white_scale
 from ....core.errors import RoughSpectraError
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
+from ...matching import outside
 from ...material import derivation, settled, state
 from ...material.snapshot import Snapshot
 from ...samples import gloss_of_set, stated_white
@@ -240,6 +241,8 @@ def _limit(last: derivation.Stamp, apart: Numbers | None, found: Snapshot) -> st
     ):
         return tip_("Limited by the lights: no single color is right under all of them")
     if not several and last.delta_e_instrument > _GAMUT:
+        if any(map(outside.is_beyond_white, last.warnings)):
+            return tip_("Limited by white: the sample reads more there than a white material")
         return tip_("Limited by the gamut: {space} cannot hold this color").format(
             space=last.working_space
         )
