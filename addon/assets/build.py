@@ -16,6 +16,7 @@ from typing import Any
 import bpy
 
 from ...core.errors import OutputError
+from ...core.instruments import DEFAULT
 from ..blender import blend_file
 from ..blender.background_job import Job
 from ..samples.readers.formats import library as library_format
@@ -39,7 +40,7 @@ class Settings:
 
     Parameters
     ----------
-    model, illuminant, observer
+    model, illuminant, observer, read_at
         As in `request.Request`.
     shader
         Node that is made, as in `shader_nodes.find`.
@@ -52,6 +53,7 @@ class Settings:
     observer: int = 2
     shader: str = SHADER
     author: str = AUTHOR
+    read_at: str = DEFAULT
 
 
 @dataclass(frozen=True)
@@ -120,6 +122,7 @@ class Build(Job):
                 "illuminant": settings.illuminant,
                 "observer": settings.observer,
                 "shader": settings.shader,
+                "read_at": settings.read_at,
                 "assets": [
                     {
                         "name": asset.name,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ...core import instruments
 from ..blender import shader_nodes, sockets
 from ..instrument.worker import end_if_orphaned, report
 from ..matching import own_gloss
@@ -20,7 +21,6 @@ from . import previews
 
 if TYPE_CHECKING:
     from ..matching.solution import Solution
-    from ..samples.sample import Sample
 
 BLEND = "assets.blend"
 RESULT = "result.json"
@@ -78,6 +78,7 @@ def _request(entry: dict[str, Any], job: dict[str, Any]) -> Request:
         model=job["model"],
         illuminant=job["illuminant"],
         observer=job["observer"],
+        read_at=job["read_at"],
     )
 
 
@@ -89,7 +90,7 @@ def _mark(material: Any, entry: dict[str, Any], request: Request, solution: Solu
     asset.author = entry["author"]
     asset.license = sample.license
     asset.copyright = _shortened(sample.source)
-    asset.description = _description(sample, solution)
+    asset.description = _description(request, solution)
     # What the material viewport shows; a thumbnail shows it better.
     color = tuple(float(c) for c in solution.color)
     material.diffuse_color = (*color, 1.0)
@@ -97,12 +98,13 @@ def _mark(material: Any, entry: dict[str, Any], request: Request, solution: Solu
         asset.tags.new(tag, skip_if_exists=True)
 
 
-def _description(sample: Sample, solution: Solution) -> str:
+def _description(request: Request, solution: Solution) -> str:
     """Say what an artist wants to know: σ, how close the material comes, and whose numbers."""
+    sample, where = request.sample, instruments.spoken(request.read_at)
     return "\n".join(
         (
             f"σ {sample.sigma_degrees:g}°: {sample.sigma_source}",
-            f"Predicted ΔE00: {solution.delta_e_instrument:.2f} at 45°/0°, over all angles mean "
+            f"Predicted ΔE00: {solution.delta_e_instrument:.2f} at {where}, over all angles mean "
             f"{solution.delta_e_mean:.2f}, 95 % {solution.delta_e_95:.2f}.",
             *([f"Gloss: {sample.gloss_source}"] if sample.gloss_source else []),
             f"Source: {_shortened(sample.source)}",

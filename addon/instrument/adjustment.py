@@ -66,8 +66,9 @@ class Adjustment:
         self._traces = ExitStack()
         self._job: Measurement | None = None
         space = working_space.current()
-        reading = solve.target_reading(request)
-        self.target = reading @ space.rgb_weights(request.sample.wavelengths, request.illuminant)
+        [(settled, _)] = solve.settle([request])
+        reading = solve.target_reading(settled)
+        self.target = reading @ space.rgb_weights(settled.sample.wavelengths, request.illuminant)
         start = np.array(colors.get(material, place))
         self._search = color_search.search(
             self.target, start, lambda rgb: space.to_lab(rgb, request.illuminant)

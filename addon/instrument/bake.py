@@ -136,7 +136,7 @@ def _prepared(surface: str, material: Any, space: str, read_at: str) -> Prepared
         warnings.append(_IN_SCENE.format(where, promised.delta_e_instrument))
     if request is not None and request.read_at != read_at:
         warnings.append(_ELSEWHERE.format(instruments.spoken(request.read_at)))
-        request = replace(request, read_at=read_at)
+        [(request, _)] = solve.settle([replace(request, read_at=read_at)])
     reasons_why = (model_reason, shader_reason, tuple(warnings))
     return Prepared(surface, material.name, request, *reasons_why, promised, read_at=read_at)
 

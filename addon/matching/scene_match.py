@@ -217,12 +217,20 @@ def explain(view: SceneView, per_light: tuple[tuple[str, float], ...]) -> str:
     return f"{said} No single color is right under all of them."
 
 
-def gamut(name: str, target: Array, space: WorkingSpace) -> str:
-    """Say when the reading needs a channel below 0 or above 1; an empty sentence if not."""
+def gamut(name: str, target: Array, space: WorkingSpace, read: Array) -> str:
+    """Say when the reading needs a channel below 0 or above 1; an empty sentence if not.
+
+    `read` is its spectrum, shape (bands,): above 1, no working space helps.
+    """
     outside = np.maximum(-target, target - 1)
     channel = int(np.argmax(outside))
     if outside[channel] <= _ENOUGH:
         return ""
+    if target[channel] > 1 and read.max() > 1 + _ENOUGH:
+        return (
+            f"{name!r} reads up to {read.max():.4f}, more than a perfect diffuser: its reading "
+            f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."
+        )
     return (
         f"{name!r} lies outside the gamut of {space.name} under the scene's light: its reading "
         f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."

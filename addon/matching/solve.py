@@ -15,15 +15,17 @@ import numpy as np
 from ...core import cycles, instruments, ladder, reading
 from ...core.choice import choose_shader
 from ...core.color import color_difference
-from ...core.cycles import instrument_lobe, matching
+from ...core.cycles import gloss_reading, instrument_lobe, matching
 from ...core.gloss import Gloss
+from ...core.limits import COLOR_NM
 from ...core.models import TARGET
 from ...core.numerics import direction_grid
 from ...core.numerics.arrays import Array
 from ..colorimetry import tristimulus
 from ..colorimetry.rgb_space import WorkingSpace
-from ..samples import quality
+from ..samples import quality, sets
 from . import glossy, scene_match, surface_spectra
+from . import outside as outside_words
 from .request import AUTO, Request
 from .scene_view import SceneView
 from .solution import Solution
@@ -67,13 +69,20 @@ def target_reading(request: Request) -> Array:
 
 
 def settle(requests: Sequence[Request]) -> list[tuple[Request, str]]:
-    """Replace "auto" by the model it means, and say why; other models stay as asked for."""
-    return [
-        (replace(request, model=TARGET), BY_DEFAULT)
-        if request.model == AUTO
-        else (request, ASKED_FOR)
-        for request in requests
-    ]
+    """Replace "auto" by the model it means, and say why; other models stay as asked for.
+
+    Of a set, the reading at the virtual instrument comes first: what was read there is the target.
+    """
+    return [_settled(request) for request in requests]
+
+
+def _settled(request: Request) -> tuple[Request, str]:
+    sample = sets.at(request.sample, request.read_at)
+    if sample is not request.sample:
+        request = replace(request, sample=sample)
+    if request.model == AUTO:
+        return replace(request, model=TARGET), BY_DEFAULT
+    return request, ASKED_FOR
 
 
 def solve(requests: Sequence[Request], space: WorkingSpace) -> list[Solution]:
@@ -222,7 +231,7 @@ def _solve_in_scene(
     per_light = scene_match.mean_of_lights(view, taken.over_scene)
     [judged] = quality.check_each([sample])
     found = (
-        *(space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space)),
+        *(space.warning, _infeasible(request), scene_match.gamut(sample.name, target, space, read)),
         glossy.too_much(sample.name, request.gloss, target, request.read_at),
     )
     return Solution(
@@ -301,13 +310,25 @@ def _warnings(
     outside = np.maximum(-color, color - 1)
     channel = int(np.argmax(outside))
     if outside[channel] > _ENOUGH:
-        side = "below 0" if color[channel] < 0 else "above 1"
+        name, value = request.sample.name, float(color[channel])
+        beyond = _beyond_white(request, roughness, missed) if value > 1 else ""
         found.append(
-            f"{request.sample.name!r} lies outside the gamut of {space.name}: "
-            f"{'RGB'[channel]} would be {color[channel]:.4f}, {outside[channel]:.4f} {side}; "
-            f"with the nearest value the reading misses its target by ΔE00 {missed:.2f}."
+            beyond or outside_words.of_gamut(name, space.name, "RGB"[channel], value, missed)
         )
     return tuple(sentence for sentence in found if sentence)
+
+
+def _beyond_white(request: Request, roughness: float, missed: float) -> str:
+    """Say when a band reads more than a white material of this roughness does; empty if none."""
+    read, nm = target_reading(request), request.sample.wavelengths
+    lit = (nm >= COLOR_NM[0]) & (nm <= COLOR_NM[1])
+    band = int(np.argmax(np.where(lit, read, -np.inf)))
+    matte = instrument_lobe.reflectance(np.ones(3), roughness, request.read_at)
+    white = float(gloss_reading.reading(matte, request.gloss, request.read_at).max())
+    if read[band] <= white * (1 + _ENOUGH):
+        return ""
+    peak, where = (float(read[band]), float(nm[band])), instruments.spoken(request.read_at)
+    return outside_words.beyond_white(request.sample.name, peak, where, white, missed)
 
 
 def _infeasible(request: Request) -> str:

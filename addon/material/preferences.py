@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
+from ...core.instruments import DEFAULT
 from ...core.limits import TOLERANCE, TOLERANCES
-from .properties import ILLUMINANT_ITEMS, OBSERVER_ITEMS
+from .properties import ILLUMINANT_ITEMS, INSTRUMENT_ITEMS, OBSERVER_ITEMS
 
 PACKAGE = (__package__ or "").rpartition(".addon.")[0]
 """What Blender calls the extension."""
@@ -32,12 +33,15 @@ class Defaults(NamedTuple):
         Largest ΔE00 from the reference that a model may have to be chosen.
     library_folder
         Where the user's samples are, or an empty string for the extension's own folder.
+    read_at
+        Virtual instrument that it is to read right at.
     """
 
     illuminant: str = "D65"
     observer: int = 2
     tolerance: float = TOLERANCE
     library_folder: str = ""
+    read_at: str = DEFAULT
 
 
 class RoughSpectraPreferences(bpy.types.AddonPreferences):
@@ -52,6 +56,12 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
     )
     observer: EnumProperty(
         name="Observer", description="Observer of newly assigned materials", items=OBSERVER_ITEMS
+    )
+    read_at: EnumProperty(
+        name="Read At",
+        description="Virtual instrument that newly assigned materials read right at",
+        items=INSTRUMENT_ITEMS,
+        default=DEFAULT,
     )
     tolerance: FloatProperty(
         name="Tolerance (ΔE00)",
@@ -91,6 +101,7 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         column.label(text="New Materials")
         column.prop(self, "illuminant")
         column.prop(self, "observer")
+        column.prop(self, "read_at")
         column.prop(self, "tolerance")
         layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
         layout.prop(self, "show_shelf")
@@ -104,7 +115,13 @@ def defaults() -> Defaults:
         return Defaults()
     chosen = addon.preferences
     folder = bpy.path.abspath(chosen.library_folder) if chosen.library_folder else ""
-    return Defaults(chosen.illuminant, int(chosen.observer), round(chosen.tolerance, 5), folder)
+    return Defaults(
+        chosen.illuminant,
+        int(chosen.observer),
+        round(chosen.tolerance, 5),
+        folder,
+        chosen.read_at or DEFAULT,  # empty where another version knew other instruments
+    )
 
 
 def shows_shelf() -> bool:

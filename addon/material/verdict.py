@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple
 from ...core.gloss import IMPOSSIBLE
 from ...core.limits import MATCHED_SIGMA_DEGREES
 from ..colorimetry import perceptibility
+from ..matching import outside
 from . import settled, state
 from .derivation import DERIVATION, Stamp
 from .properties import SCHEMA
@@ -21,7 +22,7 @@ from .snapshot import Snapshot, digest
 from .state import State
 
 Mark = Literal["right", "near", "off", "open"]
-Limit = Literal["nothing", "engine", "lights", "gloss", "gamut", "lambert", "angles"]
+Limit = Literal["nothing", "engine", "lights", "gloss", "white", "gamut", "lambert", "angles"]
 Remedy = Literal[
     "", "cycles", "rendered", "local", "renew", "wide", "matte", "smoother", "measure", "unmute"
 ]
@@ -42,6 +43,7 @@ _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
     "engine": ("differs: roughness missing", "cycles"),
     "lights": ("differs: several lights", ""),
     "gloss": ("differs: too glossy", "matte"),
+    "white": ("differs: beyond white", ""),
     "gamut": ("differs: out of gamut", "wide"),
     "lambert": ("differs: left smooth", ""),
     "angles": ("differs: some angles", ""),
@@ -116,7 +118,9 @@ def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
         return "lights"
     if not several and last.delta_e_instrument > _GAMUT:
         # It is the gloss where no color below it reads as the sample.
-        return "gloss" if any(IMPOSSIBLE in each for each in last.warnings) else "gamut"
+        if any(IMPOSSIBLE in each for each in last.warnings):
+            return "gloss"
+        return "white" if any(map(outside.is_beyond_white, last.warnings)) else "gamut"
     return "lambert" if last.roughness == 0.0 else "angles"
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ...core.instruments import REGISTRY
 from .readers.parts.document import quote
-from .readers.parts.geometry_words import instrument_of
+from .readers.parts.geometry_words import NO_ANGLE, instrument_of
 from .sample import Sample
 
 SMOOTH = "smooth"
@@ -40,9 +40,43 @@ def stated(sample: Sample) -> str:
 
 
 def is_exact(sample: Sample) -> bool:
-    """Return whether the instrument is the geometry that the file states, and not one near it."""
+    """Return whether the instrument is the geometry that the file states, and not one near it.
+
+    A sphere's angle is 8° where nobody says another, and it is told whether gloss is in.
+    """
     words = stated(sample)
-    return not words or not ("azimuth" in words or instrument_of(words, sample.specular)[1])
+    if not words:
+        return True
+    note = instrument_of(words, sample.specular)[1]
+    return "azimuth" not in words and (not note or (NO_ANGLE in note and bool(sample.specular)))
+
+
+def at(sample: Sample, instrument: str) -> Sample:
+    """Return the set with the reading of an instrument first, if it has one of the same surface.
+
+    Its name, σ and gloss stay. What has none such, or is no reading, is returned as it is.
+    """
+    if sample.kind != "reading" or sample.instrument == instrument or not sample.others:
+        return sample
+    found = [
+        other
+        for other in sample.others
+        if (other.instrument, is_smooth(other)) == (instrument, is_smooth(sample))
+        and is_exact(other)
+    ]
+    if len(found) != 1:
+        return sample
+    [first] = found
+    alone = replace(sample, name=sample.called or sample.name, called="", others=(), gloss=())
+    return replace(
+        first,
+        name=sample.name,
+        called="" if first.name == sample.name else first.name,
+        others=(alone, *(other for other in sample.others if other is not first)),
+        gloss=sample.gloss,
+        sigma_degrees=sample.sigma_degrees,
+        sigma_source=sample.sigma_source,
+    )
 
 
 def count(sample: Sample) -> int:

@@ -13,7 +13,7 @@ from rough_spectra.addon import api
 from rough_spectra.addon.instrument import arrangement, bake
 from rough_spectra.addon.instrument.measure import RING_45_0, measure
 from rough_spectra.addon.material import derivation, last_measurement, snapshot, state, storage
-from rough_spectra.core import reading
+from rough_spectra.core import cycles, reading
 from rough_spectra.core.errors import DomainError
 from rough_spectra.core.instruments import REGISTRY, quadrature
 
@@ -184,3 +184,42 @@ def test_each_material_is_rendered_at_its_own_instruments_only():
     values = measure(*plan.work)
     assert np.isnan(values[0, 1]).all()
     np.testing.assert_array_equal(plan.taken(values), values[[0, 1, 0], [0, 1, 0]])
+
+
+def told(sample, sigma, read_at, kind="reading"):
+    material = bpy.data.materials.new("Told")
+    wanted = api.request(sample, math.radians(sigma), kind=kind, read_at=read_at)
+    [solution] = api.assign([(material, wanted)], gloss="none")
+    return solution, [text for text in solution.warnings if "misses its target" in text]
+
+
+@pytest.mark.parametrize(("read_at", "sigma"), [("45as15", 0), ("45as-15", 30), ("45as110", 30)])
+def test_a_reading_beyond_white_is_no_matter_of_gamut(colorchecker, read_at, sigma):
+    """As gloss gives beside the mirror direction, and fine powders toward the light."""
+    white = colorchecker[18]
+    shiny = replace(white, values=2.0 * white.values, instrument=read_at)
+    solution, [sentence] = told(shiny, sigma, read_at)
+    visible = (shiny.wavelengths >= 400) & (shiny.wavelengths <= 700)
+    peak = int(np.argmax(np.where(visible, shiny.values, 0)))
+    where = f"{shiny.values[peak]:.4f} at {shiny.wavelengths[peak]:g} nm"
+    assert f"reads {where} at {REGISTRY[read_at].title.split(',')[0]}" in sentence
+    assert "gamut" not in sentence
+    # A white of that roughness, by Cycles' formula in the same direction.
+    of = quadrature.of(read_at)
+    angles = of.theta_i, of.theta_r, of.delta_phi
+    white = of.weights @ cycles.reflectance(np.ones(3), solution.roughness, *angles)
+    stated = float(sentence.split("more than the ")[1].split()[0])
+    assert stated == pytest.approx(white[0], abs=1e-4)
+
+
+@pytest.mark.parametrize("read_at", ["45a:0", "45as110"])
+def test_a_color_outside_the_primaries_is(colorchecker, read_at):
+    _, [sentence] = told(colorchecker[17], 0, read_at, "albedo")
+    assert "outside the gamut of Linear Rec.709: R would be -" in sentence
+
+
+def test_what_fluoresces_reads_beyond_white(colorchecker):
+    green = colorchecker[13]
+    _, [sentence] = told(replace(green, values=5.2 * green.values), 0, "45a:0")
+    assert "more than the 1.0000 of a white material there" in sentence
+    assert "gamut" not in sentence

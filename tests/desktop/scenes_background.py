@@ -277,11 +277,17 @@ def wheels_of_extensions(found):
                 directory=str(folder / "library"),
                 collection=collection,
                 sigmas="20",
+                read_at="de:8",
                 add_to_preferences=False,
             )
         while not _ended():  # longer than one step of a scene may take
             yield 0.5
     found["files"] = sorted(path.name for path in (folder / "library").glob("*.blend"))
+    with bpy.data.libraries.load(
+        str(folder / "library" / "rough-spectra-seven.blend"), assets_only=True
+    ) as (there, wanted):
+        wanted.materials = there.materials
+    found["read_at"] = [material.rough_spectra.read_at for material in wanted.materials]
     found["after"] = _wheels()
     importlib.invalidate_caches()
     found["imported"] = importlib.import_module(other_extension.MODULE).ANSWER

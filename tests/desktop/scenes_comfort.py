@@ -79,6 +79,7 @@ def preferences(found):
     yield 1.0
     chosen = bpy.context.preferences.addons[PACKAGE].preferences
     chosen.illuminant, chosen.observer, chosen.tolerance = "A", "10", 0.5
+    chosen.read_at = "di:8"
     for other in bpy.data.window_managers[0].windows[1:]:
         with bpy.context.temp_override(window=other):
             bpy.ops.wm.window_close()
@@ -89,14 +90,17 @@ def preferences(found):
     chosen.library_folder = bpy.app.tempdir
     found["library"] = ours("addon.material.preferences").user_folder().samefile(bpy.app.tempdir)
     chosen.library_folder = ""
-    found["new"] = [group.illuminant, group.observer, round(group.tolerance, 3)]
+    found["new"] = [group.illuminant, group.observer, round(group.tolerance, 3), group.read_at]
     bpy.ops.wm.save_userpref()
     chosen.illuminant, chosen.observer, chosen.tolerance = "D65", "2", 1.0
+    chosen.read_at = "45a:0"
     bpy.ops.wm.read_userpref()
     yield 0.5
     chosen = bpy.context.preferences.addons[PACKAGE].preferences
-    found["saved"] = [chosen.illuminant, chosen.observer, round(chosen.tolerance, 3)]
+    saved = [chosen.illuminant, chosen.observer, round(chosen.tolerance, 3), chosen.read_at]
+    found["saved"] = saved
     chosen.illuminant, chosen.observer, chosen.tolerance = "D65", "2", 1.0
+    chosen.read_at = "45a:0"
     bpy.ops.wm.save_userpref()
 
 

@@ -113,6 +113,7 @@ def test_wheels_of_extensions(scene):
     assert scene["after"] == scene["before"]
     assert scene["files"] == ["rough-spectra-everyday.blend", "rough-spectra-seven.blend"]
     assert scene["imported"] == 42
+    assert scene["read_at"] == ["de:8"]
     assert scene["ours"]
 
 
@@ -127,7 +128,8 @@ def test_sidebar_and_menus(scene):
 
 
 def test_preferences(scene):
-    assert scene == {"new": ["A", "10", 0.5], "saved": ["A", "10", 0.5], "library": True}
+    chosen = ["A", "10", 0.5, "di:8"]
+    assert scene == {"new": chosen, "saved": chosen, "library": True}
 
 
 def test_another_language(scene):

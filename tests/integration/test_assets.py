@@ -41,7 +41,8 @@ def library(tmp_path_factory, extension):
     noted = replace(chosen[1].sample, notes=(SENTENCE,))
     assets = plan.assets([chosen[0], replace(chosen[1], sample=noted)], [0, 35.5], 63)
     counts = []
-    built = build.build(assets, folder, progress=lambda *count: counts.append(count))
+    settings = build.Settings(read_at="0:45a")
+    built = build.build(assets, folder, settings, progress=lambda *count: counts.append(count))
     assert [material.name for material in bpy.data.materials] == ["Brick σ 0°"]
     assert [scene.name for scene in bpy.data.scenes] == ["Scene"]
     assert counts[-1][1] in (0, 4)
@@ -104,6 +105,7 @@ def test_an_asset_carries_its_spectrum(appended):
     assert brick.sample.values.tolist() == bundled.values.tolist()
     assert (brick.sample.source, brick.sample.lab) == (bundled.source, bundled.lab)
     assert degrees(brick.sigma) == pytest.approx(35.5)
+    assert brick.read_at == "0:45a"
     assert brick.sample.sigma_source == plan.CHOSEN
     assert found["Brick σ 35.5°"].node_tree.nodes.keys() == ["Material Output", "Principled BSDF"]
 
@@ -121,7 +123,7 @@ def test_an_asset_says_what_it_is(library, appended):
     assert {tag.name for tag in asset.tags} == {"Rough Spectra", "Everyday", "σ 35.5°", "reading"}
     lines = asset.description.splitlines()
     assert lines[0] == f"σ 35.5°: {plan.CHOSEN}"
-    assert lines[1].startswith("Predicted ΔE00: 0.00 at 45°/0°, over all angles mean 0.")
+    assert lines[1].startswith("Predicted ΔE00: 0.00 at 0°:45°a, over all angles mean 0.")
     assert lines[2].startswith("Gloss: Estimate, not measured: none")
     assert lines[3].startswith("Source: Physically Based database")
     assert lines[4] == SENTENCE
@@ -285,6 +287,17 @@ def test_bad_words_on_the_command_line_write_nothing(main, tmp_path):
         assert result.status == 2
         assert part in result.sentence
     assert not output.exists()
+
+
+def test_the_verb_says_where_the_materials_read_right(main, tmp_path):
+    words = ("--preset", "14 green", "--sigma", "30", "--read-at", "45as75")
+    assert main("assets", "--output", tmp_path, *words).status == 0
+    [blend] = tmp_path.glob("*.blend")
+    with bpy.data.libraries.load(str(blend), assets_only=True) as (there, wanted):
+        wanted.materials = there.materials
+    [material] = wanted.materials
+    assert material.rough_spectra.read_at == "45as75"
+    assert "at 45°:as75°, over all" in material.asset_data.description
 
 
 @pytest.mark.parametrize("collection", ["everyday", "*"])

@@ -27,6 +27,7 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon import api
 from rough_spectra.addon.colorimetry import tristimulus
+from rough_spectra.addon.matching import outside
 from rough_spectra.addon.samples import presets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.addon.support import atomic_files
@@ -57,7 +58,8 @@ class Row:
     delta_e
         Between target and render, CIEDE2000, D65, 2°.
     predicted
-        The same as the matching predicts it: how far a color out of gamut misses.
+        The same as the matching predicts it: how far a color misses that is out of gamut or
+        beyond white.
     """
 
     instrument: str
@@ -85,7 +87,7 @@ def check(samples: list[Sample], sigmas: tuple[int, ...], names: list[str]) -> l
         seen = reading.from_albedo(sample.values, np.radians(degrees), MODEL, name)
         lab = tristimulus.spectrum_to_lab(seen, sample.wavelengths, "D65", observer=2)
         apart = float(color_difference.delta_e(lab, np.array(entry.measured.lab)))
-        within = not any("gamut" in warning for warning in solution.warnings)
+        within = not any(outside.MISSES in warning for warning in solution.warnings)
         told = (name, sample.name, degrees, within, apart, solution.delta_e_instrument)
         rows.append(Row(*told))
     return rows
@@ -101,7 +103,7 @@ def table(rows: list[Row]) -> str:
     lines = [
         "<!-- Made by tools/checks/check_instruments.py -->",
         "",
-        "| instrument | materials | mean ΔE00 | largest ΔE00 | bound | out of gamut |",
+        "| instrument | materials | mean ΔE00 | largest ΔE00 | bound | beyond gamut or white |",
         "|---|--:|--:|--:|--:|--:|",
     ]
     for name in dict.fromkeys(row.instrument for row in rows):

@@ -20,6 +20,7 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `assets`."""
+    from ....core.instruments import DEFAULT, REGISTRY
     from ....core.models import NAMES
     from ...colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
     from ...matching import shaders
@@ -61,6 +62,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument(
+        "--read-at",
+        choices=tuple(REGISTRY),
+        default=DEFAULT,
+        metavar="INSTRUMENT",
+        help="virtual instrument that the materials read right at, and are measured with "
+        f"({DEFAULT}): {', '.join(REGISTRY)}",
+    )
     parser.add_argument("--model", choices=("auto", *NAMES), default="auto")
     parser.add_argument(
         "--shader", choices=[name.lower() for name in shaders.NAMES], default="principled"
@@ -95,6 +104,7 @@ def run(options: argparse.Namespace) -> int:
         observer=options.observer,
         shader=options.shader.upper(),
         author=options.author or build.AUTHOR,
+        read_at=options.read_at,
     )
     progress = ProgressLine("rendering previews")
     try:

@@ -14,6 +14,8 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ....core.errors import InputError
+from ....core.instruments import DEFAULT
+from ...material.properties import INSTRUMENT_ITEMS
 from . import background
 from .import_options import waiting
 
@@ -71,6 +73,12 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         description="Roughnesses in degrees, such as 10 20 30; empty for what the samples say",
         default="10 20 30",
     )
+    read_at: EnumProperty(
+        name="Read At",
+        description="Virtual instrument that the materials read right at, and are measured with",
+        items=INSTRUMENT_ITEMS,
+        default=DEFAULT,
+    )
     add_to_preferences: BoolProperty(
         name="Add to Preferences",
         description="Show the folder in every Asset Browser",
@@ -82,6 +90,8 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         from ...material import preferences
         from ...samples import library
 
+        if not self.properties.is_property_set("read_at"):
+            self.read_at = preferences.defaults().read_at
         with waiting(context):
             library.contents(preferences.user_folder())
         context.window_manager.fileselect_add(self)
@@ -102,7 +112,7 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
         else:
             chosen = plan.of_collection(self.collection, folder)
         assets = plan.assets(chosen, _degrees(self.sigmas), build.LONGEST_NAME)
-        return build.Build(assets, self._folder)
+        return build.Build(assets, self._folder, build.Settings(read_at=self.read_at))
 
     def state(self, done: int, total: int) -> str:
         """Say how many previews are done."""

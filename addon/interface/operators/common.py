@@ -196,6 +196,7 @@ def new_request(sample: Sample, sigma: float) -> Request:
         illuminant=chosen.illuminant,
         observer=chosen.observer,
         tolerance=chosen.tolerance,
+        read_at=chosen.read_at,
     )
 
 

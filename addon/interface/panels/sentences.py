@@ -38,6 +38,7 @@ _LIMITS: dict[verdict.Limit, str] = {
     "engine": "Limited by the engine: only Cycles shows the roughness",
     "lights": "Limited by the lights: no single color is right under all of them",
     "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
+    "white": "Limited by white: the sample reads more there than a white material",
     "gamut": "Limited by the gamut: {space} cannot hold this color",
     "lambert": "Limited by leaving the roughness out, which hardly shows here",
     "angles": _ANGLES,

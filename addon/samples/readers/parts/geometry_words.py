@@ -23,6 +23,7 @@ EMITTED = "Emissivity is taken as seen from near the normal: 1 - ε is what a sp
 """The note that says so."""
 
 _OTHER = "is not among the instruments"
+NO_ANGLE = "does not name an angle"
 _LONGEST = 200  # characters of a description that are looked at
 _NUMBER = r"([-+]?\d+(?:[.,]\d+)?)"
 _RING = r"(annular|a|circumferential|c|ring|directional|x)?"
@@ -164,7 +165,7 @@ def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
     if both or (angle is not None and angle != nearest.view.tilt):
         return nearest.name, _OTHER
     if angle is None:
-        return nearest.name, "does not name an angle"
+        return nearest.name, NO_ANGLE
     if not says and not whole and angle != 0.0:
         return nearest.name, "does not say whether specular light is included"
     return nearest.name, ""
