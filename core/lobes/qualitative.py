@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Oren and Nayar's qualitative model, r = c (A + B max(0, cos Δφ) sin α tan β): LuxCore's roughmatte.
+"""Oren and Nayar's qualitative model, r = c (A + B max(0, cos Δφ) sin α tan β), of LuxCore.
 
 M. Oren and S. K. Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, with 0.33:
-what is left of the functional model without interreflection. Its roughness is the model's own σ.
+what is left of the functional model without interreflection. Roughness is the model's own σ.
 """
 
 from __future__ import annotations

@@ -20,6 +20,7 @@ SIGNATURES = {
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
     "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
+    "export": "(materials, base, targets=('materialx', 'gltf', 'mitsuba', 'pbrt', 'luxcore'))",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "gloss_readings": "(sample)",
@@ -62,6 +63,9 @@ FIELDS = {
     "State": "kind reasons stamp",
     "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
     "directional hemispherical bands warnings",
+    "Entry": "target name identifier request space lobe color roughness reading albedo "
+    "delta_e_instrument delta_e_mean delta_e_95 warnings",
+    "Exported": "files entries faults",
     "InBand": "name first last directional hemispherical apparent",
     "Filter": "wavelengths response",
     "GlossReadings": "sphere units",
