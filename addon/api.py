@@ -982,7 +982,8 @@ def export(
     base
         Folder and base name; endings are added: "out/chart" becomes out/chart.mtlx and so on.
     targets
-        Any of "materialx", "gltf", "mitsuba", "pbrt" and "luxcore".
+        Any of "materialx", "usd", "gltf", "mitsuba", "pbrt" and "luxcore"; "usd" starts a second
+        Blender, and this call waits for it.
 
     Returns
     -------
@@ -997,7 +998,9 @@ def export(
     DomainError
         A target is not known, or there is no material.
     OutputError
-        A file cannot be written or replaced; none was touched.
+        A file cannot be written or replaced, or the second Blender failed; none was touched.
+    CancelledError
+        On an interrupt from the keyboard; nothing was written.
 
     Examples
     --------

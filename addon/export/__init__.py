@@ -8,6 +8,7 @@ spaces      RGB that renderers take
 names       names that every renderer takes, and what is said of a material in a file
 targets     the renderers, one file each
 materials   what materials of Blender's are to be elsewhere
+usd_job     USD, by Blender's own exporter in a second Blender: usd_worker
 write       all of it into files, whole or not at all
 kept        what Blender's own exporters make of materials
 """

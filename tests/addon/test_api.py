@@ -20,7 +20,8 @@ SIGNATURES = {
     "emissivity": "(sample, sigma=None, *, angles=None, temperature=300.0, background=0.0, "
     "bands=None, model='reference')",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
-    "export": "(materials, base, targets=('materialx', 'gltf', 'mitsuba', 'pbrt', 'luxcore'))",
+    "export": "(materials, base, targets=('materialx', 'usd', 'gltf', 'mitsuba', 'pbrt', "
+    "'luxcore'))",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "gloss_readings": "(sample)",

@@ -3,6 +3,7 @@
 """The verb `export`: files for other renderers, and what is said of them."""
 
 import bpy
+from rough_spectra.addon.export import targets
 
 
 def with_wall(main, *words):
@@ -13,9 +14,11 @@ def with_wall(main, *words):
     main("assign", "--preset", "brick", "--material", "Wall", "--output", *words)
 
 
-def test_all_targets_are_written_and_told(main, tmp_path):
+def test_targets_are_written_and_told(main, tmp_path):
     with_wall(main, tmp_path / "scene.blend", "--gloss", "none")
-    told = main("export", "--output", tmp_path / "out" / "scene")
+    # Without USD, which starts a second Blender: tests/addon/test_export.py has all of them.
+    words = [f"--target={name}" for name in targets.NAMES if name != "usd"]
+    told = main("export", "--output", tmp_path / "out" / "scene", *words)
     assert told.status == 0
     endings = ["gltf", "luxcore.scn", "mitsuba.xml", "mtlx", "pbrt"]
     written = sorted(path.name for path in (tmp_path / "out").iterdir())

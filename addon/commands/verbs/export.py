@@ -10,7 +10,7 @@ from pathlib import Path
 from ...support.shown_text import tell
 
 NAME = "export"
-SUMMARY = "materials for other renderers: MaterialX, glTF, Mitsuba, pbrt, LuxCore"
+SUMMARY = "materials for other renderers: MaterialX, USD, glTF, Mitsuba, pbrt, LuxCore"
 DESCRIPTION = (
     "Solve color and roughness of materials for the lobe of each renderer, and write them in its "
     "format, with spectra where it has them. What is lost on the way is told. The .blend itself is "

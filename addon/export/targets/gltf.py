@@ -29,6 +29,8 @@ LOBES = (LAMBERT,)
 SPACES = (REC709,)
 
 _NO_GLOSS = "KHR_materials_specular"
+EXTRAS = "rough-spectra"
+"""Not as the extension's property of materials: up to Blender 4.5 the importer would write it."""
 _APART = 1.25
 """From square to square, each of side 1."""
 _FLOAT, _SHORT, _VERTICES, _INDICES = 5126, 5123, 34962, 34963
@@ -99,5 +101,5 @@ def _material(entry: Entry) -> dict[str, Any]:
             "roughnessFactor": 1.0,
         },
         "extensions": {_NO_GLOSS: {"specularFactor": 0.0}},
-        "extras": {"rough_spectra": facts(entry)},
+        "extras": {EXTRAS: facts(entry)},
     }
