@@ -10,19 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import bpy
-
-from ...core.errors import OutputError
 from ..blender.background_job import Job
 from .entry import Entry
 from .names import facts, numbers
 
 _FILE = "squares.usda"
 _PREFIX = "rough_spectra:"
-_WITHOUT = (
-    "This Blender was built without USD, and nothing was written; name the other targets, or take "
-    "a Blender from blender.org."
-)
 _ARRAYS = ("wavelengths", "reading", "albedo")
 _TEXT = re.compile(rf'custom string {_PREFIX}({"|".join(_ARRAYS)}) = "([^"]*)"')
 """What Blender's exporter makes of a text; it knows no arrays of more than four numbers."""
@@ -57,12 +50,10 @@ def write(entries: Sequence[Entry], path: Path) -> None:
     Raises
     ------
     OutputError
-        If this Blender has no USD, or the second Blender failed.
+        If the second Blender failed.
     CancelledError
         On an interrupt from the keyboard.
     """
-    if not bpy.app.build_options.usd:
-        raise OutputError(_WITHOUT)
     job = _Export(entries)
     try:
         job.wait()

@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import bpy
+
 from ...core.errors import DomainError, MaterialError, OutputError
 from ..support import atomic_files
 from . import materials as of_file
@@ -62,6 +64,11 @@ def materials(found: Iterable[Any], base: Path, names: Sequence[str] = targets.N
     return replace(write(wanted, base, names), faults=tuple(faults))
 
 
+def usable() -> tuple[str, ...]:
+    """Give the targets that this Blender can write: some need what not every one is built with."""
+    return tuple(name for name in targets.NAMES if not _missing(targets.find(name)))
+
+
 def check(base: Path, names: Iterable[str]) -> None:
     """Refuse what `write` would, before anything is solved.
 
@@ -70,11 +77,18 @@ def check(base: Path, names: Iterable[str]) -> None:
     DomainError
         A target is not known.
     OutputError
-        No file can come from the base name, or one that is there may not be replaced.
+        No file can come from the base name, one that is there may not be replaced, or this Blender
+        was built without what a target needs.
     """
     atomic_files.check_base(base)
-    for name in names:
-        atomic_files.check_target(_path(base, targets.find(name)))
+    for target in map(targets.find, names):
+        if _missing(target):
+            msg = (
+                f"This Blender was built without what {target.TITLE} needs; name the other "
+                "targets, or take a Blender from blender.org."
+            )
+            raise OutputError(msg)
+        atomic_files.check_target(_path(base, target))
 
 
 def write(wanted: Sequence[Wanted], base: Path, names: Sequence[str] = targets.NAMES) -> Exported:
@@ -122,6 +136,11 @@ def _let_write(content: targets.Written, part: Path, path: Path) -> None:
     except OSError as error:
         msg = f"{path} cannot be written: {error.strerror}; free the disk or choose another place."
         raise OutputError(msg) from error
+
+
+def _missing(target: targets.Target) -> str:
+    option: str = getattr(target, "NEEDS", "")
+    return option if option and not getattr(bpy.app.build_options, option) else ""
 
 
 def _path(base: Path, target: targets.Target) -> Path:

@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The verb `export`: files for other renderers, and what is said of them."""
 
+import types
+
 import bpy
+import pytest
 from rough_spectra.addon.export import targets
+from rough_spectra.addon.interface.operators import export_materials
 
 
 def with_wall(main, *words):
@@ -39,3 +43,27 @@ def test_one_target_one_material_and_what_is_lost(main, tmp_path):
     assert (tmp_path / "out.pbrt").read_text("utf-8").count("MakeNamedMaterial") == 1
     refused = main("export", "--material", "Plain", *words)
     assert (refused.status, refused.sentence.count("no measured spectrum")) == (2, 1)
+
+
+def test_the_operator_writes_what_is_chosen_and_changes_nothing(main, tmp_path):
+    with_wall(main, tmp_path / "scene.blend", "--gloss", "none")
+    before = [len(each) for each in (bpy.data.materials, bpy.data.objects, bpy.data.meshes)]
+    export = bpy.ops.rough_spectra.export_materials
+    words = {"filepath": str(tmp_path / "out"), "scope": "ALL"}
+    assert export("EXEC_DEFAULT", targets={"materialx", "pbrt"}, **words) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.glob("out*")) == ["out.mtlx", "out.pbrt"]
+    now = [len(each) for each in (bpy.data.materials, bpy.data.objects, bpy.data.meshes)]
+    assert now == before
+    with pytest.raises(RuntimeError, match="No selected object has a material; select"):
+        export("EXEC_DEFAULT", **words | {"scope": "SELECTED"})
+
+
+@pytest.mark.parametrize(
+    ("menu", "scope"), [("TOPBAR_MT_file_export", "ALL"), ("MATERIAL_MT_context_menu", "ACTIVE")]
+)
+def test_it_is_in_the_menus(menu, scope):
+    drawn = types.SimpleNamespace()
+    layout = types.SimpleNamespace(operator=lambda *_, **__: drawn)
+    assert export_materials._draw_entry in getattr(bpy.types, menu)._dyn_ui_initialize()
+    export_materials._draw_entry(types.SimpleNamespace(bl_idname=menu, layout=layout), None)
+    assert drawn.scope == scope

@@ -57,12 +57,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Export; exit status 0, or 2 where a material could not be exported."""
     from ... import api
-    from ...export import targets
+    from ...export import targets, write
     from ...material import selection
     from ..progress import counted
 
     surfaces = selection.surfaces(options.material, options.object)
-    chosen = options.target or targets.NAMES
+    chosen = options.target or write.usable()
     found = api.export([material for _, material in surfaces], options.output, chosen)
     for sentence in found.warnings:
         tell(f"warning: {sentence}")

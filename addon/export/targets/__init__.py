@@ -9,6 +9,8 @@ ENDING = "pbrt"                                      what follows the base name
 LOBES = (LAMBERT,)                                   what it shows of light, the simplest first
 SPACES = (SPECTRA,)                                  what its colors are in; of several, the
                                                      first that a color lies in
+NEEDS = "usd"                                        only where Blender may lack it: one of
+                                                     bpy.app.build_options
 def content(entries: Sequence[Entry]) -> Content     all of the file
 """
 

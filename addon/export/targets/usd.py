@@ -21,6 +21,7 @@ PLACE = 20
 ENDING = "usda"
 LOBES = (LAMBERT,)
 SPACES = (REC709,)
+NEEDS = "usd"
 
 
 def content(entries: Sequence[Entry]) -> Callable[[Path], None]:
