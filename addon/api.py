@@ -6,6 +6,7 @@ From a file to files:
 
     read, find → request → assign → state, renew, keep → bake → write
     read, find → emissivity → write_emissivity
+    materials → export, for other renderers
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -46,6 +47,10 @@ from ..core.limits import TOLERANCE
 from ..core.models import TARGET
 from ..core.numerics.arrays import Array
 from .blender import colors, working_space
+from .export import targets as export_targets
+from .export import write as export_files
+from .export.entry import Entry
+from .export.write import Exported
 from .instrument import adjustment
 from .instrument import bake as instrument_bake
 from .instrument import gloss as instrument_gloss
@@ -89,7 +94,9 @@ __all__ = [
     "Differences",
     "DomainError",
     "Emissivity",
+    "Entry",
     "Estimate",
+    "Exported",
     "Filter",
     "Gloss",
     "GlossEstimate",
@@ -118,6 +125,7 @@ __all__ = [
     "emissivity",
     "estimate",
     "estimate_gloss",
+    "export",
     "find",
     "gloss",
     "gloss_readings",
@@ -1105,6 +1113,60 @@ def write(
         msg = f"The format {unknown[0]!r} is not known; choose of {', '.join(writers.FORMATS)}."
         raise DomainError(msg)
     return writers.write(readings, Path(base), chosen)
+
+
+def export(
+    materials: Iterable[bpy.types.Material],
+    base: str | os.PathLike[str],
+    targets: Iterable[str] = export_targets.NAMES,
+) -> Exported:
+    """Write materials for other renderers, each solved for the lobe of the renderer that shows it.
+
+    The open file is not changed. What is written follows the spectra and their settings, is matte,
+    and reads right at each material's virtual instrument.
+
+    Parameters
+    ----------
+    materials
+        With a spectrum. One whose data cannot be used is a fault in the result, and does not stop
+        the others.
+    base
+        Folder and base name; endings are added: "out/chart" becomes out/chart.mtlx and so on.
+    targets
+        Any of "materialx", "usd", "gltf", "mitsuba", "pbrt" and "luxcore"; "usd" starts a second
+        Blender, and this call waits for it.
+
+    Returns
+    -------
+    Its `files`, one a target; `faults` and `warnings`, sentences; and `entries`, or `of(target)`
+    alone, each with `color`, `roughness` in the renderer's unit, `delta_e_instrument`, and
+    `delta_e_mean` and `delta_e_95` over the hemisphere.
+
+    Raises
+    ------
+    MaterialError
+        None of the materials has a spectrum that can be used.
+    DomainError
+        A target is not known, or there is no material.
+    OutputError
+        A file cannot be written or replaced, or the second Blender failed; none was touched.
+    CancelledError
+        On an interrupt from the keyboard; nothing was written.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))], gloss="none")
+    >>> found = export([wall], "out/wall", ["materialx", "gltf"])
+    >>> [path.name for path in found.files]
+    ['wall.mtlx', 'wall.gltf']
+    >>> [(each.lobe.name, round(each.roughness, 2)) for each in found.entries]
+    [('eon', 0.47), ('lambert', 0.0)]
+    >>> [round(each.delta_e_mean, 1) for each in found.entries]
+    [0.7, 4.1]
+    """
+    chosen = (targets,) if isinstance(targets, str) else tuple(targets)
+    return export_files.materials(map(_checked, materials), Path(base), chosen)
 
 
 def rough_sample(

@@ -21,6 +21,7 @@ from . import previews
 
 if TYPE_CHECKING:
     from ..matching.solution import Solution
+    from ..samples.sample import Sample
 
 BLEND = "assets.blend"
 RESULT = "result.json"

@@ -21,6 +21,8 @@ SIGNATURES = {
     "bands=None, model='reference')",
     "estimate_gloss": "(sample, level=None, gloss=None)",
     "estimate": "(materials, *, model=None, repeatability=0.001)",
+    "export": "(materials, base, targets=('materialx', 'usd', 'gltf', 'mitsuba', 'pbrt', "
+    "'luxcore'))",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "gloss_readings": "(sample)",
@@ -66,6 +68,9 @@ FIELDS = {
     "State": "kind reasons stamp",
     "Emissivity": "sample source sigma model angles temperature background wavelengths facets "
     "directional hemispherical bands warnings",
+    "Entry": "target name identifier request space lobe color roughness reading albedo "
+    "delta_e_instrument delta_e_mean delta_e_95 warnings",
+    "Exported": "files entries faults",
     "InBand": "name first last directional hemispherical apparent",
     "InLight": "light delta_e_00 index",
     "Row": "name lab illuminant observer sample",

@@ -14,6 +14,7 @@ MEMOIZED = "core/numerics/memoized.py"
 NO_CACHES = {
     # What Blender reads later, so that somebody has to hold it.
     ("addon/interface/operators/build_assets.py", "_items"),
+    ("addon/interface/operators/export_materials.py", "_items"),
     ("addon/interface/operators/choose_sample.py", "_items"),
     ("addon/interface/operators/choose_sample.py", "_before"),
     ("addon/interface/operators/assign_preset.py", "_items"),

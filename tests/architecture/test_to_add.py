@@ -140,6 +140,23 @@ FILES = {
             text = "\\n".join(["names by Rough Spectra 0", *names])
             return [("predicted.names", text.encode())]
     ''',
+    "addon/export/targets/roster.py": '''
+        """Colors of the materials, and nothing else."""
+
+        from ....core.lobes import LAMBERT
+        from ..spaces import REC709
+
+        NAME = "roster"
+        TITLE = "Roster"
+        PLACE = 25
+        ENDING = "roster"
+        LOBES = (LAMBERT,)
+        SPACES = (REC709,)
+
+
+        def content(entries):
+            return "".join(f"{entry.identifier} {entry.color}" for entry in entries).encode()
+    ''',
 }
 """Files that are added."""
 
@@ -269,7 +286,7 @@ USE = """
         "dropped": bpy.types.ROUGHSPECTRA_FH_import.bl_file_extensions.split(";"),
         "help": {
             verb: main(verb, "--help")[1]
-            for verb in ("assign", "assets", "bake", "check", "compare", "merge")
+            for verb in ("assign", "assets", "bake", "check", "compare", "export", "merge")
         },
         "greeted": [main("--help"), main("greet", "--help"), main("greet", "--name", "Ada")],
         "waved": [
@@ -278,6 +295,8 @@ USE = """
         "drawn": drawn,
         "boxes": boxes,
         "written": writers.FORMATS,
+        "exported": main("export", "--output", folder / "wall", "--target", "roster"),
+        "roster": (folder / "wall.roster").read_text(),
         "bakes": [baked(), baked("--format", "names"), baked("--format", "csv")],
     }
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -440,6 +459,14 @@ def test_an_output_format_of_one_file_is_found_everywhere(found):
     assert all("{csv,names,cgats,exr}" in found["help"][v] for v in ("bake", "check", "merge"))
 
 
+def test_a_renderer_of_one_file_is_found_everywhere(found):
+    assert found["exported"][0] == 0
+    assert "Roster: 1 material, at most ΔE00 0.00" in found["exported"][2]
+    assert found["roster"].startswith("Wall [0.")
+    assert re.search(r"\{materialx,\w*,?roster,.*\}", found["help"]["export"])
+    assert "BASE.roster" in found["help"]["export"]
+
+
 def test_the_manual_has_the_table():
     manual = (ROOT / "docs" / "development.md").read_text(encoding="utf-8")
     section = manual.partition("\n## To add something\n")[2].partition("\n## ")[0]
@@ -447,6 +474,7 @@ def test_the_manual_has_the_table():
     assert rows[1:] == [
         *("a file format", "an instrument", "a model", "a target shader", "a verb"),
         *("an operator", "a box of the panel", "an output format", "a preset"),
+        "a renderer to export to",
     ]
     for path in re.findall(r"`((?:core|addon)/[\w/]*)", section):
         assert Path(ROOT, path).exists() or Path(ROOT, f"{path}.py").exists(), path

@@ -15,19 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from core import cycles
+from core import cycles, lobes
 from tools.chart.chart_work import RING, Array
 
 SLIDERS = np.linspace(0, 1, 41)
 
 
 def eon(color: Array, roughness: Any, angles: Array) -> Array:
-    """Reflectance factor of EON, the rough diffuse of OpenPBR; its energy exact, not fitted.
-
-    J. Portsmouth, P. Kutz, S. Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
-    14 (2025). Single scattering is Fujii's, as in Cycles, whose directional albedos it shares; the
-    light that bounces on is (1 - E(θi)) (1 - E(θr)) / (1 - Ē) times ρ² Ē / (1 - ρ (1 - Ē)), where
-    Cycles has ρ³.
+    """Reflectance factor of EON, the rough diffuse of OpenPBR: `core.lobes.eon`.
 
     Parameters
     ----------
@@ -42,22 +37,17 @@ def eon(color: Array, roughness: Any, angles: Array) -> Array:
     -------
     Shape (..., channels), in the precision of `color`.
     """
-    single, multiple, ratio = _terms(color, roughness, angles)
-    return np.asarray(color * (single + color * multiple / (1 - color * ratio)))
+    return lobes.reflected(color, _terms(color, roughness, angles))
 
 
 def eon_color(reading: Array, roughness: Any) -> Array:
-    """Color with which EON reads this at 45°/0°, by the quadratic that its formula is in ρ."""
-    single, multiple, ratio = _terms(reading, roughness, np.array(RING))
-    # r (1 - D c) = A c (1 - D c) + B c²
-    square, line = multiple - single * ratio, single + ratio * reading
-    root = np.sqrt(line * line + 4 * square * reading)
-    return np.asarray(2 * reading / (line + root))
+    """Color with which EON reads this at 45°/0°."""
+    return lobes.color_for(reading, _terms(reading, roughness, np.array(RING)))
 
 
 def _terms(color: Array, roughness: Any, angles: Array) -> tuple[Array, Array, Array]:
     s, *three = (np.asarray(x, color.dtype) for x in (roughness, *angles))
-    return cycles.lobe(s, *cycles.directions(*three))
+    return lobes.EON.terms(s, *three)
 
 
 def cycles_lobe(color: Array, roughness: Any, angles: Array) -> Array:
