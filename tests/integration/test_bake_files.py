@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from rough_spectra.addon.support import shown_text
 
-from tests.integration.support import ODD_NAME, contents, rgb_material, spectrum_csv
+from tests.integration.support import ODD_NAME, ROOT, contents, rgb_material, spectrum_csv
+from tests.json_schema import allowed
 
 ENDINGS = (
     "json",
@@ -124,7 +125,7 @@ def test_a_bake_leaves_the_blend_file_as_it_was(scene, main, tmp_path):
 def test_json_says_what_it_holds(baked):
     document = baked.document
     assert document["format"] == "rough-spectra-readings"
-    assert document["schema"] == 1
+    assert document["schema"] == 2
     assert document["blender"] == bpy.app.version_string
     assert document["working_space"] == "Linear Rec.709"
     assert document["instrument"] == "45a:0"
@@ -139,10 +140,87 @@ def test_json_keeps_predicted_and_measured_under_keys_of_their_own(baked):
     assert len(predicted(baked)) == 5
     for entry in baked.document["readings"]:
         assert "wavelengths" not in entry["measured"]
-        assert set(entry["measured"]) == {"rgb", "spread", "illuminant", "xyz", "lab"}
+        assert set(entry["measured"]) == {"rgb", "spread", "illuminant", "xyz", "lab", "colors"}
         if entry["predicted"]:
             assert "rgb" not in entry["predicted"]
             assert len(entry["predicted"]["values"]) == len(entry["predicted"]["wavelengths"])
+
+
+def test_json_tells_the_node_and_how_its_color_was_derived(baked, scene_file):
+    bpy.ops.wm.open_mainfile(filepath=str(scene_file))
+    for entry in baked.document["readings"]:
+        material = bpy.data.materials[entry["material"]]
+        node, derivation = entry["node"], entry["derivation"]
+        if entry["material"] == "Patterned":  # its surface is a sum of two shaders
+            assert node is derivation is None
+            continue
+        shader = next(n for n in material.node_tree.nodes if n.type == "BSDF_DIFFUSE")
+        assert (node["name"], node["shader"], node["gloss"]) == (shader.name, "diffuse", None)
+        assert node["color"] == list(shader.inputs["Color"].default_value)[:3]
+        assert node["roughness"] == shader.inputs["Roughness"].default_value
+        if not entry["predicted"]:
+            assert derivation is None
+            continue
+        assert (derivation["state"], derivation["reasons"]) == ("fresh", [])
+        assert derivation["color"] == pytest.approx(node["color"], abs=1e-7)
+        assert derivation["delta_e_instrument"] == pytest.approx(entry["delta_e_00"], abs=0.05)
+        told = {"virtual instrument": "45a:0", "illuminant": entry["predicted"]["illuminant"]}
+        assert told.items() <= derivation["settings"].items()
+
+
+def test_json_has_the_albedo_behind_each_reading(baked):
+    from rough_spectra.core import reading
+
+    for part in (entry["predicted"] for entry in predicted(baked)):
+        sigma = np.radians(part["sigma_degrees"])
+        read = reading.from_albedo(np.array(part["albedo"]), sigma, part["model"], "45a:0")
+        assert read == pytest.approx(part["values"], abs=2e-6)
+        assert part["instrument"] == "45a:0"
+
+
+def test_json_has_colors_in_the_spaces_that_pipelines_exchange(baked):
+    import colour
+
+    spaces = {"Linear Rec.2020": "ITU-R BT.2020", "ACEScg": "ACEScg"}
+    for entry in baked.document["readings"]:
+        parts = (
+            (entry["measured"], "rgb"),
+            (entry["node"], "color"),
+            (entry["predicted"], "preview"),
+        )
+        for part, own in parts:
+            if part is None:
+                continue
+            assert set(part["colors"]) == {"Linear Rec.709", *spaces}
+            assert part["colors"]["Linear Rec.709"] == pytest.approx(part[own], abs=2e-6)
+            for name, theirs in spaces.items():
+                matrix = colour.matrix_RGB_to_RGB("ITU-R BT.709", theirs, "Bradford")
+                # Their white of D65 has four digits more than the standards' own.
+                assert part["colors"][name] == pytest.approx(matrix @ part[own], abs=2e-5)
+
+
+def test_the_schema_describes_the_document_and_nothing_else(baked):
+    schema = json.loads((ROOT / "addon/readings/readings.schema.json").read_text("utf-8"))
+    assert allowed(schema, baked.document)
+    for spoil in (
+        lambda document: document["readings"][0]["predicted"].pop("albedo"),
+        lambda document: document["readings"][0]["node"].update(color=[0.5, 0.5]),
+        lambda document: document["readings"][0]["predicted"]["colors"].update(ACEScg="white"),
+        lambda document: document["readings"][0].update(more=1),
+    ):
+        document = json.loads(json.dumps(baked.document))
+        spoil(document)
+        assert not allowed(schema, document)
+
+
+def test_json_is_read_back_whole(baked):
+    from rough_spectra.addon.readings import json_document
+
+    found = json_document.from_json(baked.path("json"))
+    assert json_document.to_json(found) == baked.files["chart.json"]
+    assert found.entries[0].predicted.colors["ACEScg"] == tuple(
+        baked.document["readings"][0]["predicted"]["colors"]["ACEScg"]
+    )
 
 
 def test_prediction_is_the_stored_spectrum_where_that_is_a_reading(baked):
@@ -221,7 +299,7 @@ def test_the_table_and_the_document_have_the_albedos_that_are_open(main, tmp_pat
 
     from rough_spectra.addon.matching.solve import Request
     from rough_spectra.addon.material import derive
-    from rough_spectra.addon.readings import document
+    from rough_spectra.addon.readings import json_document
     from rough_spectra.addon.samples import presets
     from rough_spectra.core import feasible
 
@@ -245,7 +323,7 @@ def test_the_table_and_the_document_have_the_albedos_that_are_open(main, tmp_pat
         [name for name in rows[0] if name.startswith(f"albedo {end} ")] for end in ("min", "max")
     )
     assert len(lowest) == len(highest) == green.wavelengths.size
-    entries = document.from_json(tmp_path / "x.json").entries
+    entries = json_document.from_json(tmp_path / "x.json").entries
     for row, entry, sample in zip(rows, entries, samples.values(), strict=True):
         found = feasible.albedo_range(sample.values, "two-bounce", sample.instrument)
         low, high = found.lowest, found.highest

@@ -9,7 +9,7 @@ import re
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.readings.document import from_json
+from rough_spectra.addon.readings.json_document import from_json
 from rough_spectra.addon.samples import readers
 from rough_spectra.core import reading
 from rough_spectra.core.instruments import REGISTRY

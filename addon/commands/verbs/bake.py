@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
     from ... import api
     from ...instrument import bake
     from ...material import selection
-    from ...readings import document, writers
+    from ...readings import json_document, writers
     from ...support import atomic_files
     from ..progress import counted
 
@@ -115,7 +115,7 @@ def run(options: argparse.Namespace) -> int:
         whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
         part = replace(result, shard=index, shards=count, whole=whole)
         with atomic_files.publication() as files:
-            files.write(target, document.to_json(part))
+            files.write(target, json_document.to_json(part))
         written = [target]
     else:
         written = api.write(result, options.output, options.format or writers.FORMATS)
