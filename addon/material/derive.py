@@ -22,7 +22,9 @@ from .snapshot import Snapshot
 
 
 def assign(
-    pairs: Sequence[tuple[Any, Request]], shader: str = shaders.AUTO, keep_gloss: bool = True
+    pairs: Sequence[tuple[Any, Request]],
+    shader: str | Sequence[str] = shaders.AUTO,
+    keep_gloss: bool = True,
 ) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
@@ -31,7 +33,7 @@ def assign(
     pairs
         Each a `bpy.types.Material` and what it is to become.
     shader
-        Which node to set; see `shader_nodes.find`.
+        Which node to set, one for all or one a pair; see `shader_nodes.find`.
     keep_gloss
         Whether a node that is there keeps the gloss that it has, which is then counted; else it is
         set to 0. What a request says of gloss is not looked at.
@@ -47,21 +49,23 @@ def assign(
     DomainError
         If a spectrum, a setting or the shader cannot be used; nothing was changed then.
     """
+    wanted = [shader] * len(pairs) if isinstance(shader, str) else list(shader)
     work = [
         _under_gloss(
-            shader_nodes.find(material, shader, keep_gloss),
+            shader_nodes.find(material, name, keep_gloss),
             storage.in_scene(material, request),
             keep_gloss,
         )
-        for material, request in pairs
+        for (material, request), name in zip(pairs, wanted, strict=True)
     ]
     space, solutions = _solve(work)
     palettes, solutions, written = textures.scaled(work, solutions, space)
-    for (place, request), solution, palette in zip(work, written, palettes, strict=True):
+    together = zip(work, written, palettes, wanted, strict=True)
+    for (place, request), solution, palette, name in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
         node = _write(place, solution, palette)
-        storage.store(place.material, request, shader)
+        storage.store(place.material, request, name)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "gloss"
 SUMMARY = "find specular level and roughness from readings of gloss"
@@ -54,6 +54,7 @@ def run(options: argparse.Namespace) -> int:
     from ....core.cycles import gloss_estimate
     from ....core.errors import DomainError
     from ....core.gloss import Gloss
+    from ..result import add
 
     given = {"--sci": options.sci, "--sce": options.sce, "--level": options.level}
     for name, value in given.items():
@@ -64,7 +65,14 @@ def run(options: argparse.Namespace) -> int:
     read = gloss_estimate.GlossReadings(options.sci, options.sce, dict(options.units))
     found = gloss_estimate.estimate(read, options.level, Gloss(ior=options.ior))
     how = "found" if found.level_is_known else "given"
-    tell(
+    add(
+        options,
+        level=round(found.gloss.level, 6),
+        roughness=round(found.gloss.roughness, 6),
+        ior=options.ior,
+        misfit=round(found.misfit, 6),
+    )
+    inform(
         f"Specular IOR Level {found.gloss.level:.3f} ({how}), Roughness "
         f"{found.gloss.roughness:.3f}, IOR {options.ior:g}; it reads within "
         f"{100 * found.misfit:.1f} % of what was given"
