@@ -112,10 +112,11 @@ class _Told:
 
     def result(self, status: int) -> None:
         """Print the result as one line of JSON, on standard output."""
+        from ..support.shown_text import close
         from . import result
 
         with contextlib.suppress(OSError, ValueError):  # closed: there is nobody to tell
-            print(result.line(self.verb, status, self.error, self.said, self.facts), flush=True)
+            close(result.line(self.verb, status, self.error, self.said, self.facts))
 
 
 def _run(arguments: Sequence[str], told: _Told) -> int:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Texts of users and of files, where a terminal or a spreadsheet would carry them out.
 
-`out`, `tell` and `inform` are all that prints; `to_cell` is for the tables that are written, and
-`from_cell` undoes it when they are read.
+`out`, `tell`, `inform` and `close` are all that prints; `to_cell` is for the tables that are
+written, and `from_cell` undoes it when they are read.
 """
 
 from __future__ import annotations
@@ -81,6 +81,11 @@ def out(*columns: str) -> None:
         if said.keeps_rows:
             return
     print("\t".join(map(printable, columns)))
+
+
+def close(result: str) -> None:
+    """Print what a program is to read last, on standard output."""
+    print(printable(result), flush=True)
 
 
 def tell(sentence: str) -> None:

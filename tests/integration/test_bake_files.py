@@ -401,48 +401,87 @@ def test_no_table_or_image_mixes_predicted_and_measured(baked):
     assert "R" not in rows[0]
 
 
-def test_cgats_has_a_table_for_each_grid_light_and_model(baked):
-    tables = cgats_tables(baked.path("predicted.cgats.txt"))
-    parts = [e["predicted"] for e in baked.document["readings"] if e["predicted"]]
-    kinds = {(len(p["wavelengths"]), p["illuminant"], p["observer"], p["model"]) for p in parts}
-    assert len(tables) == len(kinds) == 3
-    for keywords, _, rows in tables:
-        models = {parts[int(row[0]) - 1]["model"] for row in rows}
-        assert keywords["DESCRIPTOR"].endswith(f"{models.pop()} model")
-        assert not models
-    for keywords, fields, rows in tables:
+def test_cgats_is_one_table_with_columns_for_what_differs(baked):
+    """Measurement software takes the first table of a file and leaves the others."""
+    for part in ("predicted", "measured"):
+        [(keywords, fields, rows)] = cgats_tables(baked.path(f"{part}.cgats.txt"))
         assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields) == len(set(fields))
         assert int(keywords["NUMBER_OF_SETS"]) == len(rows)
         assert all(len(row) == len(fields) for row in rows)
         assert keywords["MEASUREMENT_GEOMETRY"] == "45a:0"
-    sources = [keywords["MEASUREMENT_SOURCE"] for keywords, _, _ in tables]
-    # Only Beta is seen under A by the 10° observer.
-    assert ["Illumination=A" in source for source in sources].count(True) == 1
-    assert ["ObserverAngle=10" in source for source in sources].count(True) == 1
+        assert "Illumination" not in keywords["MEASUREMENT_SOURCE"]
+        for row in rows:
+            told, entry = dict(zip(fields, row, strict=True)), baked.document["readings"]
+            data = entry[int(row[0]) - 1][part]
+            assert told["ROUGH_SPECTRA_ILLUMINANT"] == data["illuminant"]
+            if part == "predicted":
+                assert told["ROUGH_SPECTRA_OBSERVER"] == str(data["observer"])
+    # Two grids, of 5 and of 10 nm: all of them are told at 10 nm.
+    assert len(rows) == len(baked.document["readings"])
+    text = baked.path("predicted.cgats.txt").read_text("utf-8")
+    declared = {line.split("\t")[1] for line in text.splitlines() if line.startswith("KEYWORD\t")}
+    assert {'"ROUGH_SPECTRA_ILLUMINANT"', '"ROUGH_SPECTRA_OBSERVER"'} <= declared
 
 
 def test_cgats_holds_fractions_under_the_names_that_mean_so(baked):
-    found = {}
-    for _, fields, rows in cgats_tables(baked.path("predicted.cgats.txt")):
-        start = fields.index(next(name for name in fields if name.startswith("SPECTRAL_NM")))
-        for row in rows:
-            bands = [float(name.removeprefix("SPECTRAL_NM")) for name in fields[start:]]
-            found[int(row[0])] = (row[1], bands, [float(cell) for cell in row[start:]])
+    [(_, fields, rows)] = cgats_tables(baked.path("predicted.cgats.txt"))
+    start = fields.index(next(name for name in fields if name.startswith("SPECTRAL_NM")))
+    bands = [float(name.removeprefix("SPECTRAL_NM")) for name in fields[start:]]
+    assert bands == [400 + 10 * number for number in range(31)]
+    found = {int(row[0]): row for row in rows}
     for number, entry in enumerate(baked.document["readings"], 1):
-        if not entry["predicted"]:
+        part = entry["predicted"]
+        if not part:
             assert number not in found
             continue
-        name, bands, values = found[number]
-        assert shown_text.from_cell(name) == entry["material"]
-        assert bands == entry["predicted"]["wavelengths"]
-        assert values == entry["predicted"]["values"]
+        assert shown_text.from_cell(found[number][1]) == entry["material"]
+        own = dict(zip(part["wavelengths"], part["values"], strict=True))
+        read = [float(cell) for cell in found[number][start:]]
+        assert read == pytest.approx([own[nm] for nm in bands], abs=1e-9)
+
+
+def test_argyllcms_takes_all_of_it(main, tmp_path):
+    """Its tools convert the predictions, and compute the same Lab from the spectra."""
+    import shutil
+    import subprocess
+
+    from rough_spectra.addon import api
+
+    if shutil.which("txt2ti3") is None:
+        pytest.skip("ArgyllCMS is not installed (Debian's package argyll)")
+    models, pairs = ("surface", "closure", "two-bounce"), []
+    for number, name in enumerate(api.presets("colorchecker")):
+        sample = api.find(name)
+        bands = slice(None, 71, 2)  # 380 to 730 nm in steps of 10
+        wavelengths, values = sample.wavelengths[bands], sample.values[bands]
+        sample = api.Sample(name, wavelengths, values, "reading")
+        wanted = api.request(sample, 0.35, model=models[number % 3], illuminant="D50")
+        pairs.append((rgb_material(name), wanted))
+    api.assign(pairs)
+    words = ("--predicted-only", "--format", "cgats", "--output", tmp_path / "chart")
+    assert main("bake", *words).status == 0
+
+    def tool(*words):
+        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    ours = "chart.predicted.cgats.txt"
+    assert "exactly one table" not in tool("txt2ti3", ours, "theirs")
+    assert "NUMBER_OF_SETS 24" in (tmp_path / "theirs.ti3").read_text("latin-1")
+    tool("spec2cie", "theirs.ti3", "computed.ti3")
+    told = tool("colverify", "-v", ours, "computed.ti3")
+    assert "No of test patches = 24" in told
+    [peak] = (line for line in told.splitlines() if "Total errors" in line)
+    # 0.018: its weights at 10 nm are its own.
+    assert float(peak.partition("peak = ")[2].partition(",")[0]) <= 0.05
 
 
 def test_cgats_of_the_measurement_agrees_with_json(baked):
     found = {}
     for keywords, fields, rows in cgats_tables(baked.path("measured.cgats.txt")):
         assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields)
-        found |= {int(row[0]): [float(cell) for cell in row[2:]] for row in rows}
+        found |= {int(row[0]): [float(cell) for cell in row[-6:]] for row in rows}
     for number, entry in enumerate(baked.document["readings"], 1):
         assert found[number] == entry["measured"]["xyz"] + entry["measured"]["lab"]
 
