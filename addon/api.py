@@ -699,7 +699,7 @@ def compare(first: Sample | Request, second: Sample | Request) -> Comparison:
 
 def assign(
     pairs: Iterable[tuple[bpy.types.Material, Sample | Request]],
-    shader: str = "auto",
+    shader: str | Sequence[str] = "auto",
     gloss: str = "keep",
 ) -> list[Solution]:
     """Give materials measured spectra, all of them or none, and set their shader nodes.
@@ -710,7 +710,7 @@ def assign(
         Each a material, and what it is to become. A sample alone stands for `request(sample)`.
     shader
         "auto" sets the Diffuse or Principled BSDF that is in use, or a new Diffuse BSDF;
-        "diffuse" and "principled" ask for that node.
+        "diffuse" and "principled" ask for that node. One for all, or a list with one a pair.
     gloss
         "keep" leaves a Principled BSDF the gloss that it has, and solves the color below it;
         "none" removes it. A node that is made has none.
@@ -747,7 +747,12 @@ def assign(
     ]
     if gloss not in ("keep", "none"):
         raise DomainError(f"gloss is {gloss!r}; make it 'keep' or 'none'.")
-    return derive.assign(wanted, _node(shader), gloss == "keep")
+    shaders = [shader] * len(wanted) if isinstance(shader, str) else list(shader)
+    if len(shaders) != len(wanted):
+        raise DomainError(
+            f"{len(shaders)} shaders stand beside {len(wanted)} pairs; give one each."
+        )
+    return derive.assign(wanted, [_node(each) for each in shaders], gloss == "keep")
 
 
 def match_by_measuring(

@@ -39,7 +39,19 @@ def main(arguments: Sequence[str]) -> int:
     -------
     The exit status.
     """
+    from ..support.shown_text import listening
+
     told = _Told()
+    with listening(told.said):
+        status = _guarded(arguments, told)
+    if told.json:
+        told.result(status)
+    _let_go()
+    return status
+
+
+def _guarded(arguments: Sequence[str], told: _Told) -> int:
+    """Run one verb and give its status, whatever happens."""
     try:
         status = _run(arguments, told)
         sys.stdout.flush()
@@ -55,7 +67,6 @@ def main(arguments: Sequence[str]) -> int:
         status = _UNREAD
     except Exception as error:  # whatever nobody expected: Blender would end with 1, a failed check
         status = told.unexpected(error)
-    _let_go()
     return status
 
 
@@ -63,13 +74,25 @@ class _Told:
     """What goes to standard error, with the verb as soon as it is known."""
 
     def __init__(self) -> None:
+        from ..support.shown_text import Said
+
         self.verb = ""
-        self.debug = False
+        self.debug = self.json = False
+        self.error = ""
+        self.said = Said()
+        self.facts: dict[str, Any] = {}
+
+    def heed(self, options: argparse.Namespace) -> None:
+        """Take down what the options say of how it is to be told."""
+        self.verb, self.debug, self.json = options.verb, options.debug, options.json
+        self.said.quiet, self.said.keeps_rows = options.quiet, options.json
+        options.result = self.facts
 
     def failed(self, status: int, sentence: str) -> int:
         """Print one line, and give the status back."""
         from ..support.shown_text import tell
 
+        self.error = sentence
         name = f"{NAME} {self.verb}".rstrip()
         with contextlib.suppress(OSError, ValueError):  # closed: there is nobody to tell
             tell(f"{name}: {sentence}")
@@ -87,6 +110,14 @@ class _Told:
         sentence = unexpected.sentence(error, self.verb or NAME, with_file=not self.debug)
         return self.failed(_FAILED_ITSELF, sentence)
 
+    def result(self, status: int) -> None:
+        """Print the result as one line of JSON, on standard output."""
+        from ..support.shown_text import close
+        from . import result
+
+        with contextlib.suppress(OSError, ValueError):  # closed: there is nobody to tell
+            close(result.line(self.verb, status, self.error, self.said, self.facts))
+
 
 def _run(arguments: Sequence[str], told: _Told) -> int:
     """Run one verb and give its status; what it expects to go wrong is told here."""
@@ -96,7 +127,7 @@ def _run(arguments: Sequence[str], told: _Told) -> int:
     with contextlib.suppress(AttributeError):
         sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     options = _parser().parse_args(list(arguments))
-    told.verb, told.debug = options.verb, options.debug
+    told.heed(options)
     try:
         if options.blend is not None:
             _open(options.blend)
@@ -131,12 +162,18 @@ def _let_go() -> None:
 def _parser() -> argparse.ArgumentParser:
     import argparse  # here, because registering the command must not cost Blender's start
 
+    import bpy
+
+    from ..support.version import version
     from .verbs import verbs
 
     parser = argparse.ArgumentParser(
         prog=f"blender -b scene.blend --command {NAME}",
         description="Measured rough materials that read the same when measured again.",
     )
+    which = f"Rough Spectra {version()}, Blender {bpy.app.version_string}"
+    about = {"action": "version", "version": which, "help": "say which version this is"}
+    parser.add_argument("--version", **about)
     subparsers = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     for verb in verbs():
         sub = subparsers.add_parser(verb.NAME, help=verb.SUMMARY, description=verb.DESCRIPTION)
@@ -151,6 +188,17 @@ def _parser() -> argparse.ArgumentParser:
             action="store_true",
             help="when Rough Spectra itself fails, print where, instead of writing it to a file",
         )
+        sub.add_argument(
+            "--quiet",
+            action="store_true",
+            help="no progress and no summary: only results, warnings and what went wrong",
+        )
+        sub.add_argument(
+            "--json",
+            action="store_true",
+            help="end standard output with one line of JSON: status, error, messages and results",
+        )
+        sub.add_argument("--version", **about)
         verb.add_arguments(sub)
         sub.set_defaults(run=verb.run)
     return parser

@@ -9,39 +9,68 @@ import csv
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, cast
 
 import bpy
 
 from ...core import instruments, limits
-from ...core.errors import InputError, MaterialError
+from ...core.errors import InputError, MaterialError, RoughSpectraError
+from ...core.models import NAMES
 from .. import api
 from ..blender import shader_nodes
+from ..colorimetry import tristimulus
+from ..colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
+from ..matching import shaders
 from ..material import preferences, selection
 from ..samples import library, readers, sets, stated_white
-from ..samples.sample import COLORED, Kind, Sample
+from ..samples.sample import COLORED, Kind, Sample, in_units_of
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
 
 _SIGMA = Names("sigma_deg")
 _OPTIONS = Names("--sigma", "--rdq", "--sdq")
-_FIELDS = ("material", "sample", "file", *_SIGMA, "kind", "white", "white_factor", "read_at")
+_CHOICES: dict[str, tuple[str, ...]] = {
+    "kind": COLORED,
+    "read_at": tuple(instruments.REGISTRY),
+    "illuminant": tuple(ILLUMINANTS),
+    "observer": tuple(map(str, OBSERVERS)),
+    "model": ("auto", *NAMES),
+    "shader": tuple(name.lower() for name in (shaders.AUTO, *shaders.NAMES)),
+    "instrument": tuple(instruments.REGISTRY),
+}
+"""Columns whose cells are one of these words."""
+_FIELDS = (
+    *("material", "sample", "file", *_SIGMA, "kind", "white", "white_factor", "read_at"),
+    *("illuminant", "observer", "model", "shader", "instrument", "scale"),
+)
 
 
 @dataclass(frozen=True)
 class Row:
     """One assignment as asked for, and the file and row that say so, if any do.
 
-    `read_at` is the virtual instrument; empty where nothing is said.
+    `material` may hold `*` and `?` where a file says so. `said` has what the row says of the
+    options `read_at`, `illuminant`, `observer`, `model` and `shader`, and nothing where it doesn't.
     """
 
     material: str
     sample: Sample
     where: str = ""
-    read_at: str = ""
+    said: Mapping[str, str] = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """A material, what it is to become, the shader, and the file and row that say so, if any."""
+
+    material: Any
+    request: api.Request
+    shader: str
+    where: str
 
 
 def rows(options: argparse.Namespace) -> list[Row]:
@@ -84,7 +113,7 @@ def _by_name(options: argparse.Namespace) -> list[Row]:
     return chosen
 
 
-def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.Request]]:
+def pair(chosen: list[Row], options: argparse.Namespace) -> list[Assignment]:
     """Find the materials and settle σ and kind; makes materials only with --create.
 
     Raises
@@ -97,20 +126,104 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[tuple[Any, api.
     if fault:
         msg = f"The option {name}: {fault}."
         raise InputError(msg)
-    requests = [_request(row, sigma, options) for row in chosen]
     known = selection.every()
-    missing = [row.material for row in chosen if row.material not in known]
+    chosen = _meant(chosen, known)
+    requests = [_request(row, sigma, options) for row in chosen]
+    missing = [row for row in chosen if row.material not in known]
     if missing and not options.create:
+        others = f" nor {len(missing) - 1} others" if len(missing) > 1 else ""
         msg = (
-            f"There is no material {missing[0]!r}"
-            + (f" nor {len(missing) - 1} others" if len(missing) > 1 else "")
-            + "; correct the names, or add --create to make them."
+            f"{_place(missing[0])}there is no material {missing[0].material!r}{others}; correct "
+            "the names, or add --create to make them."
         )
-        raise MaterialError(msg)
-    for name in dict.fromkeys(missing):
+        raise MaterialError(msg[0].upper() + msg[1:])
+    for name in dict.fromkeys(row.material for row in missing):
         known[name] = shader_nodes.new_material(name)
         known[name].use_fake_user = True
-    return [(known[row.material], request) for row, request in zip(chosen, requests, strict=True)]
+    return [
+        Assignment(
+            known[row.material],
+            request,
+            options.shader or row.said.get("shader") or shaders.AUTO.lower(),
+            row.where,
+        )
+        for row, request in zip(chosen, requests, strict=True)
+    ]
+
+
+def assign(assignments: Sequence[Assignment], gloss: str) -> list[api.Solution]:
+    """Assign all of them or none; an error names the file and the row that it is about.
+
+    Raises
+    ------
+    MaterialError, DomainError
+        As `api.assign`.
+    """
+    pairs = [(each.material, each.request) for each in assignments]
+    try:
+        return api.assign(pairs, [each.shader for each in assignments], gloss)
+    except RoughSpectraError as error:
+        where = next((each.where for each in assignments if _refused(each, gloss)), "")
+        raise type(error)(f"{where}: {error}" if where else str(error)) from error
+
+
+def _refused(each: Assignment, gloss: str) -> bool:
+    """Whether an assignment fails by itself."""
+    try:
+        shader_nodes.find(each.material, each.shader.upper(), gloss == "keep")
+        tristimulus.weights(each.request.sample.wavelengths, each.request.illuminant)
+    except RoughSpectraError:
+        return True
+    return False
+
+
+def _meant(chosen: list[Row], known: Mapping[str, Any]) -> list[Row]:
+    """Give a row a material, where a file's rows name several by `*` and `?`.
+
+    A row that names a material in full wins over those that name it by a pattern.
+
+    Raises
+    ------
+    InputError
+        If two rows of a file ask for the same material in the same way, or a pattern for none.
+    """
+    local = [
+        name
+        for name, material in known.items()
+        if material.library is None and not getattr(material, "is_grease_pencil", False)
+    ]
+    exact: dict[str, Row] = {}
+    by_pattern: dict[str, Row] = {}
+    for row in chosen:
+        pattern = bool(row.where) and selection.is_pattern(row.material)
+        names, found = [row.material], exact
+        if pattern and row.material not in known:
+            names, found = selection.matching(row.material, local), by_pattern
+            if not names:
+                msg = (
+                    f"{row.where}: no material is called like {row.material!r}; correct the name, "
+                    "or name the materials one by one to make them."
+                )
+                raise InputError(msg)
+        for name in names:
+            if name in found and row.where:
+                before = found[name].where.removeprefix(row.where.partition(", ")[0] + ", ")
+                msg = (
+                    f"{row.where}: material {name!r} is named twice, in {before} before; give it "
+                    "one spectrum."
+                )
+                raise InputError(msg)
+            found[name] = row
+    if not by_pattern:
+        return chosen
+    settled = by_pattern | exact
+    order = {id(row): number for number, row in enumerate(chosen)}
+    named = sorted(settled, key=lambda name: order[id(settled[name])])
+    return [replace(settled[name], material=name) for name in named]
+
+
+def _place(row: Row) -> str:
+    return f"{row.where}: " if row.where else ""
 
 
 def read_mapping(path: Path) -> list[Row]:
@@ -180,17 +293,25 @@ class Samples:
     def __init__(self, mapping: Path) -> None:
         self._folder = mapping.parent
         self._library = preferences.user_folder()
-        self._files: dict[Path, dict[str, Sample]] = {}
+        self._files: dict[tuple[Path, float], dict[str, Sample]] = {}
         self._named: dict[str, Sample] = {}
 
-    def find(self, where: str, name: str, file: str) -> Sample:
-        """Give the sample of a file beside the table, or of library and presets."""
+    def find(self, where: str, name: str, file: str, scale: float = 1.0) -> Sample:
+        """Give the sample of a file beside the table, or of library and presets.
+
+        `scale` is what stands for a reflectance of 1 in the file.
+        """
         if not file:
             return self._of_library(where, name)
         source = self._folder / file
-        if source not in self._files:
-            self._files[source] = sets.by_name(readers.read(source))
-        found = self._files[source]
+        if (source, scale) not in self._files:
+            try:
+                with in_units_of(scale):
+                    samples = readers.read(source)
+            except InputError as error:
+                raise InputError(f"{where}: {error}") from error
+            self._files[source, scale] = sets.by_name(samples)
+        found = self._files[source, scale]
         if name not in found:
             names = ", ".join(list(found)[:5])
             msg = f"{where}: {source} has no sample {name!r}; it has {names}."
@@ -256,13 +377,19 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
     if not cells["material"] or not cells["sample"]:
         msg = f"{where}: material and sample must both be given."
         raise InputError(msg)
-    sample = samples.find(where, cells["sample"], cells["file"])
-    if cells["kind"] and cells["kind"] not in COLORED:
-        msg = f"{where}: kind is {cells['kind']!r}; it is 'reading' or 'albedo'."
-        raise InputError(msg)
-    if cells["kind"]:
-        sample = sample.taken_as(cast(Kind, cells["kind"]))
+    for name, words in _CHOICES.items():
+        if cells[name] and cells[name] not in words:
+            msg = f"{where}: {name} is {cells[name]!r}; make it one of {', '.join(words)}."
+            raise InputError(msg)
+    scale = _number(where, "scale", cells["scale"])
+    sample = samples.find(where, cells["sample"], cells["file"], scale or 1.0)
     try:
+        if scale is not None:
+            sample = sample.divided_by(scale, f"as stated in {path.name}, {place}")
+        if cells["kind"]:
+            sample = sample.taken_as(cast(Kind, cells["kind"]))
+        if cells["instrument"]:
+            sample = replace(sample, instrument=cells["instrument"])
         sample = stated_white.given(sample, cells["white"], cells["white_factor"])
     except InputError as error:
         raise InputError(f"{where}: {error}") from error
@@ -271,11 +398,16 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
     if fault:
         raise InputError(f"{where}: {fault}.")
     sample = _with_sigma(sample, sigma, f"Stated in {path.name}, {place}.")
-    read_at = cells["read_at"]
-    if read_at and read_at not in instruments.REGISTRY:
-        names = ", ".join(instruments.REGISTRY)
-        raise InputError(f"{where}: read_at is {read_at!r}; make it one of {names}.")
-    return Row(cells["material"], sample, where, read_at)
+    said = {name: cells[name] for name in _OF_OPTIONS if cells[name]}
+    return Row(cells["material"], sample, where, said)
+
+
+_OF_OPTIONS = ("read_at", "illuminant", "observer", "model", "shader")
+"""Columns that say for a row what an option says for all; the option wins."""
+_NUMBERS = {
+    _SIGMA.degrees: "degrees as a number",
+    "scale": "what stands for a reflectance of 1, a number above 0 such as 100",
+}
 
 
 def _number(where: str, name: str, cell: str) -> float | None:
@@ -285,8 +417,8 @@ def _number(where: str, name: str, cell: str) -> float | None:
         number = float(cell)
     except ValueError:
         number = math.nan
-    if not math.isfinite(number):
-        what = "degrees as a number" if name == _SIGMA.degrees else "a slope as a number"
+    if not math.isfinite(number) or (name == "scale" and number <= 0):
+        what = _NUMBERS.get(name, "a slope as a number")
         raise InputError(f"{where}: {name} is {cell!r}; give {what}.")
     return number
 
@@ -305,13 +437,19 @@ def _request(row: Row, sigma: StatedSigma, options: argparse.Namespace) -> api.R
         where, degrees = f"Material {row.material!r}", sigma.settled
     if fault := limits.sigma_fault(degrees or 0.0):
         raise InputError(f"{where}: {fault}")
-    sample = stated_white.given(row.sample, options.white, options.white_factor)
-    return api.request(
-        _with_sigma(sample, sigma, "Stated as an option."),
-        math.radians(degrees or 0.0),
-        kind=options.kind,
-        model=options.model,
-        illuminant=options.illuminant,
-        observer=options.observer,
-        read_at=options.read_at or row.read_at or instruments.DEFAULT,
-    )
+    said = row.said
+    try:
+        sample = stated_white.given(row.sample, options.white, options.white_factor)
+        return api.request(
+            _with_sigma(sample, sigma, "Stated as an option."),
+            math.radians(degrees or 0.0),
+            kind=options.kind,
+            model=options.model or said.get("model") or "auto",
+            illuminant=options.illuminant or said.get("illuminant") or "D65",
+            observer=options.observer or int(said.get("observer") or 2),
+            read_at=options.read_at or said.get("read_at") or instruments.DEFAULT,
+        )
+    except RoughSpectraError as error:
+        if not row.where:
+            raise
+        raise type(error)(f"{row.where}: {error}") from error

@@ -8,6 +8,8 @@ import sys
 import time
 from typing import TextIO
 
+from ..support.shown_text import is_quiet
+
 _TERMINAL_SECONDS = 0.2
 _LOG_SECONDS = 10.0
 """In a log file every line stays, so there are fewer."""
@@ -37,7 +39,9 @@ class ProgressLine:
         self._open = False
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the state, unless it was shown a moment ago."""
+        """Show the state, unless it was shown a moment ago, or nobody wants to know."""
+        if is_quiet():
+            return
         now = time.monotonic()
         terminal = self._stream.isatty()
         if now - self._last < (_TERMINAL_SECONDS if terminal else _LOG_SECONDS):

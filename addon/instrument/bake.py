@@ -22,7 +22,7 @@ from ...core.color import color_difference
 from ...core.errors import RoughSpectraError
 from ...core.numerics.arrays import Array
 from ..blender import shader_nodes, working_space
-from ..colorimetry import rgb_space, tristimulus
+from ..colorimetry import rgb_space, standard_spaces, tristimulus
 from ..matching import scene_match, solution, solve, surface_spectra
 from ..matching.scene_view import SceneView
 from ..material import (
@@ -37,10 +37,10 @@ from ..readings.document import (
     Predicted,
     Reading,
     Readings,
-    Triple,
 )
+from ..readings.origin import Derivation, Node, Triple
 from ..samples import stated_white
-from . import arrangement, gloss, measure, rendered
+from . import arrangement, gloss, measure, rendered, stored
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -61,7 +61,8 @@ class Prepared:
     `promised` is what a material that follows its scene is to show: a compromise over the scene's
     lights and directions, which at the instrument is not the spectrum's own reading. `fault` says
     why there is nothing to compare with although a spectrum is stored, else it is empty. `read_at`
-    is the virtual instrument, that of the request if there is one.
+    is the virtual instrument, that of the request if there is one. `node` and `derivation` are as
+    in `Reading`.
     """
 
     surface: str
@@ -73,6 +74,8 @@ class Prepared:
     promised: solution.Solution | None = None
     fault: str = ""
     read_at: str = instruments.DEFAULT
+    node: Node | None = None
+    derivation: Derivation | None = None
 
 
 def prepare(surfaces: Sequence[tuple[str, Any]], read_at: Sequence[str] = ()) -> list[Prepared]:
@@ -97,17 +100,18 @@ def prepare(surfaces: Sequence[tuple[str, Any]], read_at: Sequence[str] = ()) ->
     """
     for name in read_at:
         instruments.find(name)
-    space = working_space.current().name
+    space = working_space.current()
     prepared = []
     for surface, material in surfaces:
         own = material.rough_spectra.read_at or instruments.DEFAULT  # empty in a damaged file
+        node, derived = stored.node(material, space), stored.derivation(material)
         for at in read_at or (own,):
             try:
-                prepared.append(_prepared(surface, material, space, at))
+                found = _prepared(surface, material, space.name, at)
             except RoughSpectraError as error:
                 reasons = ("", "", (str(error),))
-                fault = Prepared(surface, material.name, None, *reasons, None, str(error), at)
-                prepared.append(fault)
+                found = Prepared(surface, material.name, None, *reasons, None, str(error), at)
+            prepared.append(replace(found, node=node, derivation=derived))
     return prepared
 
 
@@ -309,6 +313,8 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         warnings=warnings,
         fault=fault,
         instrument=item.read_at,
+        node=item.node,
+        derivation=item.derivation,
     )
 
 
@@ -330,9 +336,10 @@ def _predicted(
     request: solve.Request, model_reason: str, space: rgb_space.WorkingSpace
 ) -> Predicted:
     sample = request.sample
-    values = solve.target_reading(request)
+    [values], [albedo] = surface_spectra.readings_and_albedos([request])
     weights = tristimulus.weights(sample.wavelengths, request.illuminant, request.observer)
     xyz = values @ weights
+    rgb = values @ space.rgb_weights(sample.wavelengths, request.illuminant)
     lowest, highest = _albedos(request)
     return Predicted(
         kind=sample.kind,
@@ -345,11 +352,15 @@ def _predicted(
         values=tuple(round(value, 6) for value in values.tolist()),
         xyz=_triple(100 * xyz, 4),
         lab=_triple(color_difference.xyz_to_lab(xyz, weights.sum(axis=0)), 4),
-        preview=_triple(values @ space.rgb_weights(sample.wavelengths, request.illuminant), 6),
+        preview=_triple(rgb, 6),
         albedo_lowest=lowest,
         albedo_highest=highest,
         white=stated_white.told(sample.white, sample.white_factor, sample.plaque),
         white_factor=round(sample.scale, 6),
+        albedo=tuple(round(value, 6) for value in albedo.tolist()),
+        colors=standard_spaces.of_rgb(rgb, space),
+        instrument=sample.instrument,
+        gloss=sample.gloss,
     )
 
 
@@ -379,6 +390,7 @@ def _measured(
             illuminant=f"scene: {light.name}",
             xyz=_triple(100 * scene_match.to_xyz(mean, light, space), 4),
             lab=_triple(scene_match.to_lab(mean, light, space), 4),
+            colors=standard_spaces.of_rgb(mean, space),
         )
     return CyclesReading(
         rgb=_triple(mean, 6),
@@ -386,6 +398,7 @@ def _measured(
         illuminant=illuminant,
         xyz=_triple(100 * space.to_xyz(mean, illuminant), 4),
         lab=_triple(space.to_lab(mean, illuminant), 4),
+        colors=standard_spaces.of_rgb(mean, space),
     )
 
 

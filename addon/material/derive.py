@@ -33,7 +33,7 @@ def assign(
     pairs
         Each a `bpy.types.Material` and what it is to become.
     shader
-        Which node to set, or which in each material; see `shader_nodes.find`.
+        Which node to set, one for all or one a pair; see `shader_nodes.find`.
     keep_gloss
         Whether a node that is there keeps the gloss that it has, which is then counted; else it is
         set to 0. What a request says of gloss is not looked at.

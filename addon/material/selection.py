@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -26,6 +27,49 @@ def by_name(name: str) -> Any:
         msg = f"There is no material {name!r} in {_file()}; check the name."
         raise MaterialError(msg)
     return material
+
+
+def is_pattern(name: str) -> bool:
+    """Whether a name holds `*`, for any letters, or `?`, for any letter."""
+    return "*" in name or "?" in name
+
+
+def matching(name: str, known: Iterable[str]) -> list[str]:
+    """Give those of the known names that a name with `*` and `?` means, in their order.
+
+    What is called exactly so is meant alone, however many other names would fit.
+
+    Examples
+    --------
+    >>> matching("Wall*", ["Wall", "Wall.001", "wall"]), matching("a?[1]", ["ab[1]", "ab1"])
+    (['Wall', 'Wall.001'], ['ab[1]'])
+    """
+    names = list(known)
+    if name in names or not is_pattern(name):
+        return [name] if name in names else []
+    signs = {"*": ".*", "?": "."}
+    pattern = "".join(signs.get(letter, re.escape(letter)) for letter in name)
+    fits = re.compile(pattern, re.DOTALL).fullmatch
+    return [each for each in names if fits(each)]
+
+
+def named(name: str) -> list[Any]:
+    """Give the materials of that name, which may hold `*` and `?`, sorted by name.
+
+    Raises
+    ------
+    MaterialError
+        If there is none.
+    """
+    known = every()
+    if name in known or not is_pattern(name):
+        return [by_name(name)]
+    surfaces_only = [n for n, m in known.items() if not getattr(m, "is_grease_pencil", False)]
+    found = matching(name, sorted(surfaces_only))
+    if not found:
+        msg = f"No material of {_file()} is called like {name!r}; check the name."
+        raise MaterialError(msg)
+    return [known[each] for each in found]
 
 
 def every() -> dict[str, Any]:
@@ -75,7 +119,7 @@ def surfaces(materials: Sequence[str], objects: Sequence[str]) -> list[tuple[str
     InputError, MaterialError
         If a name is not there, or nothing is left to measure.
     """
-    found = [("", by_name(name)) for name in materials]
+    found = [("", each) for each in dict.fromkeys(m for name in materials for m in named(name))]
     for name in objects:
         thing = bpy.data.objects.get(name)
         if thing is None:

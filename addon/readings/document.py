@@ -1,30 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readings as data: what a bake gives, joined from its parts, and its JSON document. No Blender."""
+"""Readings as data: what a bake gives, joined from its parts. No Blender, and no files."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass, field
 
 from ...core import instruments
 from ...core.errors import InputError
 from ...core.instruments.gloss import METERS
-from ..support import user_files
 from ..support.version import version
+from .origin import Colors, Derivation, Node, Triple
 
-FORMAT = "rough-spectra-readings"
-SCHEMA = 1
 APERTURE = "none: parallel beams on a flat sample"
 APERTURES = "those of the instrument, over a flat sample"
 
 GLOSS = tuple(METERS)
 """Angles of the gloss meter, degrees."""
-
-Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -36,7 +29,11 @@ class Predicted:
     leaves albedos open from `albedo_lowest` to `albedo_highest`, one a band, while σ is unknown;
     both are the albedo where that was measured, and empty where no roughness fits the reading.
     `white` says what the stored spectrum itself is relative to, and `white_factor` what it was
-    multiplied by.
+    multiplied by. `albedo` is ρ of the facets, one a band, that gives the reading at this σ by this
+    model: above 1 where white facets read less. `colors` are those of the reading, in spaces that
+    pipelines exchange, for the 2° observer; `preview` is that of the working space. `instrument` is
+    the real one that the stored spectrum is of, and `gloss` what a gloss meter read, pairs of
+    degrees and units.
     """
 
     kind: str
@@ -54,13 +51,18 @@ class Predicted:
     albedo_highest: tuple[float, ...] = ()
     white: str = "perfect diffuser"
     white_factor: float = 1.0
+    albedo: tuple[float, ...] = ()
+    colors: Colors = field(default_factory=dict)
+    instrument: str = ""
+    gloss: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
 class CyclesReading:
     """Reading of a Cycles render, in scene-linear RGB and, for the 2° observer, XYZ and Lab.
 
-    `spread` is the standard deviation of RGB over the sample: 0 for an even surface.
+    `spread` is the standard deviation of RGB over the sample: 0 for an even surface. `colors` are
+    `rgb` in spaces that pipelines exchange.
     """
 
     rgb: Triple
@@ -68,6 +70,7 @@ class CyclesReading:
     illuminant: str
     xyz: Triple
     lab: Triple
+    colors: Colors = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,8 @@ class Reading:
     why a prediction or a measurement that was asked for is missing; else it is empty.
     `instrument` is the virtual one, a name in `core.instruments.REGISTRY`, of both prediction and
     measurement. `gloss` has the gloss units at 20°, 60° and 85°; empty where they were not asked
-    for.
+    for. `node` is the shader node that was read, None where the surface has no target shader's, and
+    `derivation` how its color came about, None where none was derived.
     """
 
     material: str
@@ -95,6 +99,8 @@ class Reading:
     fault: str = ""
     instrument: str = instruments.DEFAULT
     gloss: tuple[float, ...] = ()
+    node: Node | None = None
+    derivation: Derivation | None = None
 
 
 @dataclass(frozen=True)
@@ -182,97 +188,3 @@ def merge(parts: Iterable[Readings]) -> Readings:
             raise InputError(msg)
         entries += part.entries[row : row + each]
     return Readings(found[0].working_space, found[0].blender, tuple(entries), each=each)
-
-
-def to_json(readings: Readings) -> bytes:
-    """Give the document that `from_json` reads; equal readings give equal bytes."""
-    head = {
-        "format": FORMAT,
-        "schema": SCHEMA,
-        "version": readings.version,
-        "blender": readings.blender,
-        "working_space": readings.working_space,
-        "instrument": ", ".join(readings.instruments),
-        "aperture": readings.aperture,
-        "units": {
-            "values": "reflectance factor, 0..1",
-            "wavelengths": "nm",
-            "xyz": "Y = 100 for the perfect diffuser",
-            "measured": "CIE 1931 2° observer",
-            "gloss": "GU at 20°, 60° and 85°, ISO 2813",
-        },
-        "shard": readings.shard,
-        "shards": readings.shards,
-        "whole": readings.whole,
-        "each": readings.each,
-        "largest_delta_e_00": readings.largest_delta_e,
-        "readings": [asdict(entry) for entry in readings.entries],
-    }
-    text = json.dumps(head, indent=1, ensure_ascii=False) + "\n"
-    return text.encode(errors="backslashreplace")  # half a surrogate pair, as JSON escapes it
-
-
-def from_json(path: Path) -> Readings:
-    """Read back what `to_json` gave.
-
-    Raises
-    ------
-    InputError
-        If the file is not such a document.
-    """
-    data = user_files.read(path)
-    try:
-        document = json.loads(data.decode())
-    except (ValueError, RecursionError) as error:
-        msg = f"{path} is not JSON ({error}); give a file that bake wrote."
-        raise InputError(msg) from error
-    if not isinstance(document, dict) or document.get("format") != FORMAT:
-        msg = f"{path} holds no readings; give the .json file that bake wrote."
-        raise InputError(msg)
-    if document.get("schema") != SCHEMA:
-        msg = f"{path} has schema {document.get('schema')}; this version reads schema {SCHEMA}."
-        raise InputError(msg)
-    try:
-        entries = tuple(_entry(data) for data in document["readings"])
-        return Readings(
-            document["working_space"],
-            document["blender"],
-            entries,
-            int(document["shard"]),
-            int(document["shards"]),
-            str(document["whole"]),
-            str(document["version"]),
-            max(1, int(document.get("each", 1))),
-        )
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        msg = f"{path} is damaged ({error!r}); bake it again."
-        raise InputError(msg) from error
-
-
-_ALBEDOS = ("albedo_lowest", "albedo_highest")
-_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview"}
-
-
-def _entry(data: dict[str, Any]) -> Reading:
-    def whole(kind: Any, part: dict[str, Any] | None) -> Any:
-        if part is None:
-            return None
-        numbers = {key: tuple(map(float, v)) for key, v in part.items() if isinstance(v, list)}
-        if any(len(numbers[key]) != 3 for key in _TRIPLES & numbers.keys()):
-            raise ValueError("a color has three numbers")
-        if kind is Predicted and len(numbers["wavelengths"]) != len(numbers["values"]):
-            raise ValueError("there is not one value a wavelength")
-        if kind is Predicted and any(
-            len(numbers.get(key, ())) not in (0, len(numbers["values"])) for key in _ALBEDOS
-        ):
-            raise ValueError("there is not one albedo a wavelength")
-        return kind(**(part | numbers))
-
-    known = dict(data)
-    known["predicted"] = whole(Predicted, data["predicted"])
-    known["measured"] = whole(CyclesReading, data["measured"])
-    known["warnings"] = tuple(data["warnings"])
-    known["gloss"] = tuple(map(float, data.get("gloss", ())))
-    if len(known["gloss"]) not in (0, len(GLOSS)):
-        raise ValueError("there is not one gloss an angle")
-    return Reading(**known)

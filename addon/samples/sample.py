@@ -11,7 +11,9 @@ print, such as a little noise below 0, is kept as measured; `quality` names it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Literal, get_args
@@ -45,6 +47,22 @@ is it an emissivity if most of a spectrum lies above."""
 
 MOST_GLOSS_UNITS = 2100.0
 """A mirror that loses nothing has 2038 at 20°, where black glass, of 100, reflects 4.9 %."""
+
+
+_one: ContextVar[float] = ContextVar("one", default=1.0)
+
+
+@contextmanager
+def in_units_of(one: float) -> Iterator[None]:
+    """Let the block make samples in which this number stands for a reflectance of 1.
+
+    They are no reflectance before `Sample.divided_by` made them so.
+    """
+    before = _one.set(one)
+    try:
+        yield
+    finally:
+        _one.reset(before)
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,6 +206,23 @@ class Sample:
         seen = self.wavelengths[0] <= EYE_NM[1] and self.wavelengths[-1] >= EYE_NM[0]
         return bool(seen) and self.kind in COLORED
 
+    def divided_by(self, one: float, why: str) -> Sample:
+        """Return the sample and its set with all values divided, which their `altered` tells.
+
+        Raises
+        ------
+        InputError
+            What comes out is no reflectance.
+        """
+        if one == 1.0:
+            return self
+        return replace(
+            self,
+            values=self.values / one,
+            others=tuple(other.divided_by(one, why) for other in self.others),
+            altered=(*self.altered, f"The values were divided by {one:g}, {why}."),
+        )
+
     def taken_as(self, kind: Kind) -> Sample:
         """Return the sample as a user says it is, whatever its file says.
 
@@ -216,7 +251,7 @@ class Sample:
         wavelengths, values = check_spectrum(self.wavelengths, self.values, where)
         object.__setattr__(self, "wavelengths", wavelengths)
         object.__setattr__(self, "values", values)
-        if self.kind == "emissivity" and float(np.median(values)) > BRIGHTEST:
+        if self.kind == "emissivity" and float(np.median(values)) / _one.get() > BRIGHTEST:
             raise InputError(
                 f"{where}: half of the emissivities are above {np.median(values):.4g}, and nothing "
                 "emits more than 1; if they are percent, let the file say so."
@@ -310,7 +345,7 @@ def check_spectrum(
     if not (nm[0] >= SHORTEST_NM and nm[-1] <= LONGEST_NM and (nm[1:] > nm[:-1]).all()):
         raise InputError(f"{where}: {_fault_of_wavelengths(nm, place)}.")
     if not (fractions.min() >= 0.0 and fractions.max() <= 1.0):
-        fault = _fault_of_values(nm, fractions, place)
+        fault = _fault_of_values(nm, fractions / _one.get(), place)
         if fault:
             raise InputError(f"{where}: {fault}.")
     return nm, fractions

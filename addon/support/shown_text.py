@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Texts of users and of files, where a terminal or a spreadsheet would carry them out.
 
-`out` and `tell` are all that prints; `to_cell` is for the tables that are written, and `from_cell`
-undoes it when they are read.
+`out`, `tell`, `inform` and `close` are all that prints; `to_cell` is for the tables that are
+written, and `from_cell` undoes it when they are read.
 """
 
 from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
 
 ESCAPED = "escaped"
 """What a table says of its cells if `to_cell` made them."""
@@ -30,14 +34,78 @@ def printable(text: str) -> str:
     return _CONTROL.sub(_escape, text)
 
 
+@dataclass
+class Said:
+    """What a command says, for who wants it otherwise than as lines.
+
+    Parameters
+    ----------
+    quiet
+        Whether `inform` is silent.
+    keeps_rows
+        Whether `out` keeps its rows here instead of printing them.
+    rows, sentences
+        What `out`, and what `tell` and `inform` were given.
+    """
+
+    quiet: bool = False
+    keeps_rows: bool = False
+    rows: list[tuple[str, ...]] = field(default_factory=list)
+    sentences: list[str] = field(default_factory=list)
+
+
+_said: ContextVar[Said | None] = ContextVar("said", default=None)
+
+
+@contextmanager
+def listening(said: Said) -> Iterator[None]:
+    """Let what the block says go by `said`."""
+    before = _said.set(said)
+    try:
+        yield
+    finally:
+        _said.reset(before)
+
+
+def is_quiet() -> bool:
+    """Whether nothing is to be said that is neither a result nor a fault."""
+    said = _said.get()
+    return said is not None and said.quiet
+
+
 def out(*columns: str) -> None:
     """Print a result, its columns separated by tabs."""
+    said = _said.get()
+    if said is not None:
+        said.rows.append(columns)
+        if said.keeps_rows:
+            return
     print("\t".join(map(printable, columns)))
 
 
+def close(result: str) -> None:
+    """Print what a program is to read last, on standard output."""
+    print(printable(result), flush=True)
+
+
 def tell(sentence: str) -> None:
-    """Say something beside the results, on standard error."""
+    """Say something beside the results that has to be known, on standard error."""
+    _keep(sentence)
     print(printable(sentence), file=sys.stderr)
+
+
+def inform(sentence: str) -> None:
+    """Say the same of what went well; with --quiet nobody hears it."""
+    if is_quiet():
+        _keep(sentence)
+    else:
+        tell(sentence)
+
+
+def _keep(sentence: str) -> None:
+    said = _said.get()
+    if said is not None:
+        said.sentences.append(sentence)
 
 
 def to_cell(text: str) -> str:

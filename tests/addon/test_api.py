@@ -81,7 +81,7 @@ FIELDS = {
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
-    "warnings fault instrument gloss",
+    "warnings fault instrument gloss node derivation",
     "RoughSample": "kind mesh length asked seed",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "Measured": "albedos reflectance noise spread spot_noise spot",

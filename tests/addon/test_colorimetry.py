@@ -242,3 +242,17 @@ def test_patch_14_of_the_2007_report(colorchecker, observer, apart, same_luminan
 
     assert round(distance(rough_xyz), 2) == apart
     assert round(distance(rough_xyz * smooth_xyz[1] / rough_xyz[1]), 1) == same_luminance
+
+
+@pytest.mark.parametrize("name", ["Linear Rec.709", "Linear Rec.2020", "ACEScg"])
+def test_standard_spaces_are_blenders_own(name, set_working_space):
+    from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.colorimetry import standard_spaces
+
+    if name != "Linear Rec.709":
+        set_working_space(name)
+    blenders, ours = working_space.current(), standard_spaces.SPACES
+    assert blenders.name == name
+    # Blender's matrices have the digits of its configuration.
+    assert ours[name].from_xyz == pytest.approx(blenders.from_xyz, abs=5e-4)
+    assert standard_spaces.of_rgb((1, 1, 1), blenders)[name] == pytest.approx((1, 1, 1), abs=1e-6)

@@ -24,7 +24,7 @@ import conftest
 from argparse import Namespace
 from pathlib import Path
 import numpy as np
-from rough_spectra.addon.readings import document as readings_document, writers
+from rough_spectra.addon.readings import json_document, writers
 from rough_spectra.addon.samples import library
 from rough_spectra.addon.support import atomic_files as outputs, journal
 from rough_spectra.addon.readings.document import CyclesReading, Predicted, Reading, Readings
@@ -121,7 +121,7 @@ def test_a_set_that_a_kill_cut_in_two_is_made_whole_by_the_next_look(work, tmp_p
             writers.write(document(0.5), base)
 
         source = base.parent.parent / "x.json"
-        source.write_bytes(readings_document.to_json(document(0.25)))
+        source.write_bytes(json_document.to_json(document(0.25)))
 
         def fill():
             library.add_all({{"a": [sample("one", 0.1)], "b": [sample("two", 0.2)]}}, base.parent)

@@ -14,9 +14,8 @@ from rough_spectra.addon.readings.document import (
     Predicted,
     Reading,
     Readings,
-    from_json,
-    to_json,
 )
+from rough_spectra.addon.readings.json_document import from_json, to_json
 from rough_spectra.addon.readings.writers import cgats, tables
 from rough_spectra.addon.samples import readers
 from rough_spectra.addon.support import shown_text

@@ -21,56 +21,14 @@ from rough_spectra.addon.samples import (
 from rough_spectra.addon.samples.readers.formats import library as library_format
 from rough_spectra.core.color import color_difference
 
+from tests.json_schema import allowed
+
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "presets" / "schema.json").read_text("utf-8"))
 BUNDLED = sorted((ROOT / "presets").glob("*/*.json"))
 EVERYDAY = [name for name in presets.names() if name.startswith("everyday/")]
 REC709 = rgb_space.WorkingSpace("Linear Rec.709", srgb.FROM_XYZ)
 BRICK = json.loads((ROOT / "presets" / "everyday" / "brick.json").read_text("utf-8"))
-
-TYPES = {"string": str, "array": list, "object": dict, "number": (int, float), "null": type(None)}
-
-
-def allowed(schema, value):
-    """JSON Schema 2020-12, as far as the schema of presets uses it."""
-    for key, demand in schema.items():
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        ok = {
-            "type": lambda demand=demand: any(
-                isinstance(value, TYPES[name]) and not isinstance(value, bool)
-                for name in ([demand] if isinstance(demand, str) else demand)
-            ),
-            "const": lambda demand=demand: type(value) is type(demand) and value == demand,
-            "enum": lambda demand=demand: any(
-                type(value) is type(item) and value == item for item in demand
-            ),
-            "pattern": lambda demand=demand: (
-                not isinstance(value, str) or re.search(demand, value) is not None
-            ),
-            "minLength": lambda demand=demand: not isinstance(value, str) or len(value) >= demand,
-            "minimum": lambda demand=demand, number=number: not number or value >= demand,
-            "maximum": lambda demand=demand, number=number: not number or value <= demand,
-            "minItems": lambda demand=demand: not isinstance(value, list) or len(value) >= demand,
-            "maxItems": lambda demand=demand: not isinstance(value, list) or len(value) <= demand,
-            "items": lambda demand=demand: (
-                not isinstance(value, list) or all(allowed(demand, item) for item in value)
-            ),
-            "required": lambda demand=demand: all(name in value for name in demand),
-            "dependentRequired": lambda demand=demand: all(
-                name not in value or set(others) <= set(value) for name, others in demand.items()
-            ),
-            "properties": lambda demand=demand: (
-                not isinstance(value, dict)
-                or all(
-                    allowed(demand[name], item) for name, item in value.items() if name in demand
-                )
-            ),
-            "anyOf": lambda demand=demand: any(allowed(each, value) for each in demand),
-            "additionalProperties": lambda: set(value) <= set(schema["properties"]),
-        }
-        if key not in ("$schema", "title", "description") and not ok[key]():
-            return False
-    return True
 
 
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: f"{path.parent.name}/{path.stem}")

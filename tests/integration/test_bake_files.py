@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from rough_spectra.addon.support import shown_text
 
-from tests.integration.support import ODD_NAME, contents, rgb_material, spectrum_csv
+from tests.integration.support import ODD_NAME, ROOT, contents, rgb_material, spectrum_csv
+from tests.json_schema import allowed
 
 ENDINGS = (
     "json",
@@ -124,7 +125,7 @@ def test_a_bake_leaves_the_blend_file_as_it_was(scene, main, tmp_path):
 def test_json_says_what_it_holds(baked):
     document = baked.document
     assert document["format"] == "rough-spectra-readings"
-    assert document["schema"] == 1
+    assert document["schema"] == 2
     assert document["blender"] == bpy.app.version_string
     assert document["working_space"] == "Linear Rec.709"
     assert document["instrument"] == "45a:0"
@@ -139,10 +140,87 @@ def test_json_keeps_predicted_and_measured_under_keys_of_their_own(baked):
     assert len(predicted(baked)) == 5
     for entry in baked.document["readings"]:
         assert "wavelengths" not in entry["measured"]
-        assert set(entry["measured"]) == {"rgb", "spread", "illuminant", "xyz", "lab"}
+        assert set(entry["measured"]) == {"rgb", "spread", "illuminant", "xyz", "lab", "colors"}
         if entry["predicted"]:
             assert "rgb" not in entry["predicted"]
             assert len(entry["predicted"]["values"]) == len(entry["predicted"]["wavelengths"])
+
+
+def test_json_tells_the_node_and_how_its_color_was_derived(baked, scene_file):
+    bpy.ops.wm.open_mainfile(filepath=str(scene_file))
+    for entry in baked.document["readings"]:
+        material = bpy.data.materials[entry["material"]]
+        node, derivation = entry["node"], entry["derivation"]
+        if entry["material"] == "Patterned":  # its surface is a sum of two shaders
+            assert node is derivation is None
+            continue
+        shader = next(n for n in material.node_tree.nodes if n.type == "BSDF_DIFFUSE")
+        assert (node["name"], node["shader"], node["gloss"]) == (shader.name, "diffuse", None)
+        assert node["color"] == list(shader.inputs["Color"].default_value)[:3]
+        assert node["roughness"] == shader.inputs["Roughness"].default_value
+        if not entry["predicted"]:
+            assert derivation is None
+            continue
+        assert (derivation["state"], derivation["reasons"]) == ("fresh", [])
+        assert derivation["color"] == pytest.approx(node["color"], abs=1e-7)
+        assert derivation["delta_e_instrument"] == pytest.approx(entry["delta_e_00"], abs=0.05)
+        told = {"virtual instrument": "45a:0", "illuminant": entry["predicted"]["illuminant"]}
+        assert told.items() <= derivation["settings"].items()
+
+
+def test_json_has_the_albedo_behind_each_reading(baked):
+    from rough_spectra.core import reading
+
+    for part in (entry["predicted"] for entry in predicted(baked)):
+        sigma = np.radians(part["sigma_degrees"])
+        read = reading.from_albedo(np.array(part["albedo"]), sigma, part["model"], "45a:0")
+        assert read == pytest.approx(part["values"], abs=2e-6)
+        assert part["instrument"] == "45a:0"
+
+
+def test_json_has_colors_in_the_spaces_that_pipelines_exchange(baked):
+    import colour
+
+    spaces = {"Linear Rec.2020": "ITU-R BT.2020", "ACEScg": "ACEScg"}
+    for entry in baked.document["readings"]:
+        parts = (
+            (entry["measured"], "rgb"),
+            (entry["node"], "color"),
+            (entry["predicted"], "preview"),
+        )
+        for part, own in parts:
+            if part is None:
+                continue
+            assert set(part["colors"]) == {"Linear Rec.709", *spaces}
+            assert part["colors"]["Linear Rec.709"] == pytest.approx(part[own], abs=2e-6)
+            for name, theirs in spaces.items():
+                matrix = colour.matrix_RGB_to_RGB("ITU-R BT.709", theirs, "Bradford")
+                # Their white of D65 has four digits more than the standards' own.
+                assert part["colors"][name] == pytest.approx(matrix @ part[own], abs=2e-5)
+
+
+def test_the_schema_describes_the_document_and_nothing_else(baked):
+    schema = json.loads((ROOT / "addon/readings/readings.schema.json").read_text("utf-8"))
+    assert allowed(schema, baked.document)
+    for spoil in (
+        lambda document: document["readings"][0]["predicted"].pop("albedo"),
+        lambda document: document["readings"][0]["node"].update(color=[0.5, 0.5]),
+        lambda document: document["readings"][0]["predicted"]["colors"].update(ACEScg="white"),
+        lambda document: document["readings"][0].update(more=1),
+    ):
+        document = json.loads(json.dumps(baked.document))
+        spoil(document)
+        assert not allowed(schema, document)
+
+
+def test_json_is_read_back_whole(baked):
+    from rough_spectra.addon.readings import json_document
+
+    found = json_document.from_json(baked.path("json"))
+    assert json_document.to_json(found) == baked.files["chart.json"]
+    assert found.entries[0].predicted.colors["ACEScg"] == tuple(
+        baked.document["readings"][0]["predicted"]["colors"]["ACEScg"]
+    )
 
 
 def test_prediction_is_the_stored_spectrum_where_that_is_a_reading(baked):
@@ -221,7 +299,7 @@ def test_the_table_and_the_document_have_the_albedos_that_are_open(main, tmp_pat
 
     from rough_spectra.addon.matching.solve import Request
     from rough_spectra.addon.material import derive
-    from rough_spectra.addon.readings import document
+    from rough_spectra.addon.readings import json_document
     from rough_spectra.addon.samples import presets
     from rough_spectra.core import feasible
 
@@ -245,7 +323,7 @@ def test_the_table_and_the_document_have_the_albedos_that_are_open(main, tmp_pat
         [name for name in rows[0] if name.startswith(f"albedo {end} ")] for end in ("min", "max")
     )
     assert len(lowest) == len(highest) == green.wavelengths.size
-    entries = document.from_json(tmp_path / "x.json").entries
+    entries = json_document.from_json(tmp_path / "x.json").entries
     for row, entry, sample in zip(rows, entries, samples.values(), strict=True):
         found = feasible.albedo_range(sample.values, "two-bounce", sample.instrument)
         low, high = found.lowest, found.highest
@@ -323,48 +401,87 @@ def test_no_table_or_image_mixes_predicted_and_measured(baked):
     assert "R" not in rows[0]
 
 
-def test_cgats_has_a_table_for_each_grid_light_and_model(baked):
-    tables = cgats_tables(baked.path("predicted.cgats.txt"))
-    parts = [e["predicted"] for e in baked.document["readings"] if e["predicted"]]
-    kinds = {(len(p["wavelengths"]), p["illuminant"], p["observer"], p["model"]) for p in parts}
-    assert len(tables) == len(kinds) == 3
-    for keywords, _, rows in tables:
-        models = {parts[int(row[0]) - 1]["model"] for row in rows}
-        assert keywords["DESCRIPTOR"].endswith(f"{models.pop()} model")
-        assert not models
-    for keywords, fields, rows in tables:
+def test_cgats_is_one_table_with_columns_for_what_differs(baked):
+    """Measurement software takes the first table of a file and leaves the others."""
+    for part in ("predicted", "measured"):
+        [(keywords, fields, rows)] = cgats_tables(baked.path(f"{part}.cgats.txt"))
         assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields) == len(set(fields))
         assert int(keywords["NUMBER_OF_SETS"]) == len(rows)
         assert all(len(row) == len(fields) for row in rows)
         assert keywords["MEASUREMENT_GEOMETRY"] == "45a:0"
-    sources = [keywords["MEASUREMENT_SOURCE"] for keywords, _, _ in tables]
-    # Only Beta is seen under A by the 10° observer.
-    assert ["Illumination=A" in source for source in sources].count(True) == 1
-    assert ["ObserverAngle=10" in source for source in sources].count(True) == 1
+        assert "Illumination" not in keywords["MEASUREMENT_SOURCE"]
+        for row in rows:
+            told, entry = dict(zip(fields, row, strict=True)), baked.document["readings"]
+            data = entry[int(row[0]) - 1][part]
+            assert told["ROUGH_SPECTRA_ILLUMINANT"] == data["illuminant"]
+            if part == "predicted":
+                assert told["ROUGH_SPECTRA_OBSERVER"] == str(data["observer"])
+    # Two grids, of 5 and of 10 nm: all of them are told at 10 nm.
+    assert len(rows) == len(baked.document["readings"])
+    text = baked.path("predicted.cgats.txt").read_text("utf-8")
+    declared = {line.split("\t")[1] for line in text.splitlines() if line.startswith("KEYWORD\t")}
+    assert {'"ROUGH_SPECTRA_ILLUMINANT"', '"ROUGH_SPECTRA_OBSERVER"'} <= declared
 
 
 def test_cgats_holds_fractions_under_the_names_that_mean_so(baked):
-    found = {}
-    for _, fields, rows in cgats_tables(baked.path("predicted.cgats.txt")):
-        start = fields.index(next(name for name in fields if name.startswith("SPECTRAL_NM")))
-        for row in rows:
-            bands = [float(name.removeprefix("SPECTRAL_NM")) for name in fields[start:]]
-            found[int(row[0])] = (row[1], bands, [float(cell) for cell in row[start:]])
+    [(_, fields, rows)] = cgats_tables(baked.path("predicted.cgats.txt"))
+    start = fields.index(next(name for name in fields if name.startswith("SPECTRAL_NM")))
+    bands = [float(name.removeprefix("SPECTRAL_NM")) for name in fields[start:]]
+    assert bands == [400 + 10 * number for number in range(31)]
+    found = {int(row[0]): row for row in rows}
     for number, entry in enumerate(baked.document["readings"], 1):
-        if not entry["predicted"]:
+        part = entry["predicted"]
+        if not part:
             assert number not in found
             continue
-        name, bands, values = found[number]
-        assert shown_text.from_cell(name) == entry["material"]
-        assert bands == entry["predicted"]["wavelengths"]
-        assert values == entry["predicted"]["values"]
+        assert shown_text.from_cell(found[number][1]) == entry["material"]
+        own = dict(zip(part["wavelengths"], part["values"], strict=True))
+        read = [float(cell) for cell in found[number][start:]]
+        assert read == pytest.approx([own[nm] for nm in bands], abs=1e-9)
+
+
+def test_argyllcms_takes_all_of_it(main, tmp_path):
+    """Its tools convert the predictions, and compute the same Lab from the spectra."""
+    import shutil
+    import subprocess
+
+    from rough_spectra.addon import api
+
+    if shutil.which("txt2ti3") is None:
+        pytest.skip("ArgyllCMS is not installed (Debian's package argyll)")
+    models, pairs = ("surface", "closure", "two-bounce"), []
+    for number, name in enumerate(api.presets("colorchecker")):
+        sample = api.find(name)
+        bands = slice(None, 71, 2)  # 380 to 730 nm in steps of 10
+        wavelengths, values = sample.wavelengths[bands], sample.values[bands]
+        sample = api.Sample(name, wavelengths, values, "reading")
+        wanted = api.request(sample, 0.35, model=models[number % 3], illuminant="D50")
+        pairs.append((rgb_material(name), wanted))
+    api.assign(pairs)
+    words = ("--predicted-only", "--format", "cgats", "--output", tmp_path / "chart")
+    assert main("bake", *words).status == 0
+
+    def tool(*words):
+        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    ours = "chart.predicted.cgats.txt"
+    assert "exactly one table" not in tool("txt2ti3", ours, "theirs")
+    assert "NUMBER_OF_SETS 24" in (tmp_path / "theirs.ti3").read_text("latin-1")
+    tool("spec2cie", "theirs.ti3", "computed.ti3")
+    told = tool("colverify", "-v", ours, "computed.ti3")
+    assert "No of test patches = 24" in told
+    [peak] = (line for line in told.splitlines() if "Total errors" in line)
+    # 0.018: its weights at 10 nm are its own.
+    assert float(peak.partition("peak = ")[2].partition(",")[0]) <= 0.05
 
 
 def test_cgats_of_the_measurement_agrees_with_json(baked):
     found = {}
     for keywords, fields, rows in cgats_tables(baked.path("measured.cgats.txt")):
         assert int(keywords["NUMBER_OF_FIELDS"]) == len(fields)
-        found |= {int(row[0]): [float(cell) for cell in row[2:]] for row in rows}
+        found |= {int(row[0]): [float(cell) for cell in row[-6:]] for row in rows}
     for number, entry in enumerate(baked.document["readings"], 1):
         assert found[number] == entry["measured"]["xyz"] + entry["measured"]["lab"]
 

@@ -23,6 +23,7 @@ VERBS = (
     "gloss",
     "import",
     "lab",
+    "list",
     "merge",
     "search",
     "texture",
@@ -281,3 +282,150 @@ def test_emissivity_refuses_in_one_sentence_and_writes_nothing(main, tmp_path, w
     assert result.status == 2
     assert fault in result.err
     assert not (tmp_path / "out").exists()
+
+
+def mapped(blend, tmp_path, text, *words):
+    mapping = tmp_path / "mapping.csv"
+    mapping.write_text(text, encoding="utf-8")
+    return "assign", "--blend", blend, "--mapping", mapping, *words
+
+
+def test_a_row_says_what_options_say_for_all(blend, main, tmp_path):
+    percent = tmp_path / "percent.csv"
+    percent.write_text("nm,Card\n400,61\n500,70\n600,72\n700,73\n", encoding="utf-8")
+    rows = (
+        "material,sample,file,illuminant,observer,model,shader,instrument,scale,rdq\n"
+        "Wall,Card,percent.csv,A,10,two-bounce,principled,di:8,100,0.35\n"
+        "Floor,14,,,,,,,,\n"
+    )
+    assert main(*mapped(blend, tmp_path, rows)).status == 0
+    wall, floor = stored("Wall"), stored("Floor")
+    assert (wall.illuminant, wall.observer, wall.model) == ("A", "10", "two-bounce")
+    assert (wall.shader, wall.instrument) == ("PRINCIPLED", "di:8")
+    assert json.loads(wall.spectrum)["values"] == [0.61, 0.7, 0.72, 0.73]
+    assert "divided by 100, as stated in mapping.csv, row 1" in wall.details
+    assert degrees("Wall") == pytest.approx(19.29, abs=0.01)
+    assert bpy.data.materials["Wall"].node_tree.nodes["Principled BSDF"].outputs[0].is_linked
+    assert (floor.illuminant, floor.observer, floor.model) == ("D65", "2", "auto")
+    assert (floor.shader, floor.instrument) == ("AUTO", "45a:0")
+    assert main(*mapped(blend, tmp_path, rows), "--illuminant", "D50").status == 0
+    assert {stored(name).illuminant for name in ("Wall", "Floor")} == {"D50"}
+
+
+def test_signs_in_a_name_mean_every_material_that_fits(main, tmp_path):
+    for name in ("Wall", "Wall.001", "Walnut", "Floor", "What?", "What!"):
+        rgb_material(name)
+    blend = tmp_path / "walls.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend))
+    rows = "material,sample\nWal*,14\nWalnut,15\nWhat?,16\n"
+    assert main(*mapped(blend, tmp_path, rows)).status == 0
+    found = {m.name: m.rough_spectra.sample_name for m in bpy.data.materials if m.users}
+    assert {name: text.split()[1:2] for name, text in found.items()} == {
+        "Wall": ["14"],
+        "Wall.001": ["14"],
+        "Walnut": ["15"],
+        # A material that is called exactly so is meant alone.
+        "What?": ["16"],
+        "What!": [],
+        "Floor": [],
+    }
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ("material,sample\nWall,14\nDoor*,14\n", ("row 2", "called like 'Door*'")),
+        ("material,sample\nW*,14\nFloor,15\n*l,14\n", ("row 3", "'Wall'", "twice", "row 1")),
+        ("material,sample\nWall,14\nDoor,14\n", ("row 2", "no material 'Door'", "--create")),
+        ("material,sample,shader\nWall,14,glass\n", ("row 1", "shader is 'glass'", "principled")),
+        ("material,sample,observer\nWall,14,5\n", ("row 1", "observer is '5'", "2, 10")),
+        ("material,sample,file,scale\nWall,14,a.csv,-1\n", ("row 1", "scale is '-1'", "above 0")),
+        ("material,sample,file\nWall,14,gone.csv\n", ("row 1", "gone.csv")),
+        ("material,sample\nFloor,14\nMixed,14\n", ("row 2", "'Mixed'", "cannot set")),
+    ],
+)
+def test_a_fault_of_a_row_names_file_and_row_and_nothing_is_changed(rows, words, main, tmp_path):
+    rgb_material("Wall")
+    rgb_material("Floor")
+    tree = rgb_material("Mixed").node_tree
+    glossy = tree.nodes.new("ShaderNodeBsdfGlass")
+    tree.links.new(glossy.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    blend = tmp_path / "plain.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend))
+    before = blend.read_bytes()
+    result = main(*mapped(blend, tmp_path, rows))
+    assert result.status == 2
+    assert all(word in result.sentence for word in ("mapping.csv", *words)), result.sentence
+    assert blend.read_bytes() == before
+
+
+def test_list_tells_what_a_file_holds_without_rendering(scene, main):
+    before = scene.read_bytes()
+    result = main("list", "--blend", scene)
+    assert result.status == 0
+    header, *lines = (line.split("\t") for line in result.out.splitlines() if "\t" in line)
+    rows = {row[0]: dict(zip(header, row, strict=True)) for row in lines}
+    assert len(rows) == 4
+    beta = bpy.data.materials["Beta"]
+    assert rows["Beta"] | {"illuminant": "A", "observer": "10", "sigma_deg": "0"} == rows["Beta"]
+    assert rows["Beta"]["state"] == "fresh"
+    socket = beta.node_tree.nodes["Diffuse BSDF"].inputs["Color"].default_value
+    assert float(rows["Beta"]["G"]) == pytest.approx(socket[1], abs=1e-6)
+    assert result.err.splitlines()[-1] == "4 of 6 materials store a spectrum"
+    assert scene.read_bytes() == before
+
+
+def test_list_as_json_holds_all_of_it(scene, main):
+    result = main("list", "--blend", scene, "--json", "--quiet", "--material", "?lp*")
+    assert (result.status, result.err) == (0, "")
+    told = json.loads(result.out.splitlines()[-1])
+    assert (told["format"], told["verb"], told["status"]) == ("rough-spectra-result", "list", 0)
+    assert told["error"] == ""
+    [alpha] = told["result"]["materials"]
+    found = json.loads(stored("Alpha").spectrum)
+    assert {key: alpha["stored"][key] for key in found} == found
+    assert alpha["derivation"]["state"] == "fresh"
+    assert alpha["node"]["shader"] == "diffuse"
+
+
+def test_every_verb_takes_the_options_of_all(main):
+    from rough_spectra.addon.support.version import version
+
+    for verb in VERBS:
+        result = main(verb, "--version")
+        assert result.status == 0
+        assert result.out.strip() == f"Rough Spectra {version()}, Blender {bpy.app.version_string}"
+    assert main("--version").out.startswith("Rough Spectra ")
+
+
+def test_json_tells_of_faults_and_rows_and_quiet_leaves_warnings(scene, main, tmp_path):
+    words = ("--predicted-only", "--output", tmp_path / "x")
+    quiet = main("bake", "--blend", scene, *words, "--quiet")
+    assert (quiet.status, quiet.err) == (0, "")
+    told = json.loads(main("bake", "--blend", scene, *words, "--json").out.splitlines()[-1])
+    assert told["result"]["readings"] == 4
+    assert str(tmp_path / "x.json") in told["result"]["files"]
+    fault = main("bake", "--blend", scene, *words, "--json", "--quiet", "--material", "None")
+    told = json.loads(fault.out.splitlines()[-1])
+    assert (fault.status, told["status"]) == (2, 2)
+    assert told["error"] in fault.sentence
+    found = json.loads(main("search", "green", "--json").out.splitlines()[-1])
+    assert ["colorchecker/14-green", "ColorChecker 14 Green"] in found["rows"]
+
+
+def test_the_example_of_the_readme_works_when_it_is_copied(main, tmp_path, monkeypatch):
+    text = (ROOT / "README.md").read_text("utf-8").partition("## First batch")[2]
+    table = text.partition("```csv\n")[2].partition("```")[0]
+    assert table in (ROOT / "docs" / "examples" / "mapping.csv").read_text("utf-8")
+    (tmp_path / "mapping.csv").write_text(table, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    commands = [line.split() for line in text.splitlines() if line.startswith("blender -b")]
+    assert [words[words.index("rough_spectra") + 1] for words in commands] == [
+        *("assign", "bake", "check"),
+    ]
+    for words in commands:
+        place = words.index("--command")
+        opened = [word for file in words[2:place] for word in ("--blend", file)]
+        result = main(words[place + 2], *opened, *words[place + 3 :])
+        assert result.status == 0, result.err
+    assert (tmp_path / "readings" / "scene.measured.csv").is_file()

@@ -9,7 +9,7 @@ import re
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.readings.document import from_json
+from rough_spectra.addon.readings.json_document import from_json
 from rough_spectra.addon.samples import readers
 from rough_spectra.core import reading
 from rough_spectra.core.instruments import REGISTRY
@@ -75,7 +75,9 @@ def test_every_file_names_the_instrument_of_each_reading(several):
         lines = [line for line in text.splitlines() if not line.startswith("#")]
         assert [row["instrument"] for row in csv.DictReader(lines)] == names
         table = several.with_name(f"angles.{part}.cgats.txt").read_text(encoding="utf-8")
-        assert re.findall(r'^MEASUREMENT_GEOMETRY\t"(.*)"$', table, re.MULTILINE) == names
+        rows = table.partition("BEGIN_DATA\n")[2].partition("END_DATA")[0].splitlines()
+        assert "SAMPLE_ID\tSAMPLE_NAME\tMEASUREMENT_GEOMETRY\t" in table
+        assert [row.split("\t")[2] for row in rows] == [f'"{name}"' for name in names]
     for ending in ("predicted.spectral.exr", "measured.exr"):
         assert (
             b"read at 45as15, 45as110, di:8; " in several.with_name(f"angles.{ending}").read_bytes()

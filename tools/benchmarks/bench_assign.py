@@ -32,7 +32,6 @@ if "rough_spectra" not in sys.modules:
 
 from rough_spectra.addon.blender import blend_file
 from rough_spectra.addon.commands import command_line, mapping
-from rough_spectra.addon.material import derive
 from rough_spectra.addon.samples import presets
 
 FEW = 2000
@@ -80,7 +79,7 @@ def run(words: list[str], output: Path, profiled: str = "") -> Steps:
 
     rows = step("read", lambda: mapping.rows(options))
     pairs = step("pair", lambda: mapping.pair(rows, options))
-    step("assign", lambda: derive.assign(pairs, options.shader.upper()))
+    step("assign", lambda: mapping.assign(pairs, options.gloss))
     step("save", lambda: blend_file.save(options.output))
     took["all"] = sum(took.values())
     return took

@@ -4,8 +4,12 @@
 
 NAME = "assign"                                          what the user types
 SUMMARY, DESCRIPTION                                     a line for the list, and its own help
-def add_arguments(parser: ArgumentParser) -> None        declares options, but --blend, --debug
+def add_arguments(parser: ArgumentParser) -> None        declares options, but for those of all
 def run(options: Namespace) -> int                       the exit status
+
+All have --blend, --debug, --quiet, --json and --version.
+Results go to files or through `shown_text.out`, what has to be known through `tell`, what went well
+through `inform`; `result.add` adds facts for --json.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "analyze"
 SUMMARY = "match materials to the lights and directions of their scene"
@@ -46,6 +46,7 @@ def run(options: argparse.Namespace) -> int:
     from ...material import selection, storage
     from ...scene import analysis, follow_scene
     from ..progress import counted
+    from ..result import add
 
     destination(options.output)  # before the work that could not be saved
     scene = bpy.context.scene
@@ -68,9 +69,10 @@ def run(options: argparse.Namespace) -> int:
         for warning in change.solution.warnings:
             tell(f"warning: material {change.material.name!r}: {warning}")
     for line in follow_scene.table(report, changes):
-        tell(line)
+        inform(line)
     path = save(options.output)
-    tell(
+    add(options, saved=path, materials=[change.material.name for change in changes])
+    inform(
         f"matched {counted(len(changes), 'material')} to scene {scene.name!r} in "
         f"{report.seconds:.2f} s; saved {path}"
     )

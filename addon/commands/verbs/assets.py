@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "assets"
 SUMMARY = "build a Blender asset library of measured materials"
@@ -83,6 +83,7 @@ def run(options: argparse.Namespace) -> int:
     from ...material import preferences
     from ...samples.stated_sigma import StatedSigma
     from ..progress import ProgressLine, counted
+    from ..result import add
 
     folder = options.library or preferences.user_folder()
     chosen = [
@@ -114,5 +115,6 @@ def run(options: argparse.Namespace) -> int:
     for name, sentences in built.warnings.items():
         for sentence in sentences:
             tell(f"warning: material {name!r}: {sentence}")
-    tell(f"{counted(built.count, 'material')} in {built.blend}")
+    add(options, files=[built.blend], materials=built.count)
+    inform(f"{counted(built.count, 'material')} in {built.blend}")
     return 0

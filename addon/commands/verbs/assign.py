@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "assign"
 SUMMARY = "give materials of the file measured spectra"
@@ -30,9 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--mapping",
         type=Path,
         metavar="FILE",
-        help="CSV or JSON with a row a material: material, sample, and optionally file, "
-        "sigma_deg (or rdq, or sdq), kind, white, white_factor, read_at; a sample without a file "
-        "is a preset or of the library",
+        help="CSV or JSON with a row a material, in whose name * and ? may stand: material, "
+        "sample, and optionally file, sigma_deg (or rdq, or sdq), kind, instrument, scale, white, "
+        "white_factor, read_at, illuminant, observer, model, shader; a sample without a file is a "
+        "preset or of the library; what an option says counts for all rows",
     )
     source.add_argument(
         "--by-name",
@@ -66,8 +68,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
     add_white_arguments(parser)
-    parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
-    parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
+    parser.add_argument(
+        "--illuminant",
+        choices=ILLUMINANTS,
+        help="under which the color is right; without it what the mapping says, or D65",
+    )
+    parser.add_argument(
+        "--observer",
+        type=int,
+        choices=OBSERVERS,
+        help="of the colorimetry in reports; without it what the mapping says, or 2",
+    )
     parser.add_argument(
         "--read-at",
         choices=instruments,
@@ -78,13 +89,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--model",
         choices=("auto", *NAMES),
-        default="auto",
-        help="how light between facets is counted; auto is the surface model",
+        help="how light between facets is counted; without it what the mapping says, or auto, "
+        "which is the surface model",
     )
     parser.add_argument(
         "--shader",
         choices=[name.lower() for name in (shaders.AUTO, *shaders.NAMES)],
-        default="auto",
+        help="the node to set; without it what the mapping says, or auto, the one that is there",
     )
     parser.add_argument(
         "--gloss",
@@ -120,26 +131,44 @@ def add_white_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Assign and save; exit status 0."""
     from ....core.instruments import spoken
-    from ... import api
     from ...blender.blend_file import destination, save
     from ...samples import stated_white
     from .. import mapping
     from ..progress import counted
+    from ..result import add
 
     destination(options.output)  # before the work that could not be saved
-    rows = mapping.rows(options)
-    pairs = mapping.pair(rows, options)
-    solutions = api.assign(pairs, options.shader, options.gloss)
-    for (material, request), solution in zip(pairs, solutions, strict=True):
-        if remark := stated_white.remark(request.sample):
-            tell(f"note: material {material.name!r}: {remark}")
+    assignments = mapping.pair(mapping.rows(options), options)
+    solutions = mapping.assign(assignments, options.gloss)
+    for each, solution in zip(assignments, solutions, strict=True):
+        if remark := stated_white.remark(each.request.sample):
+            inform(f"note: material {each.material.name!r}: {remark}")
         for warning in solution.warnings:
-            tell(f"warning: material {material.name!r}: {warning}")
+            tell(f"warning: material {each.material.name!r}: {warning}")
     path = save(options.output)
     worst = max(solution.delta_e_instrument for solution in solutions)
-    at = ", ".join(dict.fromkeys(spoken(request.read_at) for _, request in pairs))
-    tell(
-        f"assigned {counted(len(pairs), 'material')}, largest predicted ΔE00 at {at} "
+    at = ", ".join(dict.fromkeys(spoken(each.request.read_at) for each in assignments))
+    add(
+        options,
+        saved=path,
+        largest_delta_e_00=worst,
+        materials=[
+            {
+                "material": each.material.name,
+                "sample": each.request.sample.name,
+                "sigma_degrees": round(math.degrees(each.request.sigma), 5),
+                "color": solution.color.tolist(),
+                "roughness": solution.roughness,
+                "model": solution.model,
+                "delta_e_instrument": solution.delta_e_instrument,
+                "delta_e_mean": solution.delta_e_mean,
+                "warnings": list(solution.warnings),
+            }
+            for each, solution in zip(assignments, solutions, strict=True)
+        ],
+    )
+    inform(
+        f"assigned {counted(len(assignments), 'material')}, largest predicted ΔE00 at {at} "
         f"{worst:.4f}; saved {path}"
     )
     return 0

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 if TYPE_CHECKING:
     from ...readings.document import Readings
@@ -98,9 +98,10 @@ def run(options: argparse.Namespace) -> int:
     from ... import api
     from ...instrument import bake
     from ...material import selection
-    from ...readings import document, writers
+    from ...readings import json_document, writers
     from ...support import atomic_files
     from ..progress import counted
+    from ..result import add
 
     index, count = options.shard
     if count > 1:
@@ -115,14 +116,20 @@ def run(options: argparse.Namespace) -> int:
         whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
         part = replace(result, shard=index, shards=count, whole=whole)
         with atomic_files.publication() as files:
-            files.write(target, document.to_json(part))
+            files.write(target, json_document.to_json(part))
         written = [target]
     else:
         written = api.write(result, options.output, options.format or writers.FORMATS)
     largest = "" if result.largest_delta_e is None else f", largest ΔE00 {result.largest_delta_e}"
     names = ", ".join(path.name for path in written)
     at = ", ".join(result.instruments)
-    tell(f"{counted(len(result.entries), 'reading')} at {at}{largest}; wrote {names}")
+    add(
+        options,
+        files=written,
+        readings=len(result.entries),
+        largest_delta_e_00=result.largest_delta_e,
+    )
+    inform(f"{counted(len(result.entries), 'reading')} at {at}{largest}; wrote {names}")
     return tell_faults(result)
 
 

@@ -11,7 +11,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...support.shown_text import ESCAPED, out, printable, tell, to_cell
+from ...support.shown_text import ESCAPED, inform, out, printable, tell, to_cell
 
 if TYPE_CHECKING:
     from ...matching.compare import Apart, Comparison
@@ -73,6 +73,7 @@ def run(options: argparse.Namespace) -> int:
     """Print the table, and write it if asked; exit status 0."""
     from ... import api
     from ...support import atomic_files
+    from ..result import add
 
     if options.output is not None:
         atomic_files.check_target(options.output)
@@ -87,7 +88,8 @@ def run(options: argparse.Namespace) -> int:
     if options.output is not None:
         with atomic_files.publication() as files:
             files.write(options.output, _csv(pair, found))
-        tell(f"wrote {options.output}")
+        add(options, files=[options.output])
+        inform(f"wrote {options.output}")
     return 0
 
 

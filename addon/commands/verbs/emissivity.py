@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ....core.errors import InputError
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 if TYPE_CHECKING:
     from ...matching.emission import Named
@@ -97,6 +97,7 @@ def run(options: argparse.Namespace) -> int:
     from ...samples.stated_sigma import Names, StatedSigma
     from ...support import atomic_files
     from ..progress import counted
+    from ..result import add
 
     atomic_files.check_base(options.output)
     stated = StatedSigma(options.sigma, options.rdq, options.sdq)
@@ -126,7 +127,8 @@ def run(options: argparse.Namespace) -> int:
         for sentence in each.warnings:
             tell(f"warning: {each.source or each.sample}: {sentence}")
     written = emission_files.write(found, options.output)
-    tell(f"{counted(len(found), 'sample')}; wrote {', '.join(path.name for path in written)}")
+    add(options, files=written)
+    inform(f"{counted(len(found), 'sample')}; wrote {', '.join(path.name for path in written)}")
     return 0
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "estimate"
 SUMMARY = "estimate the roughness σ of surfaces from readings"
@@ -70,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
     from ...matching import roughness
     from ...support import atomic_files
     from .. import estimation
+    from ..result import add
 
     target = atomic_files.check_target(options.output)
     relative = options.repeatability / 100
@@ -84,8 +85,9 @@ def run(options: argparse.Namespace) -> int:
     with atomic_files.publication() as files:
         files.write(target, estimation.table(found, relative, ABSOLUTE))
     for surface, estimate in found:
-        tell(f"{surface.name}: {roughness.summary(estimate)}")
+        inform(f"{surface.name}: {roughness.summary(estimate)}")
         for note in estimate.notes:
             tell(f"warning: {surface.name}: {note}")
-    tell(f"wrote {target}")
+    add(options, files=[target])
+    inform(f"wrote {target}")
     return 0

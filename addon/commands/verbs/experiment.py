@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 if TYPE_CHECKING:
     from ...laboratory.trial.page import Found
@@ -73,13 +73,15 @@ def run(options: argparse.Namespace) -> int:
     from ...laboratory.trial import page, tables
     from ...support import atomic_files
     from ..progress import counted
+    from ..result import add
 
     atomic_files.check_base(options.output)
     found = _of_readings(options) if options.mapping else _of_meshes(options)
     for sentence in tables.remarks(found.inferred):
         tell(f"warning: {sentence}")
     written = page.write(found, options.output)
-    tell(
+    add(options, files=written)
+    inform(
         f"{counted(len(found.inferred), 'surface')}, {counted(len(found.reads), 'reading')}; "
         f"wrote {', '.join(path.name for path in written)}"
     )

@@ -8,7 +8,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 if TYPE_CHECKING:
     from ....core.cycles.gloss_estimate import GlossEstimate
@@ -67,6 +67,7 @@ def run(options: argparse.Namespace) -> int:
     from ....core.cycles import gloss_estimate
     from ....core.errors import DomainError
     from ....core.gloss import Gloss
+    from ..result import add
 
     given = {"--sci": options.sci, "--sce": options.sce, "--level": options.level}
     for name, value in given.items():
@@ -79,29 +80,42 @@ def run(options: argparse.Namespace) -> int:
         if options.sci is not None or options.sce is not None or options.units:
             msg = "Samples say what was read of them; leave --sci, --sce and --units out."
             raise DomainError(msg)
-        _of_samples(options.samples, options.level, gloss)
+        _of_samples(options, gloss)
         return 0
     if options.sci is None:
         raise DomainError("Name samples with SCI and SCE or gloss units, or give --sci.")
     read = gloss_estimate.GlossReadings(options.sci, options.sce, dict(options.units))
-    _say("", gloss_estimate.estimate(read, options.level, gloss))
+    found = gloss_estimate.estimate(read, options.level, gloss)
+    add(options, **_facts(found))
+    _say("", found)
     return 0
 
 
-def _of_samples(names: list[str], level: float | None, gloss: Gloss) -> None:
+def _facts(found: GlossEstimate) -> dict[str, float]:
+    return {
+        "level": round(found.gloss.level, 6),
+        "roughness": round(found.gloss.roughness, 6),
+        "ior": found.gloss.ior,
+        "misfit": round(found.misfit, 6),
+    }
+
+
+def _of_samples(options: argparse.Namespace, gloss: Gloss) -> None:
     """Say it of each sample; of a file's that say nothing, why, unless none says anything."""
     from ....core.errors import DomainError
     from ... import api
     from .. import named_samples
+    from ..result import add
 
     found, silent = [], []
-    for sample in (sample for name in names for sample in named_samples.some(name)):
+    for sample in (sample for name in options.samples for sample in named_samples.some(name)):
         try:
-            found.append((sample.name, api.estimate_gloss(sample, level, gloss)))
+            found.append((sample.name, api.estimate_gloss(sample, options.level, gloss)))
         except DomainError as error:
             silent.append(error)
     if not found:
         raise silent[0]
+    add(options, samples=[{"name": name, **_facts(estimate)} for name, estimate in found])
     for name, estimate in found:
         _say(f"{name}: ", estimate)
     for error in silent:
@@ -110,7 +124,7 @@ def _of_samples(names: list[str], level: float | None, gloss: Gloss) -> None:
 
 def _say(name: str, found: GlossEstimate) -> None:
     how = "found" if found.level_is_known else "given"
-    tell(
+    inform(
         f"{name}Specular IOR Level {found.gloss.level:.3f} ({how}), Roughness "
         f"{found.gloss.roughness:.3f}, IOR {found.gloss.ior:g}; it reads within "
         f"{100 * found.misfit:.1f} % of what was given"

@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 
 from ....core.errors import InputError
-from ...support.shown_text import out, tell
+from ...support.shown_text import inform, out, tell
 from . import assign
 
 NAME = "import"
@@ -57,5 +57,5 @@ def run(options: argparse.Namespace) -> int:
             out(sample_id)
     for sentence in batch.refused:
         tell(f"rough_spectra import: {sentence}")
-    tell(f"{importing.summary(added)}, {folder}")
+    inform(f"{importing.summary(added)}, {folder}")
     return 2 if batch.refused else 0

@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform
 
 if TYPE_CHECKING:
     from ...samples.sample import Sample
@@ -78,6 +78,7 @@ def run(options: argparse.Namespace) -> int:
     from ...laboratory import readings
     from ...support import atomic_files
     from ..progress import ProgressLine, counted
+    from ..result import add
 
     target = atomic_files.check_target(options.output)
     spectrum = _spectrum(options)
@@ -105,7 +106,8 @@ def run(options: argparse.Namespace) -> int:
     wavelengths = None if spectrum is None else spectrum.wavelengths
     with atomic_files.publication() as files:
         files.write(target, readings.to_csv(rough, found, wavelengths))
-    tell(
+    add(options, files=[target])
+    inform(
         f"{counted(len(rough.mesh.faces), 'facet')}, Rdq {rough.mesh.rdq:.4f}, "
         f"Sdq {rough.mesh.sdq:.4f}; {counted(found.albedos.size, 'reading')}, noise at most "
         f"{found.noise.max():.2g}, spread at most {found.spread.max():.2g}; wrote {target.name}"

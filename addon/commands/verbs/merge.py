@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform
 from .bake import add_format_argument, tell_faults
 
 NAME = "merge"
@@ -28,15 +28,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Join and write; exit status as that of one bake."""
     from ... import api
-    from ...readings import document, writers
+    from ...readings import document, json_document, writers
     from ...support import journal
     from ..progress import counted
+    from ..result import add
 
     writers.check(options.output)
     for folder in sorted({path.parent for path in options.parts}):
         journal.finish(folder)  # a document of a killed bake may wait for its name
-    result = document.merge(document.from_json(path) for path in options.parts)
+    result = document.merge(json_document.from_json(path) for path in options.parts)
     written = api.write(result, options.output, options.format or writers.FORMATS)
     names = ", ".join(path.name for path in written)
-    tell(f"{counted(len(result.entries), 'reading')}; wrote {names}")
+    add(options, files=written, readings=len(result.entries))
+    inform(f"{counted(len(result.entries), 'reading')}; wrote {names}")
     return tell_faults(result)

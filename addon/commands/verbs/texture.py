@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "texture"
 SUMMARY = "turn a spectral image of a rough surface into a texture"
@@ -72,6 +72,7 @@ def run(options: argparse.Namespace) -> int:
     from ... import api
     from ...blender.blend_file import destination, save
     from ..progress import ProgressLine
+    from ..result import add
 
     holds = options.holds or ("albedo" if options.material is None else "color")
     if options.material is None and options.save is not None:
@@ -98,6 +99,9 @@ def run(options: argparse.Namespace) -> int:
     told = f"{made.width} × {made.height} pixels of {holds}; wrote {made.path.name}"
     if options.material is not None:
         api.texture_material(made, options.material)
-        told += f"; material {options.material!r}, saved {save(options.save)}"
-    tell(told)
+        saved = save(options.save)
+        add(options, saved=saved)
+        told += f"; material {options.material!r}, saved {saved}"
+    add(options, files=[made.path])
+    inform(told)
     return 0

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import tell
+from ...support.shown_text import inform, tell
 
 NAME = "validate"
 SUMMARY = "say everything that is wrong with preset files"
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
             tell(sentence)
         for sentence in verdict.remarks:
             tell(f"remark: {sentence}")
-    tell(f"{len(files)} presets, {faults} faults")
+    inform(f"{len(files)} presets, {faults} faults")
     return _UNUSABLE if faults else 0
 
 

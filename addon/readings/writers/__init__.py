@@ -25,7 +25,8 @@ from pathlib import Path
 from typing import Protocol
 
 from ...support import atomic_files, discovery
-from ..document import Readings, to_json
+from ..document import Readings
+from ..json_document import to_json
 
 Content = bytes | Callable[[Path, Path], None]
 """All of a file; or what writes it, to the first path, and names the second one in errors."""
