@@ -11,6 +11,7 @@ visible range: bands that were not measured count as equal to the nearest one th
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -67,12 +68,26 @@ def by_science(seen: Array, illuminant: str, observer: int) -> Array:
 
 def integration(wavelengths: Array, illuminant: str, observer: int) -> Array:
     """Weights of the plain sum over a 1 nm grid, with which ASTM E308 begins."""
-    science = colour()
-    shape = science.SpectralShape(wavelengths[0], wavelengths[-1], 1)
-    matching = science.MSDS_CMFS[_OBSERVER_NAMES[observer]].copy().align(shape).values
-    light = science.SDS_ILLUMINANTS[_science_name(illuminant)].copy().align(shape).values
-    matrix = np.asarray(matching * light[:, np.newaxis])
+    matching = matching_functions(wavelengths, observer)
+    matrix = np.asarray(matching * spectrum(illuminant, wavelengths)[:, np.newaxis])
     return np.asarray(matrix / matrix[:, 1].sum())
+
+
+def matching_functions(wavelengths: Array, observer: int) -> Array:
+    """Color matching functions of one of `OBSERVERS` on an even grid, shape (bands, 3)."""
+    functions = colour().MSDS_CMFS[_OBSERVER_NAMES[observer]].copy()
+    return np.asarray(functions.align(_shape(wavelengths)).values)
+
+
+def spectrum(illuminant: str, wavelengths: Array) -> Array:
+    """Spectrum of one of `ILLUMINANTS` on an even grid, shape (bands,)."""
+    found = colour().SDS_ILLUMINANTS[_science_name(illuminant)].copy()
+    return np.asarray(found.align(_shape(wavelengths)).values)
+
+
+def _shape(wavelengths: Array) -> Any:
+    step = wavelengths[1] - wavelengths[0]
+    return colour().SpectralShape(wavelengths[0], wavelengths[-1], step)
 
 
 def whole(step: int) -> Array:

@@ -19,6 +19,7 @@ from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
 from ...core.numerics.memoized import memoized
 from ..support.colour_science import colour
+from . import astm_e308
 
 GRID = np.arange(E308_NM[0], E308_NM[1] + 1, 5.0)
 """Nanometers at which spectra of lights are held."""
@@ -49,6 +50,21 @@ def daylight(temperature: float) -> Array:
     """Spectrum of CIE daylight of 4000 to 25000 K at `GRID`, with a mean of 1 (CIE 15)."""
     spd = _daylight_mix(temperature) @ _daylight_parts()
     return np.asarray(spd / spd.mean())
+
+
+def cie(name: str) -> Array:
+    """Spectrum of one of `astm_e308.ILLUMINANTS` at `GRID`, with a luminance Y of 1."""
+    spd = np.asarray(astm_e308.spectrum(name, GRID))
+    return np.asarray(spd / to_xyz(spd)[1])
+
+
+def observer(degrees: int = 2) -> Array:
+    """Color matching functions for sums over `GRID`, per nanometer, shape (wavelengths, 3).
+
+    Spectra at `GRID` are taken as smooth in between, as everywhere here.
+    """
+    step = GRID[1] - GRID[0]
+    return np.asarray(_to_fine() @ astm_e308.matching_functions(_FINE, degrees) / step)
 
 
 def to_xyz(spd: npt.ArrayLike) -> Array:
