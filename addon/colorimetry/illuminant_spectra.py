@@ -51,6 +51,21 @@ def daylight(temperature: float) -> Array:
     return np.asarray(spd / spd.mean())
 
 
+def cie(name: str) -> Array:
+    """Spectrum of one of `cie_tables.ILLUMINANTS` at `GRID`, with a luminance Y of 1."""
+    spd = np.interp(GRID, cie_tables.GRID, cie_tables.illuminant(name))
+    return np.asarray(spd / to_xyz(spd)[1])
+
+
+def observer(degrees: int = 2) -> Array:
+    """Color matching functions for sums over `GRID`, per nanometer, shape (wavelengths, 3).
+
+    Spectra at `GRID` are taken as smooth in between, as everywhere here.
+    """
+    step = GRID[1] - GRID[0]
+    return np.asarray(_to_fine() @ cie_tables.observer(degrees) / step)
+
+
 def to_xyz(spd: npt.ArrayLike) -> Array:
     """XYZ (2° observer) of spectra at `GRID`, shape (..., 3), in units of the spectrum."""
     return np.asarray(np.asarray(spd, np.float64) @ _integration())
