@@ -47,9 +47,11 @@ from ..core.limits import TOLERANCE
 from ..core.models import TARGET
 from ..core.numerics.arrays import Array
 from .blender import colors, working_space
+from .export import kept
 from .export import targets as export_targets
 from .export import write as export_files
 from .export.entry import Entry
+from .export.kept import Loss
 from .export.write import Exported
 from .instrument import adjustment
 from .instrument import bake as instrument_bake
@@ -104,6 +106,7 @@ __all__ = [
     "InBand",
     "InLight",
     "InputError",
+    "Loss",
     "Made",
     "MaterialError",
     "Measured",
@@ -126,6 +129,7 @@ __all__ = [
     "estimate",
     "estimate_gloss",
     "export",
+    "export_losses",
     "find",
     "gloss",
     "gloss_readings",
@@ -1172,6 +1176,33 @@ def export(
     """
     chosen = (targets,) if isinstance(targets, str) else tuple(targets)
     return export_files.materials(map(_checked, materials), Path(base), chosen)
+
+
+def export_losses(materials: Iterable[bpy.types.Material]) -> list[Loss]:
+    """Tell what Blender's own exporters, glTF and USD, would make of materials, where it is seen.
+
+    Nothing is exported: what they write is known, and what Cycles shows of it is predicted.
+
+    Returns
+    -------
+    One for each material and exporter that end farther apart than the material's tolerance, with
+    `exporter`, `delta_e_instrument`, `delta_e_mean` over the hemisphere, and a `sentence`.
+
+    Raises
+    ------
+    MaterialError
+        One is no material.
+
+    Examples
+    --------
+    >>> wall = bpy.data.materials.new("Wall")
+    >>> _ = assign([(wall, request(find("neutral 6.5"), radians(30)))], "principled", "none")
+    >>> for loss in export_losses([wall]):
+    ...     print(loss.exporter, round(loss.delta_e_instrument, 1), round(loss.delta_e_mean, 1))
+    glTF 2.3 4.7
+    USD 2.9 5.8
+    """
+    return kept.losses(map(_checked, materials))
 
 
 def rough_sample(

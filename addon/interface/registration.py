@@ -10,7 +10,7 @@ from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
-from . import operators, shelf
+from . import gltf_export, operators, shelf
 from .panels import menus, panels
 
 _OPERATORS = operators.modules()
@@ -27,6 +27,7 @@ def register() -> None:
         if hasattr(module, "register_menu"):
             module.register_menu()
     menus.register(classes)
+    gltf_export.register()
     follow.register()
     command_line.register()
 
@@ -37,6 +38,7 @@ def unregister() -> None:
     command_line.unregister()
     shelf.unregister_timer()
     follow.unregister()
+    gltf_export.unregister()
     menus.unregister()
     for module in reversed(_OPERATORS):
         if hasattr(module, "unregister_menu"):

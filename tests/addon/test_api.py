@@ -23,6 +23,7 @@ SIGNATURES = {
     "estimate": "(materials, *, model=None, repeatability=0.001)",
     "export": "(materials, base, targets=('materialx', 'usd', 'gltf', 'mitsuba', 'pbrt', "
     "'luxcore'))",
+    "export_losses": "(materials)",
     "find": "(name)",
     "gloss": "(materials, angles=(20, 60, 85), progress=None)",
     "gloss_readings": "(sample)",
@@ -83,6 +84,7 @@ FIELDS = {
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
     "warnings fault instrument gloss node derivation",
     "RoughSample": "kind mesh length asked seed",
+    "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }

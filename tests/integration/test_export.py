@@ -45,6 +45,17 @@ def test_one_target_one_material_and_what_is_lost(main, tmp_path):
     assert (refused.status, refused.sentence.count("no measured spectrum")) == (2, 1)
 
 
+def test_what_blenders_exporters_lose_is_checked(main, tmp_path):
+    with_wall(main, tmp_path / "scene.blend", "--gloss", "none")
+    told = main("export", "--check")
+    assert told.status == 1
+    lines = told.err.splitlines()
+    assert lines[0].startswith("Material 'Wall': Blender's glTF exporter drops its diffuse rough")
+    assert lines[-1] == "1 of 1 material would lose color or roughness"
+    bpy.data.materials["Wall"].rough_spectra.tolerance = 20
+    assert main("export", "--check").status == 0
+
+
 def test_the_operator_writes_what_is_chosen_and_changes_nothing(main, tmp_path):
     with_wall(main, tmp_path / "scene.blend", "--gloss", "none")
     before = [len(each) for each in (bpy.data.materials, bpy.data.objects, bpy.data.meshes)]

@@ -17,7 +17,7 @@ DESCRIPTION = (
     "not changed."
 )
 
-_UNUSABLE = 2
+_FAILED, _UNUSABLE = 1, 2
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,12 +39,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the materials on this object's surface, repeatable",
     )
     endings = ", ".join(f"BASE.{target.ENDING}" for target in targets.REGISTRY.values())
-    parser.add_argument(
-        "--output",
-        type=Path,
-        required=True,
-        metavar="BASE",
-        help=f"folder and base name: {endings}",
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument(
+        "--output", type=Path, metavar="BASE", help=f"folder and base name: {endings}"
+    )
+    what.add_argument(
+        "--check",
+        action="store_true",
+        help="write nothing, and fail where Blender's own exporters would lose color or roughness",
     )
     parser.add_argument(
         "--target",
@@ -55,13 +57,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Export; exit status 0, or 2 where a material could not be exported."""
+    """Export or check; exit status 0, 1 of a check, or 2 where a material could not be exported."""
     from ... import api
     from ...export import targets, write
     from ...material import selection
     from ..progress import counted
 
     surfaces = selection.surfaces(options.material, options.object)
+    if options.check:
+        lost = api.export_losses([material for _, material in surfaces])
+        for loss in lost:
+            tell(loss.sentence)
+        lose = len({loss.material for loss in lost})
+        tell(f"{lose} of {counted(len(surfaces), 'material')} would lose color or roughness")
+        return _FAILED if lost else 0
     chosen = options.target or write.usable()
     found = api.export([material for _, material in surfaces], options.output, chosen)
     for sentence in found.warnings:

@@ -67,8 +67,18 @@ class ROUGHSPECTRA_OT_export_materials(bpy.types.Operator):
         if not self.filepath:
             blend = Path(bpy.data.filepath or "untitled.blend")
             self.filepath = str(blend.with_suffix(""))
+        if not self.targets:
+            from ...export import write
+
+            self.targets = set(write.usable())
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
+
+    def draw(self, _context: Any) -> None:
+        """Draw the options beside the files; of targets one a line."""
+        self.layout.prop(self, "scope")
+        self.layout.label(text="Targets")
+        self.layout.column(align=True).prop(self, "targets")
 
     def execute(self, context: Any) -> set[str]:
         """Write all files, or none."""
