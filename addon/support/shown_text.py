@@ -15,6 +15,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 
+from .streams import flush_blender
+
 ESCAPED = "escaped"
 """What a table says of its cells if `to_cell` made them."""
 
@@ -90,12 +92,14 @@ def out(*columns: str) -> None:
 
 def close(result: str) -> None:
     """Print what a program is to read last, on standard output."""
+    flush_blender()
     print(printable(result), flush=True)
 
 
 def tell(sentence: str) -> None:
     """Say something beside the results that has to be known, on standard error."""
     _keep(sentence)
+    flush_blender()
     print(printable(sentence), file=sys.stderr)
 
 
