@@ -50,6 +50,12 @@ FUZZ = Environment(ROOT, "fuzz", ("3.13", "3.11"), "atheris, the fuzzer of the r
 TABLES = Environment(
     ROOT, "tables", ("3.13", "3.11"), "numba, for the tools that trace the tables that ship, once"
 )
+FARM = Environment(
+    ROOT,
+    "farm",
+    ("3.13", "3.11"),
+    "openjd-cli and a JavaScript engine, which run the bundles for render farms, once",
+)
 BLENDERS = {"5.2": BLENDER_5_2, "4.5": BLENDER_4_5}
 
 NO_PYTHON = (
@@ -275,6 +281,15 @@ def command_fuzz(options: argparse.Namespace) -> int:
     return call(tool(FUZZ.python, "tools/checks/fuzz.py", *options.arguments))
 
 
+def command_farm(options: argparse.Namespace) -> int:
+    """Run the bundles for render farms by the engines' own programs."""
+    if not environments.prepare(FARM, say):
+        raise SetupError(NO_PYTHON)
+    blender = prepare_blender()
+    wheels.ensure(ROOT, blender.python)
+    return call(tool(blender.python, "tools/checks/check_farm.py", *options.arguments))
+
+
 def command_tables(options: argparse.Namespace) -> int:
     """Run a tool of tools/tables, which trace and make the tables that ship."""
     if not options.arguments:
@@ -333,6 +348,7 @@ COMMANDS = {
     "bench": (command_bench, "measure speed"),
     "screenshots": (command_screenshots, "take the manual's pictures in a desktop Blender"),
     "tables": (command_tables, "run a tool that traces or makes a table that ships"),
+    "farm": (command_farm, "run the bundles for render farms, by the engines' own programs"),
     "fuzz": (command_fuzz, "fuzz the readers of measurement files"),
     "chart": (command_chart, "measure cost against error, peers included, and draw the chart"),
 }
@@ -340,6 +356,7 @@ TAKES_ARGUMENTS = {
     "test": "pytest",
     "bench": "tools/benchmarks/bench.py",
     "figures": "tools/manual/figures.py",
+    "farm": "tools/checks/check_farm.py",
     "fuzz": "tools/checks/fuzz.py",
     "screenshots": "tools/manual/screenshots.py",
     "tables": "the tool named first",

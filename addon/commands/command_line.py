@@ -12,7 +12,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -86,7 +86,21 @@ class _Told:
         """Take down what the options say of how it is to be told."""
         self.verb, self.debug, self.json = options.verb, options.debug, options.json
         self.said.quiet, self.said.keeps_rows = options.quiet, options.json
+        self.said.engine = options.progress or ""
         options.result = self.facts
+        options.call = self.call
+
+    def call(self, words: Sequence[str]) -> tuple[int, str, dict[str, Any]]:
+        """Run another verb within this one: its status, the sentence that ended it, and result."""
+        options = _parser().parse_args(list(words))
+        before, self.verb, self.error = self.verb, options.verb, ""
+        options.result = {}
+        options.call = self.call
+        try:
+            status = _carry_out(options, self)
+        finally:
+            self.verb = before
+        return status, self.error, options.result
 
     def failed(self, status: int, sentence: str) -> int:
         """Print one line, and give the status back."""
@@ -120,14 +134,37 @@ class _Told:
 
 
 def _run(arguments: Sequence[str], told: _Told) -> int:
-    """Run one verb and give its status; what it expects to go wrong is told here."""
-    from ...core.errors import CancelledError, OwnFaultError, RoughSpectraError
-
+    """Run one verb and give its status."""
     # Help texts hold letters such as Δ and σ, which not every terminal or pipe can take.
     with contextlib.suppress(AttributeError):
         sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     options = _parser().parse_args(list(arguments))
     told.heed(options)
+    with _terminable():
+        return _carry_out(options, told)
+
+
+@contextlib.contextmanager
+def _terminable() -> Iterator[None]:
+    """Let a request to end, as farms send it, be an interrupt: nothing half-done is left then."""
+    import signal
+    import threading
+
+    usual = signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+    if not usual or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _carry_out(options: argparse.Namespace, told: _Told) -> int:
+    """Do what the options say; what is expected to go wrong is told here."""
+    from ...core.errors import CancelledError, OwnFaultError, RoughSpectraError
+
     try:
         if options.blend is not None:
             _open(options.blend)
@@ -165,6 +202,7 @@ def _parser() -> argparse.ArgumentParser:
     import bpy
 
     from ..support.version import version
+    from .progress import ENGINES
     from .verbs import verbs
 
     parser = argparse.ArgumentParser(
@@ -172,7 +210,11 @@ def _parser() -> argparse.ArgumentParser:
         description="Measured rough materials that read the same when measured again.",
     )
     which = f"Rough Spectra {version()}, Blender {bpy.app.version_string}"
-    about = {"action": "version", "version": which, "help": "say which version this is"}
+    about: dict[str, Any] = {
+        "action": "version",
+        "version": which,
+        "help": "say which version this is",
+    }
     parser.add_argument("--version", **about)
     subparsers = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
     for verb in verbs():
@@ -197,6 +239,11 @@ def _parser() -> argparse.ArgumentParser:
             "--json",
             action="store_true",
             help="end standard output with one line of JSON: status, error, messages and results",
+        )
+        sub.add_argument(
+            "--progress",
+            choices=ENGINES,
+            help="tell progress in the lines of a farm's engine: openjd for Open Job Description",
         )
         sub.add_argument("--version", **about)
         verb.add_arguments(sub)

@@ -107,7 +107,8 @@ class Reading:
 class Readings:
     """A whole bake, or the part of one that a shard made.
 
-    `whole` is what `digest` says of the whole bake that a part belongs to; a whole one has none.
+    `whole` is what `digest` says of the whole bake, or of the one that a part belongs to; empty of
+    readings that a script took.
     `version` is that of the extension that baked it. `each` is how many readings, at as many
     instruments, each surface has one after the other.
     """
@@ -187,4 +188,7 @@ def merge(parts: Iterable[Readings]) -> Readings:
             msg = f"Part {part.shard} of {count} has too few readings; bake it again."
             raise InputError(msg)
         entries += part.entries[row : row + each]
-    return Readings(found[0].working_space, found[0].blender, tuple(entries), each=each)
+    first = found[0]
+    return Readings(
+        first.working_space, first.blender, tuple(entries), whole=first.whole, each=each
+    )

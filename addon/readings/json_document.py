@@ -9,6 +9,7 @@ together. Schema 1, which earlier versions wrote, is read as well: what it lacks
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -95,7 +96,11 @@ def from_json(path: Path) -> Readings:
 _ALBEDOS = ("albedo_lowest", "albedo_highest", "albedo")
 _TRIPLES = {"rgb", "spread", "xyz", "lab", "preview", "color"}
 _SENTENCES = {"linked", "in_use", "reasons"}
-_TABLES = {"colors": lambda value: _numbers(value, 3), "delta_e_lights": float, "settings": str}
+_TABLES: dict[str, Callable[[Any], Any]] = {
+    "colors": lambda value: _numbers(value, 3),
+    "delta_e_lights": float,
+    "settings": str,
+}
 """What maps names to values, and how these are read."""
 
 

@@ -15,6 +15,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 
+from .streams import flush_blender
+
 ESCAPED = "escaped"
 """What a table says of its cells if `to_cell` made them."""
 
@@ -42,6 +44,10 @@ class Said:
     ----------
     quiet
         Whether `inform` is silent.
+    engine
+        Whose lines tell the progress: "openjd", or empty for people.
+    share
+        Where the work under way begins and ends in all of it, from 0 to 1.
     keeps_rows
         Whether `out` keeps its rows here instead of printing them.
     rows, sentences
@@ -50,6 +56,8 @@ class Said:
 
     quiet: bool = False
     keeps_rows: bool = False
+    engine: str = ""
+    share: tuple[float, float] = (0.0, 1.0)
     rows: list[tuple[str, ...]] = field(default_factory=list)
     sentences: list[str] = field(default_factory=list)
 
@@ -67,10 +75,9 @@ def listening(said: Said) -> Iterator[None]:
         _said.reset(before)
 
 
-def is_quiet() -> bool:
-    """Whether nothing is to be said that is neither a result nor a fault."""
-    said = _said.get()
-    return said is not None and said.quiet
+def heard() -> Said:
+    """Give what the innermost `listening` goes by."""
+    return _said.get() or Said()
 
 
 def out(*columns: str) -> None:
@@ -85,18 +92,20 @@ def out(*columns: str) -> None:
 
 def close(result: str) -> None:
     """Print what a program is to read last, on standard output."""
+    flush_blender()
     print(printable(result), flush=True)
 
 
 def tell(sentence: str) -> None:
     """Say something beside the results that has to be known, on standard error."""
     _keep(sentence)
+    flush_blender()
     print(printable(sentence), file=sys.stderr)
 
 
 def inform(sentence: str) -> None:
     """Say the same of what went well; with --quiet nobody hears it."""
-    if is_quiet():
+    if heard().quiet:
         _keep(sentence)
     else:
         tell(sentence)

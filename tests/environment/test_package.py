@@ -17,7 +17,7 @@ from tools.environment.errors import SetupError
 ROOT = Path(__file__).resolve().parents[2]
 CXF = ROOT / "tests" / "fixtures" / "cxf" / "two.cxf"
 ALLOWED = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md"}
-ALLOWED_FOLDERS = {"core", "addon", "presets", "wheels"}
+ALLOWED_FOLDERS = {"core", "addon", "farm", "presets", "wheels"}
 
 INSTALL = """
 import importlib, json, sys, unittest.mock

@@ -16,7 +16,7 @@ from .errors import SetupError
 MANIFEST = "blender_manifest.toml"
 SHIPPED_FILES = ("__init__.py", MANIFEST, "LICENSE", "README.md")
 CODE_FOLDERS = ("core", "addon")
-SHIPPED_FOLDERS = (*CODE_FOLDERS, "presets")
+SHIPPED_FOLDERS = (*CODE_FOLDERS, "presets", "farm")
 NEVER_SHIPPED = shutil.ignore_patterns("__pycache__", "*.pyc", ".*", "*~", "*.orig", "*.rej")
 
 

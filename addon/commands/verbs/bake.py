@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...support.shown_text import inform, tell
+from ..work_list import share
 
 if TYPE_CHECKING:
     from ...readings.document import Readings
@@ -43,11 +44,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--shard",
-        type=_shard,
+        type=share,
         default=(1, 1),
         metavar="I/N",
         help="bake only every N-th material, from the I-th on, into BASE.part-I-of-N.json; "
         "join the parts with merge",
+    )
+    parser.add_argument(
+        "--skip-done",
+        action="store_true",
+        help="leave alone what an earlier bake has written whole of the same materials, spectra, "
+        "nodes and options, with the same Blender and Rough Spectra",
     )
 
 
@@ -110,11 +117,17 @@ def run(options: argparse.Namespace) -> int:
         atomic_files.check_target(target)
     else:
         writers.check(options.output)
-    result = measure(options, not options.predicted_only)
+    surfaces = selection.surfaces(options.material, options.object)
+    whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
+    if options.skip_done:
+        document = target if count > 1 else options.output.with_name(f"{options.output.name}.json")
+        if _is_done(document, whole, options.shard):
+            add(options, files=[], skipped=True)
+            inform(f"{document.name} is there already; nothing was measured")
+            return 0
+    result = replace(measure(options, not options.predicted_only), whole=whole)
     if count > 1:
-        surfaces = selection.surfaces(options.material, options.object)
-        whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
-        part = replace(result, shard=index, shards=count, whole=whole)
+        part = replace(result, shard=index, shards=count)
         with atomic_files.publication() as files:
             files.write(target, json_document.to_json(part))
         written = [target]
@@ -131,6 +144,28 @@ def run(options: argparse.Namespace) -> int:
     )
     inform(f"{counted(len(result.entries), 'reading')} at {at}{largest}; wrote {names}")
     return tell_faults(result)
+
+
+def _is_done(document: Path, whole: str, shard: tuple[int, int]) -> bool:
+    """Whether a document is that of this very bake, without a fault."""
+    import bpy
+
+    from ....core.errors import InputError
+    from ...readings import json_document
+    from ...support import journal
+    from ...support.version import version
+
+    if document.parent.is_dir():
+        journal.finish(document.parent)  # what a killed bake left may wait for its name
+    if not document.is_file():
+        return False
+    try:
+        found = json_document.from_json(document)
+    except InputError:
+        return False
+    same = (found.whole, found.shard, found.shards) == (whole, *shard)
+    by_us = (found.version, found.blender) == (version(), bpy.app.version_string)
+    return same and by_us and not found.faults
 
 
 def tell_faults(result: Readings) -> int:
@@ -152,20 +187,10 @@ def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readi
     if all(faults):
         raise MaterialError(faults[0])  # nothing is left to do for any of them
     index, count = getattr(options, "shard", (1, 1))
-    progress = ProgressLine("measuring")
+    mine = surfaces[index - 1 :: count]
+    progress = ProgressLine("measuring", count=len(mine))
     try:
-        mine = surfaces[index - 1 :: count]
         gloss = getattr(options, "gloss", False)
         return api.bake(mine, with_measurement, progress, options.read_at, gloss)
     finally:
         progress.close()
-
-
-def _shard(text: str) -> tuple[int, int]:
-    try:
-        index, count = (int(word) for word in text.split("/"))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is not I/N, as in 2/8") from error
-    if not 1 <= index <= count:
-        raise argparse.ArgumentTypeError(f"{text!r}: I runs from 1 to N")
-    return index, count

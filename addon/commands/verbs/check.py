@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...support.shown_text import inform, tell
 from .bake import (
     add_format_argument,
     add_surface_arguments,
@@ -22,7 +21,6 @@ DESCRIPTION = (
     "status 1 if any ΔE00 exceeds the limit, 2 if any material cannot be compared. The .blend "
     "itself is not changed."
 )
-_FAILED = 1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,41 +42,20 @@ def run(options: argparse.Namespace) -> int:
     from ....core.errors import InputError
     from ... import api
     from ...readings import writers
+    from ..judgement import check_limit, judge
     from ..result import add
 
-    if not options.max_delta_e >= 0:
-        msg = f"--max-delta-e is {options.max_delta_e}; give 0 or more."
-        raise InputError(msg)
+    check_limit(options.max_delta_e)
     if options.output is not None:
         writers.check(options.output)
     result = measure(options)
-    compared = [entry for entry in result.entries if entry.delta_e_00 is not None]
-    if not compared and not result.faults:
+    if result.largest_delta_e is None and not result.faults:
         names = ", ".join(entry.material for entry in result.entries[:5])
         msg = f"None of {names} stores a spectrum to compare with; assign one first."
         raise InputError(msg)
     if options.output is not None:
         written = api.write(result, options.output, options.format or writers.FORMATS)
         add(options, files=written)
-    failed = [entry for entry in compared if (entry.delta_e_00 or 0) > options.max_delta_e]
-    for entry in failed:
-        reason = f" ({'; '.join(entry.warnings)})" if entry.warnings else ""
-        at = "" if len(result.instruments) == 1 else f" at {entry.instrument}"
-        tell(f"material {entry.material!r} differs by ΔE00 {entry.delta_e_00:.2f}{at}{reason}")
-    largest = result.largest_delta_e
-    add(
-        options,
-        compared=len(compared),
-        failed=[
-            {"material": e.material, "instrument": e.instrument, "delta_e_00": e.delta_e_00}
-            for e in failed
-        ],
-        largest_delta_e_00=largest,
-    )
-    what = "materials" if result.each == 1 else "readings"
-    inform(
-        f"{len(failed)} of {len(compared)} {what} exceed ΔE00 {options.max_delta_e:g}"
-        + ("" if largest is None else f"; the largest is {largest:.4f}")
-    )
+    failed = judge(result, options.max_delta_e, options)
     # What could not be compared weighs more: nobody knows whether it would have passed.
-    return tell_faults(result) or (_FAILED if failed else 0)
+    return tell_faults(result) or failed
