@@ -25,6 +25,7 @@ VERBS = (
     "lab",
     "merge",
     "search",
+    "spectral",
     "texture",
 )
 
