@@ -19,7 +19,7 @@ The examples are run as tests, with the names of this module, `bpy`, `Path` and 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from math import degrees, radians
@@ -1182,6 +1182,7 @@ def spectral_picture(
     compare: bool = True,
     samples: int | None = None,
     percentage: int | None = None,
+    lights: Mapping[str, str] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> SpectralPicture:
     """Render a scene spectrally: as many ordinary renders as needed, with three bands in each.
@@ -1208,6 +1209,9 @@ def spectral_picture(
         Whether the ordinary picture is rendered, too, and compared.
     samples, percentage
         Of the renders, instead of the scene's own.
+    lights
+        By the names of lamps, worlds and materials that emit one color, the CIE illuminant whose
+        spectrum it has, such as "F11"; its luminance stays.
     progress
         Called with renders done and renders in all.
 
@@ -1222,7 +1226,7 @@ def spectral_picture(
     Raises
     ------
     MaterialError
-        The scene has another render engine, no camera, or no light.
+        The scene has another render engine, no camera, no light, or none that `lights` names.
     DomainError
         An argument is none of these.
     OutputError

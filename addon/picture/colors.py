@@ -8,12 +8,13 @@ red, green and blue up to there. Nothing is changed here.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ...core.errors import RoughSpectraError
+from ...core.errors import MaterialError, RoughSpectraError
 from ...core.gloss import Gloss
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
@@ -147,7 +148,9 @@ class Colors:
             left.append(what)
 
 
-def find(depsgraph: Any, scene: Any, space: WorkingSpace) -> Colors:
+def find(
+    depsgraph: Any, scene: Any, space: WorkingSpace, known: Mapping[str, str] | None = None
+) -> Colors:
     """Find all colors of what a scene shows.
 
     Parameters
@@ -158,13 +161,32 @@ def find(depsgraph: Any, scene: Any, space: WorkingSpace) -> Colors:
         A `bpy.types.Scene`.
     space
         The working space.
+    known
+        By the names of lamps, worlds and materials, the CIE's illuminant whose spectrum their light
+        has, at the luminance of their color.
+
+    Raises
+    ------
+    MaterialError
+        If nothing of such a name shines with one color.
     """
-    return _Search(space).of(depsgraph, scene)
+    search = _Search(space, known or {})
+    found = search.of(depsgraph, scene)
+    if search.unused:
+        msg = (
+            f"Nothing in the scene that is called {min(search.unused)!r} shines with one color; "
+            "check the name of the lamp, the world or the material."
+        )
+        raise MaterialError(msg)
+    return found
 
 
 class _Search:
-    def __init__(self, space: WorkingSpace) -> None:
+    def __init__(self, space: WorkingSpace, known: Mapping[str, str]) -> None:
         self._space = space
+        self._known = known
+        self.unused = set(known)
+        self._called: dict[str, str] = {}
         self._found = Colors()
         self._seen: set[tuple[str, str, str]] = set()
 
@@ -190,9 +212,15 @@ class _Search:
             self._world(scene.world)
         return self._found
 
+    def _title(self, kind: str, data: Any) -> str:
+        """Give the name by which a datablock is told, and remember what it is called."""
+        title = f"{kind} {data.name!r}"
+        self._called[title] = str(data.name)
+        return title
+
     def _material(self, material: Any) -> None:
         of = _key("materials", material)
-        name = f"Material {material.name!r}"
+        name = self._title("Material", material)
         if not surface_of.uses_nodes(material):
             rgb = np.array(material.diffuse_color[:3], np.float64)
             self._surface(Place(of, attribute="diffuse_color"), name, rgb)
@@ -233,7 +261,7 @@ class _Search:
 
     def _light(self, light: Any) -> None:
         of = _key("lights", light)
-        name = f"Light {light.name!r}"
+        name = self._title("Light", light)
         if getattr(getattr(light, "cycles", None), "is_portal", False):
             return
         color = np.array(light.color[:], np.float64)
@@ -253,7 +281,7 @@ class _Search:
 
     def _world(self, world: Any) -> None:
         of = _key("worlds", world)
-        name = f"World {world.name!r}"
+        name = self._title("World", world)
         tree = emission.tree(world)
         if tree is None:
             self._glow(Place(of, attribute="color"), name, np.array(world.color[:], np.float64))
@@ -326,7 +354,12 @@ class _Search:
         xyz = np.linalg.solve(self._space.from_xyz, np.maximum(rgb, 0))
         if not xyz[1] > 0:
             return
-        spectrum, words = illuminant_spectra.like(xyz / xyz[1], kelvin)
+        illuminant = self._known.get(self._called[name])
+        if illuminant is None:
+            spectrum, words = illuminant_spectra.like(xyz / xyz[1], kelvin)
+        else:
+            spectrum, words = illuminant_spectra.cie(illuminant), f"CIE {illuminant}"
+            self.unused.discard(self._called[name])
         self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
         self._found.tell(name, words)
 

@@ -9,9 +9,9 @@ nor the last render result are touched.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -55,6 +55,8 @@ class Wanted:
         Whether to render the ordinary picture too, and compare.
     samples, percentage
         Of the renders, instead of the scene's; or None.
+    lights
+        By the names of lamps, worlds and materials that emit, the CIE illuminant that they are.
 
     Raises
     ------
@@ -69,6 +71,7 @@ class Wanted:
     plain: bool = True
     samples: int | None = None
     percentage: int | None = None
+    lights: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -81,6 +84,11 @@ class Wanted:
         if self.observer not in astm_e308.OBSERVERS:
             msg = f"Observer {self.observer!r} is not known; choose 2 or 10 degrees."
             raise DomainError(msg)
+        for illuminant in self.lights.values():
+            if illuminant not in astm_e308.ILLUMINANTS:
+                choices = ", ".join(astm_e308.ILLUMINANTS)
+                msg = f"Illuminant {illuminant!r} is not known; choose one of {choices}."
+                raise DomainError(msg)
         for name, value, most in (("samples", self.samples, 1 << 24),
                                   ("percentage", self.percentage, 32767)):  # fmt: skip
             if value is not None and not 1 <= value <= most:
@@ -116,7 +124,7 @@ class Rendering(Job):
         self._wanted = wanted
         self._space = working_space.current()
         depsgraph = _evaluated(scene, layer)
-        self._found = colors.find(depsgraph, scene, self._space)
+        self._found = colors.find(depsgraph, scene, self._space, wanted.lights)
         self._lamps = passes.lamps_of(self._found, self._space)
         self._chosen = _choose(self._found, self._lamps, self._space, wanted)
         self._passes = passes.of_bands(self._chosen)

@@ -40,7 +40,7 @@ SIGNATURES = {
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
     "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
-    "compare=True, samples=None, percentage=None, progress=None)",
+    "compare=True, samples=None, percentage=None, lights=None, progress=None)",
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",

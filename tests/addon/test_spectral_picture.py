@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.colorimetry import illuminant_spectra
 from rough_spectra.addon.picture import colors, passes, render
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.numerics import wavelength_grid
@@ -375,6 +376,23 @@ def test_two_lamps_of_one_color_are_one_spectrum():
     assert len(passes.lamps_of(find(), working_space.current()).spectra) == 2
 
 
+def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
+    scene = from_above(4)
+    light = sun(scene)
+    light.use_temperature = False
+    light.color = (1.0, 0.5, 0.2)
+    args = bpy.context.evaluated_depsgraph_get(), scene, working_space.current()
+    found = colors.find(*args, {"Sun": "F11"})
+    [shining] = found.shining
+    sd = illuminant_spectra.cie("F11")
+    assert shining.spectrum == pytest.approx(sd)
+    luminance = np.linalg.solve(working_space.current().from_xyz, light.color)[1]
+    assert shining.strength == pytest.approx([luminance] * 3)
+    assert found.told["Light 'Sun'"] == ["CIE F11"]
+    with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
+        colors.find(*args, {"Moon": "F11"})
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -393,7 +411,15 @@ def test_what_cannot_be_rendered_is_told_before(change, words):
 
 
 @pytest.mark.parametrize(
-    "wanted", [{"bands": 4}, {"bands": 0}, {"tolerance": 0.0}, {"observer": 5}, {"samples": 0}]
+    "wanted",
+    [
+        {"bands": 4},
+        {"bands": 0},
+        {"tolerance": 0.0},
+        {"observer": 5},
+        {"samples": 0},
+        {"lights": {"Sun": "F99"}},
+    ],
 )
 def test_what_is_no_number_of_anything_is_refused(wanted):
     with pytest.raises(api.DomainError):

@@ -48,6 +48,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave out the RGB picture and the map",
     )
+    parser.add_argument(
+        "--light",
+        type=_light,
+        action="append",
+        default=[],
+        metavar="NAME=CIE",
+        help="a lamp, world or emitting material, and the CIE illuminant whose spectrum it has, "
+        "such as Lamp=F11; repeatable",
+    )
     parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
     parser.add_argument(
         "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
@@ -81,6 +90,7 @@ def run(options: argparse.Namespace) -> int:
             compare=not options.no_comparison,
             samples=options.samples,
             percentage=options.percentage,
+            lights=dict(options.light),
             progress=progress,
         )
     finally:
@@ -99,3 +109,11 @@ def run(options: argparse.Namespace) -> int:
         f"{', '.join(path.name for path in written)}"
     )
     return 0
+
+
+def _light(text: str) -> tuple[str, str]:
+    name, _, illuminant = text.rpartition("=")
+    if not name:
+        msg = f"{text!r} is no lamp and illuminant; write Lamp=F11"
+        raise argparse.ArgumentTypeError(msg)
+    return name, illuminant
