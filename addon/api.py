@@ -1246,7 +1246,9 @@ def spectral_picture(
     ((8, 8, 4), 3, {})
     """
     _check_enabled()
-    wanted = picture_render.Wanted(tolerance, bands, observer, direct, compare, samples, percentage)
+    wanted = picture_render.Wanted(
+        tolerance, bands, observer, direct, compare, samples, percentage, lights or {}
+    )
     return picture_render.render(scene or bpy.context.scene, wanted, progress)
 
 

@@ -29,10 +29,22 @@ def blend(tmp_path):
 def test_a_picture_and_its_map(blend, tmp_path, main):
     before = blend.read_bytes()
     target = tmp_path / "out" / "room.exr"
-    words = ("--blend", blend, "-o", target, "--bands", "3", "--samples", "2")
+    words = (
+        "--blend",
+        blend,
+        "-o",
+        target,
+        "--bands",
+        "3",
+        "--samples",
+        "2",
+        "--light",
+        "World=F11",
+    )
     result = main("spectral", *words)
     assert result.status == 0, result.err
     assert "Material 'Plain': a spectrum for its RGB, by three spectra" in result.err
+    assert "World 'World': CIE F11" in result.err
     assert "3 bands (" in result.err
     assert "the RGB picture is off by ΔE00" in result.err
     assert "wrote room.exr, room-delta-e.exr" in result.err
@@ -48,6 +60,8 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
     ("words", "sentence"),
     [
         (("--bands", "4"), "give 3, 6, 9"),
+        (("--light", "Moon=F11"), "called 'Moon' shines"),
+        (("--light", "World=F99"), "'F99' is not known"),
         (("--scene", "Nowhere"), "There is no scene 'Nowhere'"),
         (("-o", "room.png"), "is no EXR by its name"),
     ],
