@@ -7,6 +7,7 @@ From a file to files:
     read, find → request → assign → state, renew, keep → bake → write
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
+    spectral_picture → write_picture, picture_image
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -19,7 +20,7 @@ The examples are run as tests, with the names of this module, `bpy`, `Path` and 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from math import degrees, isfinite, radians
@@ -73,6 +74,9 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
+from .picture import files as picture_files
+from .picture import render as picture_render
+from .picture.picture import SpectralPicture
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings
@@ -120,6 +124,7 @@ __all__ = [
     "Sample",
     "Settled",
     "Solution",
+    "SpectralPicture",
     "State",
     "assign",
     "bake",
@@ -142,6 +147,7 @@ __all__ = [
     "nearest",
     "palette",
     "paused",
+    "picture_image",
     "presets",
     "read",
     "read_filter",
@@ -149,10 +155,12 @@ __all__ = [
     "request",
     "rough_sample",
     "settle",
+    "spectral_picture",
     "state",
     "texture_material",
     "write",
     "write_emissivity",
+    "write_picture",
 ]
 
 
@@ -1411,6 +1419,145 @@ def texture_material(made: Made, name: str = "") -> Any:
     """
     _check_enabled()
     return material_of_texture.make(made, name)
+
+
+def spectral_picture(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE,
+    bands: int | None = None,
+    observer: int = 2,
+    direct: bool = False,
+    compare: bool = True,
+    samples: int | None = None,
+    percentage: int | None = None,
+    lights: Mapping[str, str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> SpectralPicture:
+    """Render a scene spectrally: as many ordinary renders as needed, with three bands in each.
+
+    A second Blender renders a copy of the open file as it is now, and this call waits for it. The
+    file, its settings and the last render are not changed. What comes after the render, such as
+    compositing, is not done.
+
+    Parameters
+    ----------
+    scene
+        Rendered by Cycles; the active one if left out. Of its view layers the first counts that is
+        rendered.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be, as far as the number of bands decides it.
+    bands
+        A number of bands instead, a multiple of 3.
+    observer
+        2 or 10 degrees.
+    direct
+        Whether light that met one surface alone is rendered apart and is exact, at the cost of one
+        more render for each spectrum of light.
+    compare
+        Whether the ordinary picture is rendered, too, and compared.
+    samples, percentage
+        Of the renders, instead of the scene's own.
+    lights
+        By the names of lamps, worlds and materials that emit one color, the CIE illuminant whose
+        spectrum it has, such as "F11"; its luminance stays.
+    progress
+        Called with renders done and renders in all.
+
+    Returns
+    -------
+    Its `rgb` is what a render would be: scene-linear RGB and alpha, shape (rows, columns, 4), from
+    the bottom up; `xyz`; the `wavelengths` of the bands; the `predicted` error (`mean`, `usual`,
+    which is 95 %, and `largest`), and whether it is `enough`; the `comparison` with the ordinary
+    picture: `delta_e`, `mean`, `usual`, `largest`, and `where`; by which `rules` each material,
+    lamp and world got its spectra; what stayed RGB (`untranslated`); and `seconds`.
+
+    Raises
+    ------
+    MaterialError
+        The scene has another render engine, no camera, no light, or none that `lights` names.
+    DomainError
+        An argument is none of these.
+    OutputError
+        The second Blender failed.
+    CancelledError
+        On an interrupt from the keyboard.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> picture = spectral_picture(scene, bands=3, samples=1, compare=False)
+    >>> picture.rgb.shape, len(picture.wavelengths), picture.untranslated
+    ((8, 8, 4), 3, {})
+    """
+    _check_enabled()
+    wanted = picture_render.Wanted(
+        tolerance, bands, observer, direct, compare, samples, percentage, lights or {}
+    )
+    return picture_render.render(scene or bpy.context.scene, wanted, progress)
+
+
+def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> list[Path]:
+    """Write a spectral picture as an EXR in the working space, and its map of ΔE00 beside it.
+
+    Parameters
+    ----------
+    picture
+        What `spectral_picture` gave, of the open file.
+    path
+        Ends in .exr; the map is called the same with `-delta-e`.
+
+    Returns
+    -------
+    What was written.
+
+    Raises
+    ------
+    OutputError
+        The files cannot be written; none is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from rough_spectra.core.bands import Error
+    >>> blank, error = np.zeros((2, 3, 4)), Error(0.0, 0.0, 0.0)
+    >>> picture = SpectralPicture(
+    ...     blank, blank[..., :3], 2, np.zeros(3), False, error, True, None, {}, {}, ()
+    ... )
+    >>> [path.name for path in write_picture(picture, "room.exr")]
+    ['room.exr']
+    """
+    _check_enabled()
+    return picture_files.write(picture, Path(path))
+
+
+def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
+    """Put a spectral picture into a new image of the open file, which can be saved or used there.
+
+    Parameters
+    ----------
+    picture
+        What `spectral_picture` gave, of the open file.
+    name
+        Of the image.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from rough_spectra.core.bands import Error
+    >>> blank, error = np.zeros((2, 3, 4)), Error(0.0, 0.0, 0.0)
+    >>> picture = SpectralPicture(
+    ...     blank, blank[..., :3], 2, np.zeros(3), False, error, True, None, {}, {}, ()
+    ... )
+    >>> picture_image(picture).size[:]
+    (3, 2)
+    """
+    _check_enabled()
+    return picture_files.image(picture, name)
 
 
 def _checked(material: Any) -> Any:

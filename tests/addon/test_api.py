@@ -37,6 +37,7 @@ SIGNATURES = {
     "nearest": "(lab, count=10, *, illuminant='D65', observer=2)",
     "palette": "(path)",
     "paused": "()",
+    "picture_image": "(picture, name='Spectral')",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
     "read_filter": "(path)",
@@ -45,9 +46,12 @@ SIGNATURES = {
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
+    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
+    "compare=True, samples=None, percentage=None, lights=None, progress=None)",
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
+    "write_picture": "(picture, path)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
 """Every function, and how it is called. A script somewhere calls it so: adding an argument with a
@@ -86,6 +90,8 @@ FIELDS = {
     "RoughSample": "kind mesh length asked seed",
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
+    "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
+    "untranslated seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

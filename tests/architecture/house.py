@@ -21,7 +21,7 @@ ROWS = (
     ("addon/blender",),
     ("addon/material",),
     ("addon/scene", "addon/instrument", "addon/preview"),
-    ("addon/laboratory", "addon/textures", "addon/export"),
+    ("addon/laboratory", "addon/textures", "addon/export", "addon/picture"),
     ("addon/assets", "addon/api.py"),
     ("addon/commands",),
     ("addon/interface",),

@@ -26,6 +26,7 @@ VERBS = (
     "list",
     "merge",
     "search",
+    "spectral",
     "texture",
 )
 

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`spectral`: a spectral picture of the scene, and how far the RGB picture is from it."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...support.shown_text import tell
+
+NAME = "spectral"
+SUMMARY = "render a spectral picture of the scene"
+DESCRIPTION = (
+    "Render the scene in as many bands as its colors need, three in each ordinary render, put them "
+    "together into a picture in the file's working space, and say how far the RGB picture is off. "
+    "A map of ΔE00 is written beside it. The .blend is not changed."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `spectral`."""
+    from ....core.limits import TOLERANCE
+    from ...colorimetry.tristimulus import OBSERVERS
+
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="an EXR")
+    parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
+    amount = parser.add_mutually_exclusive_group()
+    amount.add_argument(
+        "--tolerance",
+        type=float,
+        default=TOLERANCE,
+        metavar="ΔE",
+        help=f"ΔE00 within which 95 %% of the picture shall be, {TOLERANCE:g}; decides the bands",
+    )
+    amount.add_argument(
+        "--bands", type=int, metavar="N", help="as many bands instead, a multiple of 3"
+    )
+    parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2, help="in degrees; 2")
+    parser.add_argument(
+        "--direct",
+        action="store_true",
+        help="render direct light apart, in one more render for each spectrum of light: it is "
+        "exact then",
+    )
+    parser.add_argument(
+        "--no-comparison",
+        action="store_true",
+        help="leave out the RGB picture and the map",
+    )
+    parser.add_argument(
+        "--light",
+        type=_light,
+        action="append",
+        default=[],
+        metavar="NAME=CIE",
+        help="a lamp, world or emitting material, and the CIE illuminant whose spectrum it has, "
+        "such as Lamp=F11; repeatable",
+    )
+    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
+    parser.add_argument(
+        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Render, write and tell; exit status 0."""
+    import bpy
+
+    from ....core.errors import InputError
+    from ... import api
+    from ...picture import files
+    from ..progress import ProgressLine, counted
+
+    scene = bpy.context.scene
+    if options.scene is not None:
+        scene = bpy.data.scenes.get(options.scene)
+        if scene is None:
+            msg = f"There is no scene {options.scene!r} in the file; check the name."
+            raise InputError(msg)
+    files.check(options.output)  # before the work that could not be written
+    progress = ProgressLine("rendering")
+    try:
+        picture = api.spectral_picture(
+            scene,
+            tolerance=options.tolerance,
+            bands=options.bands,
+            observer=options.observer,
+            direct=options.direct,
+            compare=not options.no_comparison,
+            samples=options.samples,
+            percentage=options.percentage,
+            lights=dict(options.light),
+            progress=progress,
+        )
+    finally:
+        progress.close()
+    for name, left in picture.untranslated.items():
+        tell(f"warning: {name}: {', '.join(left)} stays RGB")
+    for name, rules in picture.rules.items():
+        tell(f"{name}: {'; '.join(rules)}")
+    for sentence in files.told(picture):
+        tell(sentence)
+    if not picture.enough and options.bands is None:
+        tell(f"warning: no number of bands is within ΔE00 {options.tolerance:g}")
+    written = api.write_picture(picture, options.output)
+    tell(
+        f"{counted(len(picture.seconds), 'render')} in {sum(picture.seconds):.1f} s; wrote "
+        f"{', '.join(path.name for path in written)}"
+    )
+    return 0
+
+
+def _light(text: str) -> tuple[str, str]:
+    name, _, illuminant = text.rpartition("=")
+    if not name:
+        msg = f"{text!r} is no lamp and illuminant; write Lamp=F11"
+        raise argparse.ArgumentTypeError(msg)
+    return name, illuminant

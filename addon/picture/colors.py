@@ -1,0 +1,417 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where colors stand in a scene's materials, lamps and world, and what spectra they stand for.
+
+Colors count where they enter a shader: whatever makes them, textures or noise or mixing, goes on in
+red, green and blue up to there. Nothing is changed here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...core.errors import MaterialError, RoughSpectraError
+from ...core.gloss import Gloss
+from ...core.numerics import wavelength_grid
+from ...core.numerics.arrays import Array
+from ..blender import shader_nodes, sockets
+from ..blender import surface as surface_of
+from ..blender.links import link_to
+from ..colorimetry import illuminant_spectra
+from ..colorimetry.rgb_space import WorkingSpace
+from ..matching import surface_spectra
+from ..material import settled, state, storage
+from ..scene import emission
+
+LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
+_GLOWS = {
+    ("ShaderNodeEmission", "Color"): "Strength",
+    ("ShaderNodeBackground", "Color"): "Strength",
+    ("ShaderNodeBsdfPrincipled", "Emission Color"): "Emission Strength",
+    ("ShaderNodeVolumePrincipled", "Emission Color"): "Emission Strength",
+}
+"""Sockets whose color is of light, and those of its strength."""
+_BY_THREE = {
+    ("ShaderNodeBsdfPrincipled", "Subsurface Radius"),
+    ("ShaderNodeSubsurfaceScattering", "Radius"),
+}
+"""Vectors that have a number for each of red, green and blue."""
+_EVEN = 1e-6
+"""Spread of a color's channels below which it is gray, which is the same in all bands."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a color stands.
+
+    Parameters
+    ----------
+    of
+        Collection of `bpy.data`, name and library's path of what it belongs to.
+    node, socket
+        Name of the node, and number of its input; empty and -1 for an attribute.
+    attribute
+        Name of a property of `of` itself, or empty.
+    """
+
+    of: tuple[str, str, str]
+    node: str = ""
+    socket: int = -1
+    attribute: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A surface with a measured spectrum.
+
+    Parameters
+    ----------
+    place
+        Of its color.
+    reading
+        At the virtual instrument, at `illuminant_spectra.GRID`.
+    roughness, read_at, gloss
+        Cycles' diffuse roughness, the instrument, and what lies over the diffuse lobe.
+    """
+
+    place: Place
+    reading: Array
+    roughness: float
+    read_at: str
+    gloss: Gloss | None
+
+
+@dataclass(frozen=True, eq=False)
+class Colored:
+    """A surface of which RGB is known; `rgb` is None where another node sets it."""
+
+    place: Place
+    rgb: Array | None
+
+
+@dataclass(frozen=True, eq=False)
+class Shining:
+    """What sends light.
+
+    Parameters
+    ----------
+    place
+        Of its color.
+    spectrum
+        At `GRID`, with a luminance of 1; None where another node sets the color.
+    strength
+        Luminance of the color, or by what a color of another node is multiplied, shape (3,).
+    """
+
+    place: Place
+    spectrum: Array | None
+    strength: Array
+
+
+@dataclass(eq=False)
+class Colors:
+    """All that was found.
+
+    Parameters
+    ----------
+    measured, colored, shining
+        Surfaces and lamps.
+    reset
+        Attributes and what they have to be in all renders, because `shining` has taken them over.
+    told
+        Names of materials, lamps and world, and the rules by which they got their spectra.
+    untranslated
+        Names, and what of them stays red, green and blue.
+    """
+
+    measured: list[Measured] = field(default_factory=list)
+    colored: list[Colored] = field(default_factory=list)
+    shining: list[Shining] = field(default_factory=list)
+    reset: list[tuple[Place, Any]] = field(default_factory=list)
+    told: dict[str, list[str]] = field(default_factory=dict)
+    untranslated: dict[str, list[str]] = field(default_factory=dict)
+
+    def tell(self, name: str, rule: str) -> None:
+        """Note a rule once."""
+        rules = self.told.setdefault(name, [])
+        if rule not in rules:
+            rules.append(rule)
+
+    def leave(self, name: str, what: str) -> None:
+        """Note what stays red, green and blue."""
+        left = self.untranslated.setdefault(name, [])
+        if what not in left:
+            left.append(what)
+
+
+def find(
+    depsgraph: Any, scene: Any, space: WorkingSpace, known: Mapping[str, str] | None = None
+) -> Colors:
+    """Find all colors of what a scene shows.
+
+    Parameters
+    ----------
+    depsgraph
+        Evaluated, of the scene.
+    scene
+        A `bpy.types.Scene`.
+    space
+        The working space.
+    known
+        By the names of lamps, worlds and materials, the CIE's illuminant whose spectrum their light
+        has, at the luminance of their color.
+
+    Raises
+    ------
+    MaterialError
+        If nothing of such a name shines with one color.
+    """
+    search = _Search(space, known or {})
+    found = search.of(depsgraph, scene)
+    if search.unused:
+        msg = (
+            f"Nothing in the scene that is called {min(search.unused)!r} shines with one color; "
+            "check the name of the lamp, the world or the material."
+        )
+        raise MaterialError(msg)
+    return found
+
+
+class _Search:
+    def __init__(self, space: WorkingSpace, known: Mapping[str, str]) -> None:
+        self._space = space
+        self._known = known
+        self.unused = set(known)
+        self._called: dict[str, str] = {}
+        self._found = Colors()
+        self._seen: set[tuple[str, str, str]] = set()
+
+    def of(self, depsgraph: Any, scene: Any) -> Colors:
+        lights: dict[Any, None] = {}
+        materials: dict[Any, None] = {}
+        for instance in depsgraph.object_instances:
+            thing = instance.object
+            if thing.type == "LIGHT":
+                lights.setdefault(thing.data.original)
+                continue
+            slots = [slot.material for slot in thing.material_slots]
+            slots += getattr(thing.data, "materials", None) or []
+            for material in slots:
+                if material is not None:
+                    materials.setdefault(material.original)
+        override = depsgraph.view_layer.material_override
+        for material in [override.original] if override is not None else materials:
+            self._material(material)
+        for light in lights:
+            self._light(light)
+        if scene.world is not None:
+            self._world(scene.world)
+        return self._found
+
+    def _title(self, kind: str, data: Any) -> str:
+        """Give the name by which a datablock is told, and remember what it is called."""
+        title = f"{kind} {data.name!r}"
+        self._called[title] = str(data.name)
+        return title
+
+    def _material(self, material: Any) -> None:
+        of = _key("materials", material)
+        name = self._title("Material", material)
+        if not surface_of.uses_nodes(material):
+            rgb = np.array(material.diffuse_color[:3], np.float64)
+            self._surface(Place(of, attribute="diffuse_color"), name, rgb)
+            return
+        measured = self._measured(material, of, name)
+        if measured is not None:
+            self._found.measured.append(measured)
+        self._tree(material.node_tree, of, name, set() if measured is None else {measured.place})
+
+    def _measured(self, material: Any, of: tuple[str, str, str], name: str) -> Measured | None:
+        """Give what is known of a material with a spectrum, or say why it goes by its RGB."""
+        if not material.rough_spectra.spectrum:
+            return None
+        known = state.state(material)
+        fresh = known.kind == "fresh" or (known.kind == "linked" and len(known.reasons) == 1)
+        why = "" if fresh else (known.reasons or ("it does not follow from its spectrum",))[0]
+        surface, node = shader_nodes.surface(material), shader_nodes.shader_node(material)
+        obstacle = settled.obstacle(surface)
+        if not why and obstacle is not None:
+            why = str(obstacle)
+        if why or surface is None or node is None:
+            self._found.tell(name, f"its measured spectrum is not used: {why}")
+            return None
+        try:
+            request = settled.of(material).request
+            [read], _ = surface_spectra.readings_and_albedos([request])
+        except RoughSpectraError as error:
+            self._found.tell(name, f"its measured spectrum is not used: {error}")
+            return None
+        grid = illuminant_spectra.GRID
+        nm = request.sample.wavelengths
+        reading = wavelength_grid.resample(read, nm, grid, method="linear", ends="hold")
+        color = sockets.color_socket(node)
+        place = Place(of, node.name, list(node.inputs).index(color))
+        self._found.tell(name, f"measured: {request.sample.name}")
+        gloss = storage.shown_gloss(material)
+        return Measured(place, reading, surface.roughness, request.read_at, gloss)
+
+    def _light(self, light: Any) -> None:
+        of = _key("lights", light)
+        name = self._title("Light", light)
+        if getattr(getattr(light, "cycles", None), "is_portal", False):
+            return
+        color = np.array(light.color[:], np.float64)
+        kelvin = None
+        if light.use_temperature:
+            kelvin = light.temperature
+            if np.ptp(color) > _EVEN:
+                kelvin = None
+            color = color * emission.blackbody(light.temperature, self._space)
+            self._found.reset.append((Place(of, attribute="use_temperature"), False))
+        tree = emission.tree(light)
+        if tree is None:
+            self._glow(Place(of, attribute="color"), name, color, kelvin)
+            return
+        self._found.reset.append((Place(of, attribute="color"), (1.0, 1.0, 1.0)))
+        self._tree(tree, of, name, set(), color, kelvin)
+
+    def _world(self, world: Any) -> None:
+        of = _key("worlds", world)
+        name = self._title("World", world)
+        tree = emission.tree(world)
+        if tree is None:
+            self._glow(Place(of, attribute="color"), name, np.array(world.color[:], np.float64))
+            return
+        self._tree(tree, of, name, set())
+
+    def _tree(
+        self,
+        tree: Any,
+        of: tuple[str, str, str],
+        name: str,
+        taken: set[Place],
+        times: Array | None = None,
+        kelvin: float | None = None,
+    ) -> None:
+        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`."""
+        if of in self._seen:
+            return
+        self._seen.add(of)
+        for node in _reached(tree):
+            if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
+                inner = node.node_tree
+                self._tree(inner, _key("node_groups", inner), name, set(), times, kelvin)
+            if not any(output.type == "SHADER" for output in node.outputs):
+                continue
+            self._node(node, name)
+            for number, socket in enumerate(node.inputs):
+                place = Place(of, node.name, number)
+                kind = (node.bl_idname, socket.name)
+                if place in taken or not (socket.type == "RGBA" or kind in _BY_THREE):
+                    continue
+                if node.bl_idname == "ShaderNodeGroup" or not socket.enabled:
+                    continue
+                if kind in _GLOWS:
+                    strength = node.inputs[_GLOWS[kind]]
+                    if strength.is_linked or strength.default_value != 0:
+                        self._emitting(place, socket, name, times, kelvin)
+                elif _source(socket) is not None:
+                    self._found.colored.append(Colored(place, None))
+                    self._found.tell(name, LINEAR)
+                else:
+                    self._surface(place, name, np.array(socket.default_value[:3], np.float64))
+
+    def _surface(self, place: Place, name: str, rgb: Array) -> None:
+        if np.ptp(rgb) > _EVEN:
+            self._found.colored.append(Colored(place, rgb))
+            self._found.tell(name, LINEAR)
+
+    def _emitting(
+        self, place: Place, socket: Any, name: str, times: Array | None, kelvin: float | None
+    ) -> None:
+        own = np.ones(3) if times is None else times
+        source = _source(socket)
+        constant = socket if source is None else source
+        if source is None or source.node.bl_idname == "ShaderNodeRGB":
+            rgb = np.array(constant.default_value[:3], np.float64)
+            self._glow(place, name, rgb * own, kelvin if np.ptp(rgb) <= _EVEN else None)
+            return
+        if source.node.bl_idname == "ShaderNodeBlackbody":
+            temperature = source.node.inputs["Temperature"]
+            if not temperature.is_linked and np.ptp(own) <= _EVEN:
+                degrees = float(temperature.default_value)
+                rgb = emission.blackbody(degrees, self._space)
+                self._glow(place, name, rgb * own, degrees)
+                return
+        self._found.shining.append(Shining(place, None, own))
+        self._found.tell(name, f"{LINEAR}, times that of D65")
+
+    def _glow(self, place: Place, name: str, rgb: Array, kelvin: float | None = None) -> None:
+        xyz = np.linalg.solve(self._space.from_xyz, np.maximum(rgb, 0))
+        if not xyz[1] > 0:
+            return
+        illuminant = self._known.get(self._called[name])
+        if illuminant is None:
+            spectrum, words = illuminant_spectra.like(xyz / xyz[1], kelvin)
+        else:
+            spectrum, words = illuminant_spectra.cie(illuminant), f"CIE {illuminant}"
+            self.unused.discard(self._called[name])
+        self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
+        self._found.tell(name, words)
+
+    def _node(self, node: Any, name: str) -> None:
+        """Name what no matrix of three bands turns into a spectrum."""
+        kind = node.bl_idname
+        if kind == "ShaderNodeScript":
+            self._found.leave(name, "its OSL script")
+        elif kind == "ShaderNodeBsdfHairPrincipled" and node.parametrization != "COLOR":
+            self._found.leave(name, "its hair's melanin or absorption")
+        elif kind == "ShaderNodeVolumeCoefficients":
+            self._found.leave(name, "its volume's coefficients")
+        elif kind == "ShaderNodeVolumePrincipled" and _in_use(node, "Blackbody Intensity"):
+            self._found.leave(name, "its volume's blackbody")
+        elif kind == "ShaderNodeBsdfMetallic" and node.fresnel_type == "PHYSICAL_CONDUCTOR":
+            self._found.leave(name, "its metal's IOR and extinction")
+        if _in_use(node, "Thin Film Thickness"):
+            self._found.leave(name, "its thin film")
+
+
+def _reached(tree: Any) -> list[Any]:
+    """Give the nodes that something of the tree's outputs comes from, in their order."""
+    feeding: dict[Any, set[Any]] = {}
+    for link in tree.links:
+        feeding.setdefault(link.to_node, set()).add(link.from_node)
+    waiting = [n for n in tree.nodes if "Output" in n.bl_idname and not n.outputs]
+    found = set()
+    while waiting:
+        node = waiting.pop()
+        if node not in found:
+            found.add(node)
+            waiting += feeding.get(node, ())
+    return [node for node in tree.nodes if node in found]
+
+
+def _in_use(node: Any, name: str) -> bool:
+    socket = node.inputs.get(name)
+    return socket is not None and (socket.is_linked or socket.default_value != 0)
+
+
+def _source(socket: Any) -> Any | None:
+    """Give the output that sets a socket, seen through reroutes; None where nothing does."""
+    while socket.is_linked:
+        link = link_to(socket)
+        if link.is_muted or not link.is_valid:
+            return None
+        if link.from_node.bl_idname != "NodeReroute":
+            return link.from_socket
+        socket = link.from_node.inputs[0]
+    return None
+
+
+def _key(collection: str, data: Any) -> tuple[str, str, str]:
+    library = data.library
+    return collection, str(data.name), "" if library is None else str(library.filepath)

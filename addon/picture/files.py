@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The picture as an EXR, and as an image in Blender."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.errors import OutputError
+from ...core.numerics.arrays import Array
+from ..blender import working_space
+from ..support import atomic_files
+from ..support.openimageio import openimageio
+from ..support.version import version
+from .picture import SpectralPicture
+
+ENDING = ".exr"
+
+
+def write(picture: SpectralPicture, path: Path) -> list[Path]:
+    """Write the picture and, where there is a comparison, its map of ΔE00 beside it.
+
+    Parameters
+    ----------
+    picture
+        Of the open file.
+    path
+        Of an EXR; the map has `-delta-e` before the ending.
+
+    Returns
+    -------
+    What was written.
+
+    Raises
+    ------
+    OutputError
+        If the ending is another, or the files cannot be written. Both or none are.
+    """
+    check(path)
+    files: list[tuple[Path, Array, tuple[str, ...]]] = [(path, picture.rgb, ("R", "G", "B", "A"))]
+    if picture.comparison is not None:
+        beside = path.with_name(f"{path.stem}-delta-e{path.suffix}")
+        files.append((beside, picture.comparison.delta_e[..., np.newaxis], ("Y",)))
+    with atomic_files.publication() as publication:
+        for target, pixels, names in files:
+            _write(publication.stage(target), target, pixels[::-1], names, picture)
+    return [target for target, *_ in files]
+
+
+def check(path: Path) -> None:
+    """Refuse a path that `write` would.
+
+    Raises
+    ------
+    OutputError
+        If the ending is another, or no file can be there.
+    """
+    if path.suffix.lower() != ENDING:
+        msg = f"{path} is no EXR by its name; let it end in {ENDING}."
+        raise OutputError(msg)
+    atomic_files.check_target(path)
+
+
+def image(picture: SpectralPicture, name: str) -> Any:
+    """Put the picture into a `bpy.types.Image` of the open file, a new one; it is packed."""
+    rows, columns = picture.rgb.shape[:2]
+    found = bpy.data.images.new(name, columns, rows, alpha=True, float_buffer=True)
+    space = working_space.working_space_name()
+    known = found.colorspace_settings.bl_rna.properties["name"].enum_items
+    if space in known:
+        found.colorspace_settings.name = space
+    found.pixels.foreach_set(picture.rgb.astype(np.float32).ravel())
+    found.update()
+    found.pack()
+    return found
+
+
+def told(picture: SpectralPicture) -> Iterable[str]:
+    """Say in sentences what was rendered and what the comparison found."""
+    bands = ", ".join(f"{nm:g}" for nm in picture.wavelengths)
+    apart = ", direct light apart" if picture.direct else ""
+    predicted = picture.predicted
+    yield (
+        f"{len(picture.wavelengths)} bands ({bands} nm){apart}; predicted ΔE00 to the whole "
+        f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
+        f"{predicted.largest:.1f}"
+    )
+    found = picture.comparison
+    if found is not None:
+        column, row = found.where
+        yield (
+            f"the RGB picture is off by ΔE00 {found.mean:.2f} on average, 95 % within "
+            f"{found.usual:.2f}, at most {found.largest:.1f} (column {column}, row {row} from the "
+            "bottom left)"
+        )
+
+
+def _write(
+    part: Path, target: Path, pixels: Array, names: tuple[str, ...], picture: SpectralPicture
+) -> None:
+    oiio = openimageio()
+    rows, columns = pixels.shape[:2]
+    spec = oiio.ImageSpec(columns, rows, len(names), oiio.FLOAT)
+    spec.channelnames = names
+    spec.attribute("compression", "zip")
+    spec.attribute("Software", f"Rough Spectra {version()}")
+    if len(names) > 1:
+        spec.attribute("chromaticities", "float[8]", _chromaticities())
+    spec.attribute("roughSpectra:bands", " ".join(f"{nm:g}" for nm in picture.wavelengths))
+    spec.attribute("roughSpectra:observer", f"{picture.observer} degrees")
+    out = oiio.ImageOutput.create("openexr")
+    opened = out is not None and out.open(str(part), spec)
+    whole = np.ascontiguousarray(pixels, np.float32)
+    # Closed in any case: a file that could not be written whole is still open.
+    if not (opened and out.write_image(whole)) or not out.close():
+        said = " ".join(out.geterror().split()) if out is not None else "no OpenEXR"
+        msg = f"{target} cannot be written ({said}); free the disk or choose another place."
+        raise OutputError(msg)
+
+
+def _chromaticities() -> tuple[float, ...]:
+    """Give x and y of red, green, blue and white of the working space, as EXR states them."""
+    space = working_space.current()
+    columns = np.linalg.inv(space.from_xyz)
+    xyz = np.vstack((columns.T, columns.sum(axis=1)))
+    return tuple((xyz[:, :2] / xyz.sum(axis=1, keepdims=True)).ravel().tolist())

@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ask a second Blender for the renders of a spectral picture, and put them together.
+
+The open file, as it is and unsaved, is copied into the job's folder: neither it nor its settings
+nor the last render result are touched.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from contextlib import redirect_stdout
+from dataclasses import dataclass, field
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.bands import Bands
+from ...core.color import color_difference
+from ...core.errors import DomainError, MaterialError
+from ...core.limits import TOLERANCE
+from ...core.numerics.arrays import Array
+from ..blender import working_space
+from ..blender.background_job import Job
+from ..colorimetry import astm_e308, illuminant_spectra
+from ..colorimetry.rgb_space import WorkingSpace
+from . import colors, passes
+from .colors import Colors
+from .passes import Lamps, Pass
+from .picture import SpectralPicture, compare
+
+MOST = 36
+"""Bands that can be asked for, at most."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for.
+
+    Parameters
+    ----------
+    tolerance
+        ΔE00 within which 95 % of the picture are to be, as far as bands matter.
+    bands
+        Number of bands, a multiple of 3, instead of as many as the tolerance needs; or None.
+    observer
+        2 or 10 degrees.
+    direct
+        Whether direct light is rendered apart, one more render a lamp, and is exact.
+    plain
+        Whether to render the ordinary picture too, and compare.
+    samples, percentage
+        Of the renders, instead of the scene's; or None.
+    lights
+        By the names of lamps, worlds and materials that emit, the CIE illuminant that they are.
+
+    Raises
+    ------
+    DomainError
+        If any of it cannot be.
+    """
+
+    tolerance: float = TOLERANCE
+    bands: int | None = None
+    observer: int = 2
+    direct: bool = False
+    plain: bool = True
+    samples: int | None = None
+    percentage: int | None = None
+    lights: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be."""
+        if self.bands is not None and (self.bands % 3 or not 3 <= self.bands <= MOST):
+            msg = f"There are three bands in a render: give 3, 6, 9 … {MOST}, not {self.bands}."
+            raise DomainError(msg)
+        if not self.tolerance > 0:
+            msg = f"The tolerance is ΔE00 {self.tolerance:g}; give a number above 0."
+            raise DomainError(msg)
+        if self.observer not in astm_e308.OBSERVERS:
+            msg = f"Observer {self.observer!r} is not known; choose 2 or 10 degrees."
+            raise DomainError(msg)
+        for illuminant in self.lights.values():
+            if illuminant not in astm_e308.ILLUMINANTS:
+                choices = ", ".join(astm_e308.ILLUMINANTS)
+                msg = f"Illuminant {illuminant!r} is not known; choose one of {choices}."
+                raise DomainError(msg)
+        for name, value, most in (("samples", self.samples, 1 << 24),
+                                  ("percentage", self.percentage, 32767)):  # fmt: skip
+            if value is not None and not 1 <= value <= most:
+                msg = f"{name} is {value}; give a whole number from 1."
+                raise DomainError(msg)
+
+
+class Rendering(Job):
+    """A spectral picture under way.
+
+    Parameters
+    ----------
+    scene
+        A `bpy.types.Scene`, as it is now.
+    wanted
+        What is asked for.
+
+    Raises
+    ------
+    MaterialError
+        If the scene has no camera, no light, or another render engine than Cycles.
+    OutputError
+        If the temporary folder cannot be written or the second Blender not be started.
+    """
+
+    doing = "renders the bands"
+    interrupted = "The spectral picture was interrupted; nothing was written."
+    smaller = "render a smaller picture"
+
+    def __init__(self, scene: Any, wanted: Wanted) -> None:
+        _check(scene, wanted)
+        layer = _layer(scene)
+        self._wanted = wanted
+        self._space = working_space.current()
+        depsgraph = _evaluated(scene, layer)
+        self._found = colors.find(depsgraph, scene, self._space, wanted.lights)
+        self._lamps = passes.lamps_of(self._found, self._space)
+        self._chosen = _choose(self._found, self._lamps, self._space, wanted)
+        self._passes = passes.of_bands(self._chosen)
+        if wanted.direct:
+            self._passes += passes.of_direct(self._lamps, wanted.observer)
+
+        def prepare(folder: Path) -> dict[str, Any]:
+            blend = folder / "scene.blend"
+            with redirect_stdout(StringIO()):  # Blender tells of it there
+                bpy.ops.wm.save_as_mainfile(
+                    filepath=str(blend), check_existing=False, compress=False, copy=True
+                )
+            return {
+                "blend": blend.name,
+                "scene": scene.name,
+                "layer": layer.name,
+                "frame": scene.frame_current,
+                "subframe": scene.frame_subframe,
+                "seed": scene.cycles.seed,
+                "samples": wanted.samples or scene.cycles.samples,
+                "percentage": wanted.percentage or scene.render.resolution_percentage,
+                "plain": wanted.plain,
+                "apart": wanted.direct,
+                "passes": len(self._passes),
+                "direct": [each.direct for each in self._passes],
+                "edits": passes.edits(self._found, self._lamps, self._passes, self._space),
+                "reset": [
+                    {"of": list(place.of), "attribute": place.attribute, "value": value}
+                    for place, value in self._found.reset
+                ],
+            }
+
+        super().__init__(Path(__file__).with_name("worker.py"), prepare)
+
+    def result(self) -> SpectralPicture:
+        """Put the renders together, once `poll` says that they are done.
+
+        Raises
+        ------
+        OutputError
+            If the second Blender failed.
+        """
+        seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
+        alpha, xyz = _together(self, self._passes)
+        adapted = xyz @ _to_2_degrees(self._wanted.observer).T
+        rgb = adapted @ self._space.from_xyz.T
+        shown = np.concatenate((rgb, alpha), axis=-1)
+        comparison = None
+        if self._wanted.plain:
+            plain = np.load(self.output("plain.npy"))
+            plain_xyz = plain[..., :3].astype(np.float64) @ np.linalg.inv(self._space.from_xyz).T
+            comparison = compare(plain, shown, adapted, plain_xyz, self._lamps.white)
+        return SpectralPicture(
+            shown,
+            xyz,
+            self._wanted.observer,
+            self._chosen.wavelengths,
+            self._wanted.direct,
+            self._chosen.error,
+            self._chosen.enough,
+            comparison,
+            {name: tuple(rules) for name, rules in self._found.told.items()},
+            {name: tuple(left) for name, left in self._found.untranslated.items()},
+            tuple(seconds),
+        )
+
+
+def render(
+    scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
+) -> SpectralPicture:
+    """Render a spectral picture and wait for it; see `Rendering`."""
+    job = Rendering(scene, wanted)
+    try:
+        job.wait(progress)
+        return job.result()
+    finally:
+        job.close()
+
+
+def _check(scene: Any, wanted: Wanted) -> None:
+    if scene.render.engine != "CYCLES":
+        msg = (
+            f"Scene {scene.name!r} renders with {scene.render.engine}; a spectral picture needs "
+            "Cycles: choose it in the render properties."
+        )
+        raise MaterialError(msg)
+    if scene.camera is None:
+        msg = f"Scene {scene.name!r} has no camera; add one."
+        raise MaterialError(msg)
+    if wanted.direct and scene.cycles.use_denoising:
+        msg = (
+            f"Scene {scene.name!r} is denoised, and direct light apart needs renders that are "
+            "not; switch denoising off, or leave direct light with the rest."
+        )
+        raise MaterialError(msg)
+
+
+def _layer(scene: Any) -> Any:
+    """Give the view layer that is rendered first."""
+    used = [layer for layer in scene.view_layers if layer.use]
+    if not used:
+        msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
+        raise MaterialError(msg)
+    return used[0]
+
+
+def _evaluated(scene: Any, layer: Any) -> Any:
+    if bpy.context.scene == scene and bpy.context.view_layer == layer:
+        return bpy.context.evaluated_depsgraph_get()
+    with bpy.context.temp_override(scene=scene, view_layer=layer):
+        return bpy.context.evaluated_depsgraph_get()
+
+
+def _choose(found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted) -> Bands:
+    tolerance, most = wanted.tolerance, MOST
+    if wanted.bands is not None:
+        tolerance, most = 0.0, wanted.bands
+    return passes.choose(
+        found,
+        lamps,
+        space,
+        tolerance,
+        most=most,
+        direct=wanted.direct,
+        observer=wanted.observer,
+    )
+
+
+def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array]:
+    """Alpha (rows, columns, 1) and XYZ (rows, columns, 3) of all renders, one in memory a time."""
+    alpha = xyz = None
+    for number, each in enumerate(renders):
+        pixels = np.load(job.output(f"pass-{number}.npy"))
+        part = pixels[..., :3].astype(np.float64) @ each.to_xyz
+        if xyz is None:
+            alpha, xyz = pixels[..., 3:].astype(np.float64), part
+        else:
+            xyz += part
+    assert alpha is not None
+    assert xyz is not None
+    return alpha, xyz
+
+
+def _to_2_degrees(observer: int) -> Array:
+    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both."""
+    if observer == 2:
+        return np.eye(3)
+    light = illuminant_spectra.cie("D65")
+    step = illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
+    whites = [light @ illuminant_spectra.observer(each) * step for each in (observer, 2)]
+    return np.asarray(color_difference.adaptation(*whites))

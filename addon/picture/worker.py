@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render a scene in bands: the script that runs inside a second Blender.
+
+Like the worker of flat samples, of which it borrows what both do, it imports nothing of the
+extension, gets the path of a job as its last argument, and leaves its pictures beside it.
+
+The job names places of colors and what they are in each render. A color that comes from other nodes
+is multiplied by a 3 × 3 matrix of ordinary nodes. The scene stays in memory between renders, whose
+random numbers are the same. The file that is open here is a copy, and is not saved.
+"""
+
+import importlib.util
+import json
+import re
+import sys
+import time
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import bpy
+import numpy as np
+
+_DIRECT = (
+    ("Diffuse Direct", "Diffuse Color"),
+    ("Glossy Direct", "Glossy Color"),
+    ("Transmission Direct", "Transmission Color"),
+)
+"""Light that met one surface, and by what it is to be multiplied."""
+_STRAIGHT = ("Emission", "Environment", "Volume Direct")
+"""Light that met none, or a volume once."""
+_OLDER = {"Diff": "Diffuse", "Gloss": "Glossy", "Trans": "Transmission"}
+_OLDER |= {"Dir": "Direct", "Col": "Color", "Emit": "Emission", "Env": "Environment"}
+"""How Blender 4.5 shortens the names of passes in files, as in DiffDir."""
+
+
+def main(job_path: Path) -> None:
+    """Render all passes of the job."""
+    job = json.loads(job_path.read_text(encoding="utf-8"))
+    folder = job_path.parent
+    shared.end_if_orphaned(job["asked_by"], folder)
+    bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
+    scene = prepare(job)
+    total = job["passes"] + bool(job["plain"])
+    seconds, done = [], 0
+    if job["plain"]:
+        start = time.perf_counter()
+        take(scene, folder, "plain", job["apart"])
+        seconds.append(time.perf_counter() - start)
+        done += 1
+    shared.report(folder, done, total)
+    for each in job["reset"]:
+        setattr(owner(each["of"]), each["attribute"], each["value"])
+    setters = [setter(each) for each in job["edits"]]
+    for number in range(job["passes"]):
+        shared.end_if_orphaned(job["asked_by"], folder)
+        for put in setters:
+            put(number)
+        start = time.perf_counter()
+        take(scene, folder, f"pass-{number}", job["apart"], job["direct"][number])
+        seconds.append(time.perf_counter() - start)
+        done += 1
+        shared.report(folder, done, total)
+    (folder / "seconds.json").write_text(json.dumps(seconds), encoding="utf-8")
+
+
+def prepare(job: dict[str, Any]) -> Any:
+    """Give the scene, set to render what the job asks for and nothing around it."""
+    scene = bpy.data.scenes[job["scene"]]
+    if bpy.context.window is not None:
+        bpy.context.window.scene = scene
+    scene.frame_set(job["frame"], subframe=job["subframe"])
+    for layer in scene.view_layers:
+        layer.use = layer.name == job["layer"]
+    render = scene.render
+    # What comes after the render is not linear: it cannot be done to bands.
+    render.use_compositing = render.use_sequencer = render.use_multiview = False
+    render.use_persistent_data = True
+    render.resolution_percentage = job["percentage"]
+    scene.cycles.samples = job["samples"]
+    scene.cycles.use_animated_seed = False
+    scene.cycles.seed = job["seed"]
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if job["apart"] else "IMAGE"
+    kind = "OPEN_EXR_MULTILAYER" if job["apart"] else "OPEN_EXR"
+    render.image_settings.file_format = kind
+    if not job["apart"]:
+        render.image_settings.color_mode = "RGBA"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+    if job["apart"]:
+        layer = scene.view_layers[job["layer"]]
+        for name in ("diffuse", "glossy", "transmission"):
+            setattr(layer, f"use_pass_{name}_direct", True)
+            setattr(layer, f"use_pass_{name}_color", True)
+        layer.use_pass_emit = layer.use_pass_environment = True
+        layer.cycles.use_pass_volume_direct = True
+    return scene
+
+
+def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None = None) -> None:
+    """Render, and leave a picture, (rows, columns, 4) from the bottom up.
+
+    Parameters
+    ----------
+    scene, folder, name
+        What, and where to.
+    apart
+        Whether the file has passes of direct and of indirect light.
+    direct
+        If so: whether only direct light is wanted, or the rest; None for both.
+    """
+    bounces = scene.cycles.max_bounces
+    if apart and direct:
+        scene.cycles.max_bounces = 0
+    path = folder / "render.exr"
+    shared.render_into(scene, path)
+    scene.cycles.max_bounces = bounces
+    pixels = layers(path, without_direct=direct is False) if apart else shared.read_exr(path)
+    np.save(folder / f"{name}.npy", pixels[::-1].astype(np.float32))
+
+
+def layers(path: Path, without_direct: bool) -> Any:
+    """Read a file of passes; gives what was rendered, or what of it is indirect light."""
+    found = channels(path)
+
+    def three(name: str) -> Any:
+        return np.stack([found[f"{name}.{letter}"] for letter in "RGB"], axis=-1)
+
+    rgb = three("Combined")
+    if without_direct:
+        for light, color in _DIRECT:
+            rgb = rgb - three(light) * three(color)
+        for name in _STRAIGHT:
+            rgb = rgb - three(name)
+    return np.concatenate((rgb, found["Combined.A"][..., np.newaxis]), axis=-1)
+
+
+def channels(path: Path) -> dict[str, Any]:
+    """Every channel of every pass by its name."""
+    if hasattr(bpy.utils, "expose_bundled_modules"):
+        bpy.utils.expose_bundled_modules()
+    import OpenImageIO
+
+    file, found, number = OpenImageIO.ImageInput.open(str(path)), {}, 0
+    while file.seek_subimage(number, 0):
+        spec = file.spec()
+        pixels = file.read_image(number, 0, 0, spec.nchannels, OpenImageIO.FLOAT)
+        pixels = np.asarray(pixels, np.float64).reshape(spec.height, spec.width, -1)
+        for index, name in enumerate(spec.channelnames):
+            kind, letter = name.split(".")[-2:]
+            found[f"{whole(kind)}.{letter}"] = pixels[..., index]
+        number += 1
+    file.close()
+    return found
+
+
+def whole(kind: str) -> str:
+    """Give the name of a pass as Blender 5 has it."""
+    parts = re.findall("[A-Z][a-z]*", kind)
+    return " ".join(_OLDER.get(part, part) for part in parts)
+
+
+def owner(of: list[str]) -> Any:
+    """Find a datablock of a collection by its name and its library's path."""
+    collection, name, library = of
+    return getattr(bpy.data, collection)[name, library or None]
+
+
+def setter(edit: dict[str, Any]) -> Any:
+    """Give a function that sets a color to what it is in the render of a number."""
+    thing = owner(edit["of"])
+    # Curves and drivers would set what they set again before every render.
+    thing.animation_data_clear()
+    if edit["attribute"]:
+        name, extra = edit["attribute"], len(getattr(thing, edit["attribute"])) - 3
+
+        def put_attribute(number: int) -> None:
+            setattr(thing, name, (*edit["colors"][number], *(1.0,) * extra))
+
+        return put_attribute
+    tree = thing if edit["of"][0] == "node_groups" else thing.node_tree
+    tree.animation_data_clear()
+    socket = tree.nodes[edit["node"]].inputs[edit["socket"]]
+    if "matrices" in edit:
+        rows = multiplied(tree, socket)
+
+        def put_matrix(number: int) -> None:
+            for row, values in zip(rows, edit["matrices"][number], strict=True):
+                row.default_value = values
+
+        return put_matrix
+    for link in list(socket.links):  # an RGB node or a blackbody, whose spectrum is known
+        tree.links.remove(link)
+    extra = len(socket.default_value) - 3
+
+    def put(number: int) -> None:
+        socket.default_value = (*edit["colors"][number], *(1.0,) * extra)
+
+    return put
+
+
+def multiplied(tree: Any, socket: Any) -> list[Any]:
+    """Multiply what reaches a socket by a matrix; gives the inputs that hold its rows."""
+    [link] = [link for link in tree.links if link.to_socket == socket]
+    source = link.from_socket
+    tree.links.remove(link)
+    rows = []
+    together = tree.nodes.new("ShaderNodeCombineXYZ")
+    for number in range(3):
+        dot = tree.nodes.new("ShaderNodeVectorMath")
+        dot.operation = "DOT_PRODUCT"
+        tree.links.new(source, dot.inputs[0])
+        tree.links.new(dot.outputs["Value"], together.inputs[number])
+        rows.append(dot.inputs[1])
+    # A saturated color of a wide space has bands below 0, as no surface and no lamp.
+    floor = tree.nodes.new("ShaderNodeVectorMath")
+    floor.operation = "MAXIMUM"
+    tree.links.new(together.outputs[0], floor.inputs[0])
+    tree.links.new(floor.outputs[0], socket)
+    return rows
+
+
+def borrow(path: Path) -> ModuleType:
+    """Import another worker by its path."""
+    spec = importlib.util.spec_from_file_location("shared_worker", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+shared = borrow(Path(__file__).resolve().parents[1] / "instrument" / "worker.py")
+
+if __name__ == "__main__":
+    try:
+        main(Path(sys.argv[-1]))
+    finally:
+        # As in the other worker: scripted drivers.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -1,0 +1,438 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spectral pictures against sums over the spectrum, in scenes where these are known in closed form.
+
+Each scene is rendered once, in a second Blender, and has little to estimate.
+"""
+
+from math import radians
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from rough_spectra.addon import api
+from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.colorimetry import illuminant_spectra
+from rough_spectra.addon.picture import colors, passes, render
+from rough_spectra.core.color import color_difference
+from rough_spectra.core.numerics import wavelength_grid
+
+pytestmark = pytest.mark.usefixtures("empty_file")
+
+NM = np.arange(360.0, 781.0)
+KELVIN = 2856.0
+PATCHES = ("red", "green", "blue", "yellow", "orange", "white")
+BOUNCES = 3
+ROWS = 4  # Blender renders no fewer
+
+
+def functions():
+    """Color matching functions at 1 nm, from colour-science itself."""
+    import colour
+
+    shape = colour.SpectralShape(360, 780, 1)
+    return colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy().align(shape).values
+
+
+def planck():
+    spd = (NM / 560) ** -5 / np.expm1(1.438776877e7 / (NM * KELVIN))
+    return spd / (spd @ functions()[:, 1])
+
+
+def apart(xyz, truth, white):
+    return color_difference.delta_e(
+        *(color_difference.xyz_to_lab(each, white) for each in (xyz, truth))
+    )
+
+
+def new_material(name, color=None):
+    material = bpy.data.materials.new(name)
+    if material.node_tree is None:
+        material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    node = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    if color is not None:
+        node.inputs["Color"].default_value = (*color, 1)
+    return material
+
+
+def from_above(columns):
+    """Let a camera without perspective see strips of one unit, `ROWS` pixels each."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    camera = bpy.data.cameras.new("Camera")
+    camera.type, camera.ortho_scale = "ORTHO", max(columns, ROWS)
+    scene.camera = bpy.data.objects.new("Camera", camera)
+    scene.collection.objects.link(scene.camera)
+    scene.camera.location = (columns / 2, ROWS / 2, 1)
+    render = scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = columns, ROWS, 100
+    cycles = scene.cycles
+    cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = 4, False, False
+    cycles.max_bounces = cycles.diffuse_bounces = BOUNCES
+    cycles.min_light_bounces = BOUNCES
+    cycles.sample_clamp_indirect = 0
+    cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
+    return scene
+
+
+def strip(column, material):
+    mesh = bpy.data.meshes.new("Strip")
+    corners = [(column, 0, 0), (column + 1, 0, 0), (column + 1, ROWS, 0), (column, ROWS, 0)]
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new("Strip", mesh))
+
+
+def sun(scene):
+    light = bpy.data.lights.new("Sun", "SUN")
+    light.angle = 0.0
+    light.energy = np.pi  # a white surface then has a radiance of 1
+    light.use_temperature, light.temperature = True, KELVIN
+    thing = bpy.data.objects.new("Sun", light)
+    scene.collection.objects.link(thing)
+    return light
+
+
+@pytest.fixture(scope="module")
+def lit(extension, tmp_path_factory):
+    """Squares with measured spectra, and some of RGB, under one sun: nothing lights another."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    scene = from_above(len(PATCHES) + 3)
+    materials = [new_material(name) for name in PATCHES]
+    samples = [api.find("white 9.5" if name == "white" else name) for name in PATCHES]
+    rough = [(m, api.request(s, 0.0)) for m, s in zip(materials, samples, strict=True)]
+    rough[1] = (materials[1], api.request(samples[1], radians(30)))
+    api.assign(rough, gloss="none")
+    plain, linked, gray = (
+        new_material("Plain", (0.6, 0.2, 0.1)),
+        new_material("Linked"),
+        new_material("Gray", (0.5, 0.5, 0.5)),
+    )
+    tree = linked.node_tree
+    source = tree.nodes.new("ShaderNodeCombineXYZ")
+    for socket, value in zip(source.inputs, (0.6, 0.2, 0.1), strict=True):
+        socket.default_value = value
+    [diffuse] = (node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    tree.links.new(source.outputs[0], diffuse.inputs["Color"])
+    for column, material in enumerate((*materials, plain, linked, gray)):
+        strip(column, material)
+    light = sun(scene)
+    path = tmp_path_factory.mktemp("lit") / "lit.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    before = state_of_file()
+    picture = api.spectral_picture(bands=3, direct=True)
+    return samples, picture, before, state_of_file(), light.temperature
+
+
+def state_of_file():
+    return {
+        "dirty": bpy.data.is_dirty,
+        "path": bpy.data.filepath,
+        "materials": {
+            m.name: [
+                tuple(s.default_value)
+                for n in m.node_tree.nodes
+                for s in n.inputs
+                if s.type == "RGBA"
+            ]
+            for m in bpy.data.materials
+        },
+        "nodes": {m.name: len(m.node_tree.nodes) for m in bpy.data.materials},
+        "lights": {(e.name, e.use_temperature, *e.color) for e in bpy.data.lights},
+        "images": len(bpy.data.images),
+        "format": bpy.context.scene.render.image_settings.file_format,
+        "persistent": bpy.context.scene.render.use_persistent_data,
+        "samples": bpy.context.scene.cycles.samples,
+    }
+
+
+def test_direct_light_is_exact_with_three_bands(lit):
+    """XYZ of a matte surface is the sum over lamp times spectrum: ΔE00 within 0.05."""
+    samples, picture, *_ = lit
+    lamp = planck()[:, np.newaxis] * functions()
+    for column, sample in enumerate(samples):
+        if column == 1:
+            continue  # a rough one: not seen as its instrument does
+        values = wavelength_grid.resample(
+            sample.reflectance, sample.wavelengths, NM, method="cubic", ends="hold"
+        )
+        found = apart(picture.xyz[0, column], values @ lamp, lamp.sum(axis=0))
+        assert found < 0.05, sample.name
+
+
+def test_a_color_that_is_linked_has_the_same_spectrum(lit):
+    _, picture, *_ = lit
+    plain, linked = picture.xyz[0, len(PATCHES)], picture.xyz[0, len(PATCHES) + 1]
+    assert linked == pytest.approx(plain, rel=1e-5)
+    gray, white = picture.xyz[0, len(PATCHES) + 2], planck() @ functions()
+    assert gray == pytest.approx(0.5 * white, rel=2e-4)
+
+
+def test_a_color_of_rgb_has_the_spectrum_of_the_published_table(lit):
+    import colour
+
+    table = colour.recovery.MSDS_BASIS_FUNCTIONS_sRGB_MALLETT2019
+    values = table.values @ (0.6, 0.2, 0.1)
+    values = np.interp(NM, table.wavelengths, values)
+    lamp = planck()[:, np.newaxis] * functions()
+    _, picture, *_ = lit
+    assert apart(picture.xyz[0, len(PATCHES)], values @ lamp, lamp.sum(axis=0)) < 0.05
+
+
+def test_the_file_and_its_settings_are_as_they_were(lit):
+    _, _, before, after, _ = lit
+    assert before == after
+
+
+def test_the_ordinary_picture_is_compared(lit):
+    """In RGB the colors under such a lamp are off by what RGB reflectance under D65 leaves."""
+    _, picture, *_ = lit
+    found = picture.comparison
+    assert found.delta_e.shape == (ROWS, len(PATCHES) + 3)
+    assert found.delta_e[0, -1] < 0.05  # gray is gray
+    assert found.largest > 3
+    assert found.delta_e[found.where[::-1]] == found.largest
+    assert found.plain.shape == picture.rgb.shape
+    assert picture.rules["Material 'red'"] == ("measured: ColorChecker 15 Red",)
+    assert picture.rules["Light 'Sun'"] == ("blackbody of 2856 K",)
+
+
+def test_it_is_written_and_becomes_an_image(lit, tmp_path):
+    from rough_spectra.addon.support.openimageio import openimageio
+
+    _, picture, *_ = lit
+    written = api.write_picture(picture, tmp_path / "room.exr")
+    assert [path.name for path in written] == ["room.exr", "room-delta-e.exr"]
+    oiio = openimageio()
+    file = oiio.ImageInput.open(str(written[0]))
+    pixels, white = file.read_image(oiio.FLOAT), file.spec().getattribute("chromaticities")[6:]
+    file.close()
+    assert np.array_equal(pixels[::-1], picture.rgb.astype(np.float32))
+    assert white == pytest.approx((0.3127, 0.3290), abs=2e-4)
+    image = api.picture_image(picture)
+    held = np.array(image.pixels[:]).reshape(picture.rgb.shape)
+    assert held == pytest.approx(picture.rgb.astype(np.float32))
+    with pytest.raises(api.OutputError, match="no EXR by its name"):
+        api.write_picture(picture, tmp_path / "room.png")
+
+
+@pytest.mark.parametrize("space", ["Linear Rec.709", "Linear Rec.2020"])
+def test_a_white_furnace_is_neutral(space):
+    """White of any kind in a white world, its light from a texture: neutral to 1e-4."""
+    if space != working_space.working_space_name():
+        if bpy.app.version < (5, 0, 0):
+            pytest.skip("Blender 4.5 has one working space")
+        bpy.ops.wm.set_working_color_space(convert_colors=True, working_space=space)
+    scene = from_above(4)
+    measured = new_material("Measured")
+    white = api.Sample("White", np.arange(380.0, 781.0, 10), np.ones(41), "albedo")
+    api.assign([(measured, api.request(white, 0.0))], gloss="none")
+    textured = new_material("Textured")
+    glowing(textured.node_tree, textured.node_tree.nodes["Diffuse BSDF"].inputs["Color"])
+    for column, each in enumerate((measured, new_material("White", (1, 1, 1)), textured)):
+        strip(column, each)
+    world = scene.world = bpy.data.worlds.new("World")
+    if world.node_tree is None:
+        world.use_nodes = True
+    tree = world.node_tree
+    tree.nodes.clear()
+    background = tree.nodes.new("ShaderNodeBackground")
+    output = tree.nodes.new("ShaderNodeOutputWorld")
+    tree.links.new(background.outputs[0], output.inputs["Surface"])
+    glowing(tree, background.inputs["Color"])
+    picture = api.spectral_picture(bands=6, compare=False)
+    rgb = picture.rgb[0, :3, :3]
+    assert rgb == pytest.approx(np.repeat(rgb[:, 1:2], 3, axis=1), rel=1e-4)
+    assert rgb == pytest.approx(1, rel=1e-3)
+    assert all("three spectra" in rule for rule in picture.rules["World 'World'"])
+
+
+def glowing(tree, socket):
+    """Let white come from a node that is no plain color."""
+    ramp = tree.nodes.new("ShaderNodeCombineXYZ")
+    for each in ramp.inputs:
+        each.default_value = 1
+    tree.links.new(ramp.outputs[0], socket)
+
+
+def test_light_between_surfaces_is_that_of_the_spectrum():
+    """In a closed box of one color that glows alike everywhere, each bounce adds ρ times the last.
+
+    So the radiance is S (1 + ρ + ρ² + …), whatever the directions, up to the bounces of Cycles.
+    """
+    import colour
+
+    from_above(4)
+    rgb = (0.8, 0.25, 0.1)
+    material = new_material("Box", rgb)
+    tree = material.node_tree
+    glow, both = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeAddShader")
+    kelvin = tree.nodes.new("ShaderNodeBlackbody")
+    kelvin.inputs["Temperature"].default_value = KELVIN
+    tree.links.new(kelvin.outputs[0], glow.inputs["Color"])
+    output, diffuse = tree.nodes["Material Output"], tree.nodes["Diffuse BSDF"]
+    tree.links.new(diffuse.outputs[0], both.inputs[0])
+    tree.links.new(glow.outputs[0], both.inputs[1])
+    tree.links.new(both.outputs[0], output.inputs["Surface"])
+    material.cycles.emission_sampling = "NONE"
+    bpy.ops.mesh.primitive_cube_add(size=4)
+    bpy.context.object.data.materials.append(material)
+    picture = api.spectral_picture(bands=9)
+    table = colour.recovery.MSDS_BASIS_FUNCTIONS_sRGB_MALLETT2019
+    rho = np.interp(NM, table.wavelengths, table.values @ rgb)
+    bounces = sum(rho**count for count in range(BOUNCES + 2))  # the last may meet a lamp
+    spectrum = planck()[:, np.newaxis] * functions()
+    # Cycles' blackbody has a luminance of 1 by the working space's primaries.
+    truth, white = bounces @ spectrum, spectrum.sum(axis=0)
+    level = picture.xyz[0, 0, 1] / truth[1]
+    assert level == pytest.approx(1, abs=5e-3)
+    assert apart(picture.xyz[0, 0], level * truth, white) < 0.1
+    assert picture.comparison.mean > 1  # which three channels are not
+
+
+def tree_with(kind, **inputs):
+    material = new_material(kind)
+    tree = material.node_tree
+    node = tree.nodes.new(kind)
+    for name, value in inputs.items():
+        node.inputs[name].default_value = value
+    output = tree.nodes["Material Output"]
+    socket = "Volume" if "Volume" in kind else "Surface"
+    tree.links.new(node.outputs[0], output.inputs[socket])
+    return material, node
+
+
+def find():
+    return colors.find(
+        bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
+    )
+
+
+def test_rules_are_told_and_what_has_none_is_named():
+    scene = from_above(4)
+    sun(scene)
+    glass, _ = tree_with("ShaderNodeBsdfGlass", Color=(0.2, 0.9, 0.3, 1))
+    film, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Thin Film Thickness"].default_value = 300
+    edited = new_material("Edited")
+    api.assign([(edited, api.request(api.find("red"), 0.0))], gloss="none")
+    edited.node_tree.nodes["Diffuse BSDF"].inputs["Color"].default_value = (0.1, 0.2, 0.3, 1)
+    for column, each in enumerate((glass, film, edited)):
+        strip(column, each)
+    found = find()
+    assert found.told[f"Material {glass.name!r}"] == [colors.LINEAR]
+    assert found.untranslated == {f"Material {film.name!r}": ["its thin film"]}
+    assert found.told["Material 'Edited'"][0].startswith("its measured spectrum is not used: ")
+    assert "by hand" in found.told["Material 'Edited'"][0]
+    assert not found.measured
+    assert [s.strength.round(6).tolist() for s in found.shining] == [
+        pytest.approx([1, 1, 1], abs=5e-3)
+    ]
+
+
+def test_nodes_that_reach_no_output_do_not_count():
+    scene = from_above(4)
+    sun(scene)
+    material = new_material("Loose", (0.5, 0.5, 0.5))
+    material.node_tree.nodes.new("ShaderNodeBsdfGlass").inputs["Color"].default_value = (1, 0, 0, 1)
+    strip(0, material)
+    assert not find().colored
+
+
+def test_colors_in_groups_count_where_they_enter_a_shader():
+    scene = from_above(4)
+    sun(scene)
+    group = bpy.data.node_groups.new("Paint", "ShaderNodeTree")
+    group.interface.new_socket("Color", in_out="INPUT", socket_type="NodeSocketColor")
+    group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    inside, outside, diffuse = (
+        group.nodes.new(kind)
+        for kind in ("NodeGroupInput", "NodeGroupOutput", "ShaderNodeBsdfDiffuse")
+    )
+    group.links.new(inside.outputs[0], diffuse.inputs["Color"])
+    group.links.new(diffuse.outputs[0], outside.inputs[0])
+    material = new_material("Grouped")
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    strip(0, material)
+    [found] = find().colored
+    assert found.rgb is None
+    assert found.place.of == ("node_groups", "Paint", "")
+
+
+def test_two_lamps_of_one_color_are_one_spectrum():
+    scene = from_above(4)
+    first, second = sun(scene), sun(scene)
+    second.energy = 7
+    assert len(passes.lamps_of(find(), working_space.current()).spectra) == 1
+    first.temperature = 6500
+    assert len(passes.lamps_of(find(), working_space.current()).spectra) == 2
+
+
+def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
+    scene = from_above(4)
+    light = sun(scene)
+    light.use_temperature = False
+    light.color = (1.0, 0.5, 0.2)
+    args = bpy.context.evaluated_depsgraph_get(), scene, working_space.current()
+    found = colors.find(*args, {"Sun": "F11"})
+    [shining] = found.shining
+    sd = illuminant_spectra.cie("F11")
+    assert shining.spectrum == pytest.approx(sd)
+    luminance = np.linalg.solve(working_space.current().from_xyz, light.color)[1]
+    assert shining.strength == pytest.approx([luminance] * 3)
+    assert found.told["Light 'Sun'"] == ["CIE F11"]
+    with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
+        colors.find(*args, {"Moon": "F11"})
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("bpy.context.scene.render.engine = 'BLENDER_WORKBENCH'", "needs Cycles"),
+        ("bpy.context.scene.camera = None", "has no camera"),
+        ("bpy.data.lights.remove(bpy.data.lights[0])", "Nothing in the scene sheds light"),
+        ("bpy.context.scene.cycles.use_denoising = True", "is denoised"),
+        ("bpy.context.scene.view_layers[0].use = False", "no view layer"),
+    ],
+)
+def test_what_cannot_be_rendered_is_told_before(change, words):
+    sun(from_above(4))
+    exec(change, {"bpy": bpy})
+    with pytest.raises(api.MaterialError, match=words):
+        api.spectral_picture(bands=3, direct=True)
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        {"bands": 4},
+        {"bands": 0},
+        {"tolerance": 0.0},
+        {"observer": 5},
+        {"samples": 0},
+        {"lights": {"Sun": "F99"}},
+    ],
+)
+def test_what_is_no_number_of_anything_is_refused(wanted):
+    with pytest.raises(api.DomainError):
+        render.Wanted(**wanted)
+
+
+def test_nothing_is_left_behind(lit, tmp_path, monkeypatch):
+    """A job that is stopped takes its folder along, and writes nothing."""
+    import tempfile
+
+    sun(from_above(4))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    job = render.Rendering(bpy.context.scene, render.Wanted(bands=3))
+    assert list(tmp_path.iterdir())
+    job.close()
+    assert not list(Path(tmp_path).iterdir())

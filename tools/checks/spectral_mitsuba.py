@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mitsuba's part of check_spectral.py: `python -m tools.checks.spectral_mitsuba ROOM.npz`.
+
+Leaves two pictures of other random numbers, XYZ with the top row first, beside the room.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+VARIANT = "scalar_spectral"
+LUMINANCE = 106.856895
+"""Of a spectrum of 1 per nanometer; Mitsuba's Y is relative to it."""
+WIDTH, HEIGHT = 64, 48
+DEPTH = 8
+"""Lamp itself, six bounces of Cycles, and the last that only meets a lamp."""
+EYE, AHEAD, LENS = (0.0, -1.9, 1.5), (0.0, 1.0, 1.3), 90.0
+
+
+def main(path: Path) -> None:
+    """Render it twice."""
+    mitsuba: Any = importlib.import_module("mitsuba")
+    mitsuba.set_variant(VARIANT)
+    room = np.load(path)
+    nm = room["nm"]
+
+    def spectrum(values: Any) -> dict[str, Any]:
+        told = ",".join(repr(float(value)) for value in values)
+        ends = {"wavelength_min": float(nm[0]), "wavelength_max": float(nm[-1])}
+        return {"type": "regular", "values": told, **ends}
+
+    scene: dict[str, Any] = {
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": DEPTH, "rr_depth": 1000},
+        "sensor": {
+            "type": "perspective",
+            "fov": LENS,
+            "fov_axis": "x",
+            "to_world": mitsuba.ScalarTransform4f().look_at(EYE, AHEAD, (0, 0, 1)),
+            "film": {
+                "type": "hdrfilm",
+                "width": WIDTH,
+                "height": HEIGHT,
+                "pixel_format": "xyz",
+                "rfilter": {"type": "box"},
+            },
+        },
+    }
+    for number, (corners, material) in enumerate(
+        zip(room["corners"], room["materials"], strict=True)
+    ):
+        shines = material == len(room["albedos"])
+        black = {"type": "rgb", "value": 0.0}
+        color = black if shines else spectrum(room["albedos"][material])
+        face: dict[str, Any] = {
+            "type": "rectangle",
+            "to_world": placed(mitsuba, corners),
+            "bsdf": {"type": "diffuse", "reflectance": color},
+        }
+        if shines:
+            face["emitter"] = {"type": "area", "radiance": spectrum(LUMINANCE * room["lamp"])}
+        scene[f"face-{number}"] = face
+    loaded = mitsuba.load_dict(scene)
+    pictures = [
+        np.array(mitsuba.render(loaded, spp=int(room["samples"]), seed=seed)) for seed in (1, 2)
+    ]
+    np.save(path.with_suffix(".npy"), np.array(pictures, np.float64)[..., :3])
+
+
+def placed(mitsuba: Any, corners: Any) -> Any:
+    """Turn the rectangle from -1 to 1 into one of these corners; its normal follows their order."""
+    across, along = (corners[1] - corners[0]) / 2, (corners[3] - corners[0]) / 2
+    normal = np.cross(across, along)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.column_stack((across, along, normal / np.linalg.norm(normal)))
+    matrix[:3, 3] = corners.mean(axis=0)
+    return mitsuba.ScalarTransform4f(matrix.tolist())
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
