@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make a linked, packed or overridden material local, so that its settings can be changed."""
+"""Let a material of another file be changed in this one."""
 
 from __future__ import annotations
 
@@ -9,40 +9,45 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ....core.errors import RoughSpectraError
 from . import common
 
 
 class ROUGHSPECTRA_OT_make_local(bpy.types.Operator):
-    """Make the linked material your own, in this file, so that it can be changed"""
+    """Take the material out of its library into this file, with the object that shows it"""
 
     bl_idname = "rough_spectra.make_local"
     bl_label = "Make Local"
     bl_options = {"REGISTER", "UNDO"}
-    menu_place = 2, 6
+    menu_place = 2, 4
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Need a material that cannot be changed as it is."""
+        """Need a material that belongs elsewhere."""
+        from ...material import snapshot
+
         material = common.active_material(context)
-        if material is None:
-            cls.poll_message_set("There is no material")
-            return False
-        if material.is_editable and material.override_library is None:
-            cls.poll_message_set("The material is local already")
+        if material is None or not snapshot.elsewhere(material):
+            cls.poll_message_set("The material belongs to this file already")
             return False
         return True
 
     def execute(self, context: Any) -> set[str]:
-        """Make it local, whoever else uses it."""
-        from ...blender import local
-
-        try:
-            made = local.make_local(common.active_material(context), common.active_object(context))
-        except RoughSpectraError as error:
-            common.report_error(self, error)
+        """Make it local; the slot that shows it, too, where that belongs elsewhere."""
+        material: Any = common.active_material(context)
+        name, thing = material.name, common.active_object(context)
+        shown = thing is not None and thing.active_material == material
+        if shown and thing is not None:
+            for owner in (thing, thing.data):
+                if not owner.is_editable or owner.override_library is not None:
+                    owner.make_local()
+        local = material.make_local()
+        if local is None or not local.is_editable or local.override_library is not None:
+            sentence = f"Material {name!r} cannot be made local; append it from its file instead."
+            common.report_error(self, sentence)
             return {"CANCELLED"}
-        self.report({"INFO"}, rpt_("Material {!r} is local").format(made.name))
+        if shown and thing is not None and thing.active_material != local:
+            thing.active_material = local
+        self.report({"INFO"}, rpt_("{} belongs to this file now").format(local.name))
         return {"FINISHED"}
 
 
