@@ -24,13 +24,13 @@ NO_CACHES = {
     ("addon/interface/operators/ahead.py", "_left"),
     ("addon/interface/operators/import_review.py", "_batch"),
     ("addon/interface/panels/redraw.py", "_last"),
-    ("addon/interface/shelf.py", "_asked"),
     ("addon/interface/panels/renewal.py", "_asked"),
     ("addon/preview/balls.py", "_pending"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
+    ("addon/interface/shelf.py", "_asked"),
     # On the list, in the order of use.
     ("addon/material/derivation.py", "_known"),
     # On the list as one, because Blender holds the pictures.

@@ -7,13 +7,12 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from rough_spectra.addon.assets import catalogs, shelf
-from rough_spectra.addon.blender import local, shader_nodes
+from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.addon.interface import shelf as shelf_in_view
 from rough_spectra.addon.matching import own_gloss
 from rough_spectra.addon.material import preferences, state, storage
 from rough_spectra.addon.samples import presets
 from rough_spectra.core.cycles import gloss_estimate
-from rough_spectra.core.errors import MaterialError
 
 from tools.tables import make_shelf
 
@@ -141,16 +140,3 @@ def test_a_linked_material_is_made_local_and_follows_sigma(empty_file, options):
     bpy.context.view_layer.update()
     assert state.state(own).kind == "fresh"
     assert list(shader_nodes.color_socket(shader_nodes.shader_node(own)).default_value) != before
-
-
-def test_a_linked_material_of_a_linked_object_is_left_with_a_reason(empty_file, tmp_path):
-    thing = cube(load(names=["Brick"])["Brick"])
-    path = tmp_path / "wall.blend"
-    bpy.data.libraries.write(str(path), {thing})
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
-        wanted.objects = ["Cube"]
-    [linked] = wanted.objects
-    with pytest.raises(MaterialError, match="'Cube', which is linked; make the object local first"):
-        local.make_local(linked.active_material, linked)
-    assert not linked.active_material.is_editable
