@@ -446,7 +446,9 @@ def context_menu() -> None:
 @picture("sidebar")
 def shader_editor() -> None:
     """Show the panel in the shader editor's sidebar."""
-    _assigned()
+    material = _assigned()
+    for node in material.node_tree.nodes:
+        node.location.x -= 2000  # it would show through
     area = _wide_area()
     area.ui_type = "ShaderNodeTree"
     area.spaces.active.show_region_ui = True
@@ -459,12 +461,22 @@ def _choose_tab() -> None:
     region.tag_redraw()
 
 
-@picture("sidebar")
+def _is_pictured() -> bool:
+    """Whether the balls of tab and sidebar are made, which differ in size: a viewport is slow."""
+    from bl_ext.user_default.rough_spectra.addon.preview import icons
+
+    material = bpy.context.view_layer.objects.active.active_material
+    balls = [wish for wish in icons._pictures if wish.figure == "ball"]
+    return sum(wish.material == material.session_uid for wish in balls) > 1
+
+
+@picture("sidebar", ready=_is_pictured)
 def view() -> None:
     """Show the panel in the sidebar of the 3D view."""
     _assigned()
     area = _wide_area()
     area.ui_type = "VIEW_3D"
+    area.spaces.active.overlay.show_overlays = False
     area.spaces.active.show_region_ui = True
     bpy.app.timers.register(_choose_tab, first_interval=0.5)
 
