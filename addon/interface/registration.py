@@ -11,7 +11,7 @@ from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
 from . import gltf_export, operators, shelf
-from .panels import menus, panels
+from .panels import menus, panels, shading
 
 _OPERATORS = operators.modules()
 _MODULES = (properties, preferences, *_OPERATORS, panels, shelf)
@@ -28,6 +28,7 @@ def register() -> None:
             module.register_menu()
     menus.register(classes)
     gltf_export.register()
+    shading.register()
     follow.register()
     command_line.register()
 
@@ -39,6 +40,7 @@ def unregister() -> None:
     shelf.unregister_timer()
     follow.unregister()
     gltf_export.unregister()
+    shading.unregister()
     menus.unregister()
     for module in reversed(_OPERATORS):
         if hasattr(module, "unregister_menu"):

@@ -131,7 +131,9 @@ def active_object(context: Any) -> Any | None:
 
 def can_carry(thing: Any | None) -> bool:
     """Whether an object may have surface materials: Grease Pencil has materials of its own."""
-    return hasattr(getattr(thing, "data", None), "materials") and thing.type not in _WITHOUT_SURFACE
+    if thing is None or thing.type in _WITHOUT_SURFACE:
+        return False
+    return hasattr(thing.data, "materials")
 
 
 def active_material(context: Any) -> Any | None:
@@ -426,7 +428,7 @@ def previews(context: Any) -> list[Any]:
     In a 3D view that one alone; elsewhere those of the window, unless one of them is rendered.
     """
     screen = getattr(context, "screen", None)
-    own = getattr(context, "space_data", None)
+    own: Any = getattr(context, "space_data", None)
     if getattr(own, "type", "") == "VIEW_3D":
         spaces = [own]
     else:

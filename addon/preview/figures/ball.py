@@ -47,7 +47,7 @@ class _Ball(NamedTuple):
     step: int
     lit: Array
     angles: tuple[Array, Array, Array]
-    directions: tuple[Array, Array]
+    directions: tuple[Array, ...]
     cosine: Array
     coverage: Array
 

@@ -42,7 +42,8 @@ def draw(layout: Any, context: Any) -> None:
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
-        details = common.active_material(context).rough_spectra.details
+        material: Any = common.active_material(context)
+        details = material.rough_spectra.details
         text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
         _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:
