@@ -43,6 +43,19 @@ def test_choosing_for_several(scene):
     assert scene["redone"] == scene["chosen"]
 
 
+def test_finding_by_color(scene):
+    assert scene["ran"] == "ROUGH_SPECTRA_OT_find_nearest"
+    (name, difference), second = scene["nearest"]
+    assert (name, difference) == ("ColorChecker 14 Green", 0.0)
+    assert second[1] > 0
+    assert scene["sample"] == name
+    red, green, blue = scene["color"]
+    assert green > max(red, blue)
+    assert scene["apart"] == "A 0.0, F11 0.0, LED-B3 0.0, if alike in D65"
+    assert scene["sigma"] == pytest.approx(0.5236, abs=1e-4)  # the user's
+    assert scene["undone"]["sample"] == name
+
+
 BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
 TOLD = (" σ 20°: ",)
 """What a user is told of the samples in a library that a scene builds."""
