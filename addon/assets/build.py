@@ -18,16 +18,17 @@ import bpy
 from ...core.errors import OutputError
 from ..blender import blend_file
 from ..blender.background_job import Job
-from ..matching import shaders
 from ..samples.readers.formats import library as library_format
 from ..support import atomic_files, journal
-from . import catalogs
+from . import catalogs, shelf
 from .plan import Asset
 
 LONGEST_NAME = 63 if bpy.app.version < (5, 0, 0) else 255
 """Bytes that Blender leaves for the name of a material."""
 
 AUTHOR = "Rough Spectra"
+SHADER = "PRINCIPLED"
+"""What others understand too: exporters to glTF make a Diffuse BSDF white."""
 
 _BLEND, _RESULT = "assets.blend", "result.json"
 
@@ -49,7 +50,7 @@ class Settings:
     model: str = "auto"
     illuminant: str = "D65"
     observer: int = 2
-    shader: str = shaders.DEFAULT.name
+    shader: str = SHADER
     author: str = AUTHOR
 
 
@@ -202,7 +203,7 @@ def add_to_preferences(folder: Path) -> str | None:
     wanted = folder.resolve()
     if any(known.path and Path(known.path).resolve() == wanted for known in libraries):
         return None
-    return str(libraries.new(name=catalogs.ROOT, directory=str(wanted)).name)
+    return shelf.add(libraries, str(wanted))
 
 
 def _file_name(titles: Sequence[str]) -> str:

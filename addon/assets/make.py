@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ..blender import shader_nodes, sockets
 from ..instrument.worker import end_if_orphaned, report
+from ..matching import own_gloss
 from ..matching.request import Request
 from ..material import derive
 from ..samples.readers.formats import library as library_format
@@ -31,8 +33,11 @@ _SUMMARY = 1000
 def run(job: dict[str, Any], folder: Path) -> None:
     """Make what the job lists and save it in the job's folder."""
     entries = job["assets"]
-    materials = [_material(entry["name"]) for entry in entries]
     requests = [_request(entry, job) for entry in entries]
+    materials = [
+        _material(entry["name"], request.sample, job["shader"])
+        for entry, request in zip(entries, requests, strict=True)
+    ]
     solutions = derive.assign(list(zip(materials, requests, strict=True)), job["shader"])
     for material, entry, request, solution in zip(
         materials, entries, requests, solutions, strict=True
@@ -52,11 +57,17 @@ def run(job: dict[str, Any], folder: Path) -> None:
     )
 
 
-def _material(name: str) -> Any:
+def _material(name: str, sample: Sample, shader: str) -> Any:
+    """Make a material that has the sample's own gloss where its shader has any, else no node."""
     material = bpy.data.materials.new(name)
     if bpy.app.version < (5, 0, 0):
         material.use_nodes = True
     material.node_tree.nodes.clear()  # a new material has a shader that nobody asked for
+    place = shader_nodes.find(material, shader)
+    gloss = own_gloss.of_sample(sample) if sockets.OF_NODE[place.make].gloss else None
+    if gloss is not None:
+        shader_nodes.write(place, (0.0, 0.0, 0.0), 0.0)
+        shader_nodes.put_gloss(material, gloss)
     return material
 
 
@@ -93,6 +104,7 @@ def _description(sample: Sample, solution: Solution) -> str:
             f"σ {sample.sigma_degrees:g}°: {sample.sigma_source}",
             f"Predicted ΔE00: {solution.delta_e_instrument:.2f} at 45°/0°, over all angles mean "
             f"{solution.delta_e_mean:.2f}, 95 % {solution.delta_e_95:.2f}.",
+            *([f"Gloss: {sample.gloss_source}"] if sample.gloss_source else []),
             f"Source: {_shortened(sample.source)}",
             *sample.notes,
             *solution.warnings,

@@ -12,7 +12,7 @@ from pathlib import Path
 from ...core import limits
 from ...core.errors import InputError
 from ..samples import presets, readers
-from ..samples.sample import Sample
+from ..samples.sample import COLORED, Sample
 from ..samples.stated_sigma import Names, StatedSigma
 from . import catalogs
 
@@ -43,7 +43,7 @@ class Asset:
     Parameters
     ----------
     name
-        Of the material, such as ``"Brick σ 20°"``.
+        Of the material, such as ``"Brick σ 20°"``; of a sample that keeps its own σ, ``"Brick"``.
     sample
         What it is made from.
     sigma
@@ -56,6 +56,28 @@ class Asset:
     sample: Sample
     sigma: float
     catalog: str
+
+
+def of_all(library: Path) -> list[Chosen]:
+    """Choose all samples that have a color: presets and the user's library.
+
+    Parameters
+    ----------
+    library
+        Folder of the user's library.
+
+    Raises
+    ------
+    InputError
+        A preset has a fault.
+    """
+    from ..samples import library as user_library
+
+    return [
+        Chosen(user_library.load(entry.id, library), catalogs.title(entry.id.rpartition("/")[0]))
+        for entry in user_library.entries(library)
+        if entry.kind in COLORED and entry.lab is not None
+    ]
 
 
 def of_collection(collection: str, library: Path | None = None) -> list[Chosen]:
@@ -152,7 +174,8 @@ def assets(
             if degrees != sample.sigma_degrees or sigma.slope:
                 about = sigma.source("given for the asset library.") if sigma.slope else CHOSEN
                 sample = replace(sample, sigma_degrees=degrees, sigma_source=about)
-            name = _name(sample.name, f" σ {degrees:g}°", taken, longest_name)
+            ending = f" σ {degrees:g}°" if stated else ""
+            name = _name(sample.name, ending, taken, longest_name)
             taken.add(name)
             made.append(Asset(name, sample, radians(degrees), item.catalog))
     if not made:
@@ -177,7 +200,7 @@ def _fault(sigma: StatedSigma) -> str:
 
 
 def _name(sample: str, ending: str, taken: set[str], longest: int) -> str:
-    """Give a name that fits and is not taken; σ stays, for it tells materials apart."""
+    """Give a name that fits and is not taken; an ending with σ stays: it tells materials apart."""
     number = 1
     while True:
         tail = ending if number == 1 else f" ({number}){ending}"

@@ -44,8 +44,10 @@ __all__ = [
     "gloss_at",
     "gloss_of",
     "new_material",
+    "put_gloss",
     "remove_gloss",
     "roughness_socket",
+    "set_sockets",
     "shader_node",
     "surface",
     "unscale",
@@ -143,7 +145,7 @@ def write(
         values[sockets.color] = color
     else:
         texture_scale.put(node.inputs[sockets.color], color, palette)
-    _set_sockets(node, values)
+    set_sockets(node, values)
     # What setting a socket would have done, but for looking through all trees of the file.
     place.material.node_tree.update_tag()
     place.material.update_tag()
@@ -169,6 +171,25 @@ def new_material(name: str) -> Any:
     return material
 
 
+def put_gloss(material: Any, gloss: Gloss) -> None:
+    """Set the gloss of the shader node that makes a material's surface, if its shader has any."""
+    node = shader_node(material)
+    if node is None or not OF_NODE[node.bl_idname].gloss:
+        return
+    fields = gloss._asdict()
+    node.distribution = "MULTI_GGX" if fields.pop("multiscatter") else "GGX"
+    names = OF_NODE[node.bl_idname].gloss
+    set_sockets(
+        node,
+        {
+            names[field]: value if isinstance(value, tuple) else (value,)
+            for field, value in fields.items()
+        },
+    )
+    material.node_tree.update_tag()
+    material.update_tag()
+
+
 def remove_gloss(place: SocketTarget) -> None:
     """Set the gloss to 0 of the node at a place that `find` gave, if it is there."""
     if place.node_name:
@@ -178,10 +199,10 @@ def remove_gloss(place: SocketTarget) -> None:
 
 
 def _without_gloss(node: Any) -> None:
-    _set_sockets(node, dict.fromkeys(OF_NODE[node.bl_idname].zeroed, (0.0,)))
+    set_sockets(node, dict.fromkeys(OF_NODE[node.bl_idname].zeroed, (0.0,)))
 
 
-def _set_sockets(node: Any, values: Mapping[str, Sequence[float]]) -> None:
+def set_sockets(node: Any, values: Mapping[str, Sequence[float]]) -> None:
     """Set the first numbers of sockets; all others of the node stay as they are, to the bit.
 
     To each `default_value` that is set Blender looks through all node trees of the file: 0.1 ms
@@ -375,7 +396,7 @@ def _make(place: SocketTarget) -> Any:
         locations = array("f", bytes(8 * len(tree.nodes)))
         tree.nodes.foreach_get("location", locations)
         locations[-2:] = array("f", at)  # the newest comes last
-        tree.nodes.foreach_set("location", locations)  # see `_set_sockets`
+        tree.nodes.foreach_set("location", locations)  # see `set_sockets`
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     if before is not None:
         before[_SET_ASIDE] = before.name

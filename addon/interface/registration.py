@@ -10,11 +10,11 @@ from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
-from . import operators
+from . import operators, shelf
 from .panels import menus, panels
 
 _OPERATORS = operators.modules()
-_MODULES = (properties, preferences, *_OPERATORS, panels)
+_MODULES = (properties, preferences, *_OPERATORS, panels, shelf)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 
@@ -35,6 +35,7 @@ def unregister() -> None:
     """Undo `register`, in reverse."""
     events.unregistering.announce()
     command_line.unregister()
+    shelf.unregister_timer()
     follow.unregister()
     menus.unregister()
     for module in reversed(_OPERATORS):

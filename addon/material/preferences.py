@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ...core.limits import TOLERANCE, TOLERANCES
 from .properties import ILLUMINANT_ITEMS, OBSERVER_ITEMS
@@ -71,6 +71,17 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
     )
 
+    show_shelf: BoolProperty(
+        name="Asset Shelf",
+        description="Show measured materials below the 3D view, to drag onto objects",
+        default=True,
+    )
+    shelf_folder: StringProperty(
+        name="Shelf Folder",
+        description="Folder of the asset library that was added to the preferences",
+        options={"HIDDEN"},
+    )
+
     def draw(self, _context: Any) -> None:
         """Draw all of them, in the order of use."""
         layout = self.layout
@@ -82,6 +93,8 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         column.prop(self, "observer")
         column.prop(self, "tolerance")
         layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
+        layout.prop(self, "show_shelf")
+        layout.operator("rough_spectra.show_presets", icon="ASSET_MANAGER")
 
 
 def defaults() -> Defaults:
@@ -92,6 +105,12 @@ def defaults() -> Defaults:
     chosen = addon.preferences
     folder = bpy.path.abspath(chosen.library_folder) if chosen.library_folder else ""
     return Defaults(chosen.illuminant, int(chosen.observer), round(chosen.tolerance, 5), folder)
+
+
+def shows_shelf() -> bool:
+    """Return whether the 3D view is to have an asset shelf of measured materials."""
+    addon = bpy.context.preferences.addons.get(PACKAGE)
+    return addon is None or addon.preferences is None or bool(addon.preferences.show_shelf)
 
 
 def user_folder() -> Path:

@@ -40,9 +40,9 @@ from .snapshot import (
 
 _DETAILS = (
     *("license", "position", "device", "condition", "illuminant", "observer", "lab", "xyz"),
-    *("quantity", "geometry", "aperture", "specular", "surface", "called"),
+    *("quantity", "geometry", "aperture", "specular", "surface", "called", "gloss_source"),
 )
-_NEWER = {"surface", "called"}
+_NEWER = {"surface", "called", "gloss_source"}
 """Details that are written only where there are any: earlier materials are as they were."""
 _SENTENCES = ("notes", "altered")
 _SET = ("others", "gloss")

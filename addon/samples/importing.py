@@ -87,6 +87,12 @@ def relative_to(found: Iterable[Found], white: str | None, factor: object) -> li
     return [replace(each, sample=stated_white.given(each.sample, white, factor)) for each in found]
 
 
+def common_name(found: Iterable[Found]) -> str:
+    """Name a collection for the samples of several files: as their folder, or the first one's."""
+    first = next(iter(found))
+    return library_files.collection_name(first.path.resolve().parent.name or first.path.stem)
+
+
 def add(found: Sequence[Found], collection: str, folder: Path) -> list[Added]:
     """Add samples to the library, all of them or none.
 

@@ -117,7 +117,9 @@ class Sample:
         What the file calls this reading, where the set of it has another name.
     gloss
         Gloss units by angle, pairs of degrees and units, by increasing angle; ISO 2813 has 20, 60
-        and 85 degrees.
+        and 85 degrees. What is matte has none.
+    gloss_source
+        Where the gloss, or that there is none, comes from.
 
     Raises
     ------
@@ -155,6 +157,7 @@ class Sample:
     called: str = ""
     others: tuple[Sample, ...] = ()
     gloss: tuple[tuple[float, float], ...] = ()
+    gloss_source: str = ""
 
     @property
     def readings(self) -> tuple[Sample, ...]:
@@ -261,7 +264,7 @@ _HOLDS = {"reading": "a reading", "albedo": "an albedo", "emissivity": "emissivi
 _TEXTS = (
     *("name", "quantity", "geometry", "aperture", "specular", "sigma_source", "source"),
     *("license", "position", "device", "condition", "illuminant", "white", "plaque"),
-    *("surface", "called"),
+    *("surface", "called", "gloss_source"),
 )
 _texts_of = attrgetter(*_TEXTS)
 

@@ -50,7 +50,9 @@ def by_name(samples: Sequence[Sample]) -> dict[str, Sample]:
         for other in sample.others:
             found.setdefault(other.name, other)
         if sample.called:
-            alone = replace(sample, name=sample.called, called="", others=(), gloss=())
+            alone = replace(
+                sample, name=sample.called, called="", others=(), gloss=(), gloss_source=""
+            )
             found.setdefault(sample.called, alone)
     return found
 

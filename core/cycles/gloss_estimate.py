@@ -97,6 +97,12 @@ def readings(gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,)) -> G
     (0.021, 38.3)
     """
     included, excluded = (gloss_sphere.layer(gloss, find(name)) for name in ("di:8", "de:8"))
+    sci, sce = (float(each.over(np.full(3, diffuse)).mean()) for each in (included, excluded))
+    return GlossReadings(sci, sce, _units(gloss, diffuse, angles))
+
+
+def _units(gloss: Gloss, diffuse: float, angles: tuple[int, ...]) -> dict[int, float]:
+    """Predict what gloss meters read."""
     units = {}
     for angle in angles:
         meter = meters.find(angle)
@@ -105,8 +111,7 @@ def readings(gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,)) -> G
         body = found.passed * diffuse * _share(meter)
         seen = weights @ (found.shine + body).mean(axis=-1)
         units[angle] = float(100 * seen / meters.black_glass(meter))
-    sci, sce = (float(each.over(np.full(3, diffuse)).mean()) for each in (included, excluded))
-    return GlossReadings(sci, sce, units)
+    return units
 
 
 def estimate(
@@ -177,7 +182,10 @@ def _best(
         tried = gloss._replace(level=node)
         whole = gloss_sphere.layer(tried, find("di:8"))
         diffuse = float(np.maximum(whole.below(np.full(3, sci)), 0).mean())
-        found = _told(readings(tried, diffuse, angles))
+        if "trap" in wanted:
+            found = _told(readings(tried, diffuse, angles))
+        else:
+            found = _told(GlossReadings(sci, units=_units(tried, diffuse, angles)))
         table.append([found[name] for name in wanted])
     goal = np.array(list(wanted.values()))
     levels = np.array(nodes) if level is not None else np.linspace(nodes[0], nodes[-1], _FINE)

@@ -52,7 +52,7 @@ default at the end breaks none; any other change does, and belongs in the change
 FIELDS = {
     "Sample": "name wavelengths values kind quantity instrument geometry aperture specular "
     "sigma_degrees sigma_source source license position device condition illuminant observer lab "
-    "xyz notes altered white white_factor plaque surface called others gloss",
+    "xyz notes altered white white_factor plaque surface called others gloss gloss_source",
     "Request": "sample sigma model illuminant observer scene flat tolerance read_at gloss",
     "Solution": "color roughness target model model_reason delta_e_instrument delta_e_mean "
     "delta_e_95 delta_e_lambert shader_reason warnings sigma_max delta_e_lights scene_reason",

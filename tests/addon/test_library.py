@@ -98,6 +98,7 @@ FULL = Sample(
         Sample('Gips "rauh"\n石膏 \U0001f9f1', [400.0, 700.0], [0.1, 0.2], "reading", "di:8"),
     ),
     gloss=((20.0, 1 / 3), (60.0, 23.5), (85.0, 90.0)),
+    gloss_source="By a meter.",
 )
 
 

@@ -36,12 +36,13 @@ SET = Sample(
     surface="rough",
     others=OTHERS,
     gloss=((20.0, 1 / 3), (60.0, 23.5)),
+    gloss_source="By a meter.",
 )
 
 
 def check(material):
     found = storage.load(material).sample
-    assert found.gloss == SET.gloss
+    assert (found.gloss, found.gloss_source) == (SET.gloss, SET.gloss_source)
     assert found.surface == "rough"
     for other, wanted in zip(found.others, OTHERS, strict=True):
         np.testing.assert_array_equal(other.values, wanted.values)

@@ -28,6 +28,7 @@ NO_CACHES = {
     ("addon/preview/icons.py", "_pending"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
+    ("addon/interface/shelf.py", "_asked"),
     # On the list, in the order of use.
     ("addon/material/derivation.py", "_known"),
     # On the list as one, because Blender holds the pictures.

@@ -407,7 +407,7 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
     menu = found["drawn"][: found["drawn"].index("rough_spectra.bake") + 1]
     groups = " ".join(name.removeprefix("rough_spectra.") for name in menu).split(" - ")
     assert groups[1:] == [
-        "analyze_scene renew keep estimate_sigma remove_gloss remove_scale wave",
+        "analyze_scene renew keep estimate_sigma make_local remove_gloss remove_scale wave",
         "measure bake",
     ]
 

@@ -209,3 +209,13 @@ def test_first_list(scene):
     assert "Foliage" in scene["chosen"]
     for step in ("opened", "typed", "assigned"):
         assert scene[step] < 0.2, step
+
+
+def test_dragging_from_the_shelf(scene):
+    assert scene["libraries"] == ["APPEND"]
+    assert scene["names"][1].startswith(f"{scene['sample']}.")  # each drag is a copy of its own
+    assert scene["names"][0] == scene["sample"]
+    assert scene["preset"]
+    assert scene["here"] == [True, True]
+    assert scene["state"] == "fresh"
+    assert scene["browser"] == [True, True]

@@ -4,21 +4,28 @@
 
 import json
 import re
+from math import radians
 from pathlib import Path
 
 import numpy as np
 import pytest
+from rough_spectra.addon.colorimetry import rgb_space, srgb, tristimulus
+from rough_spectra.addon.matching import own_gloss, solve
+from rough_spectra.addon.matching.request import Request
 from rough_spectra.addon.samples import (
     preset_validation,
     presets,
     quality,
     readers,
 )
+from rough_spectra.addon.samples.readers.formats import library as library_format
+from rough_spectra.core.color import color_difference
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "presets" / "schema.json").read_text("utf-8"))
 BUNDLED = sorted((ROOT / "presets").glob("*/*.json"))
 EVERYDAY = [name for name in presets.names() if name.startswith("everyday/")]
+REC709 = rgb_space.WorkingSpace("Linear Rec.709", srgb.FROM_XYZ)
 BRICK = json.loads((ROOT / "presets" / "everyday" / "brick.json").read_text("utf-8"))
 
 TYPES = {"string": str, "array": list, "object": dict, "number": (int, float), "null": type(None)}
@@ -49,8 +56,14 @@ def allowed(schema, value):
                 not isinstance(value, list) or all(allowed(demand, item) for item in value)
             ),
             "required": lambda demand=demand: all(name in value for name in demand),
-            "properties": lambda demand=demand: all(
-                allowed(demand[name], item) for name, item in value.items() if name in demand
+            "dependentRequired": lambda demand=demand: all(
+                name not in value or set(others) <= set(value) for name, others in demand.items()
+            ),
+            "properties": lambda demand=demand: (
+                not isinstance(value, dict)
+                or all(
+                    allowed(demand[name], item) for name, item in value.items() if name in demand
+                )
             ),
             "anyOf": lambda demand=demand: any(allowed(each, value) for each in demand),
             "additionalProperties": lambda: set(value) <= set(schema["properties"]),
@@ -70,6 +83,7 @@ def test_every_bundled_preset_is_valid_and_without_remark(path):
 
 def test_the_everyday_ones_are_those_that_were_asked_for():
     names = {name.partition("/")[2] for name in EVERYDAY}
+    assert len(names) >= 60
     wanted = {"plaster", "chalk", "brick", "terracotta", "concrete", "sand", "paper", "clay"}
     assert names >= wanted | {"cloth"}
 
@@ -81,6 +95,9 @@ def test_an_everyday_preset_says_where_everything_comes_from(name):
     assert "https://" in sample.source
     assert sample.license in ("CC0-1.0", "public domain (U.S. Geological Survey)")
     assert re.match(rf"Estimate, not measured: {sample.sigma_degrees:.0f}°,", sample.sigma_source)
+    units = f"{sample.gloss[0][1]:.0f} units at 60°" if sample.gloss else "none"
+    assert re.match(rf"Estimate, not measured: {units},", sample.gloss_source)
+    assert sample.altered == ()
     assert sample.wavelengths[0] <= 400
     assert sample.wavelengths[-1] >= 700
     assert quality.check([sample]) == [()]
@@ -103,6 +120,28 @@ def test_numbers_are_exactly_those_of_the_nix_export(slug):
         if label.startswith("R4") or re.match(r"R\d+ nm", label)
     }
     assert found == dict(zip(sample.wavelengths.tolist(), sample.values.tolist(), strict=True))
+
+
+def test_an_everyday_preset_reads_as_the_device_said_and_is_in_the_gamut():
+    """The Nix's own L*a*b* is independent of ours; Rec.709 and the preset's own gloss bound it."""
+    samples = [presets.load(name) for name in EVERYDAY]
+    requests = [
+        Request(sample, radians(sample.sigma_degrees), gloss=own_gloss.of_sample(sample))
+        for sample in samples
+    ]
+    assert {sample.name for sample in samples if sample.gloss} == {
+        request.sample.name for request in requests if request.gloss
+    }
+    solutions = solve.solve(requests, REC709)
+    for request, found in zip(requests, solutions, strict=True):
+        assert found.warnings == (), request.sample.name
+        assert found.delta_e_instrument < 0.002, request.sample.name
+    nix = [sample for sample in samples if sample.lab]
+    assert len(nix) == 16
+    for sample in nix:
+        weights = tristimulus.weights(sample.wavelengths, sample.illuminant, sample.observer)
+        lab = color_difference.xyz_to_lab(sample.reflectance @ weights, weights.sum(axis=0))
+        assert float(color_difference.delta_e(lab, np.array(sample.lab))) < 0.02, sample.name
 
 
 def test_numbers_of_the_geological_survey_by_hand():
@@ -140,6 +179,12 @@ CHANGES = [
     ("lab", [1, 2, "3"]),
     ("id", "Everyday/Brick"),
     ("nmae", "Brick"),
+    ("gloss", {}),
+    ("gloss", {"60": 5, "85": 2100}),
+    ("gloss", {"60": 2100.5}),
+    ("gloss", {"60": "5"}),
+    ("gloss", {"60": True}),
+    ("gloss", {"30": 5}),
     ("rdq", 1.7321),
 ]
 
@@ -188,6 +233,35 @@ def test_optional_fields_reach_the_sample():
     assert (brick.illuminant, brick.observer) == ("D50", 2)
     assert brick.lab == pytest.approx((42.8292362, 21.1443305, 19.6993482))
     assert presets.load("plaster").notes[0].startswith("The sample is ground gypsum")
+
+
+def test_gloss_and_its_source_are_read_and_kept_by_a_library(tmp_path):
+    path = tmp_path / "egg.json"
+    fields = {**BRICK, "gloss": {"85": 9, "60": 2.5}, "gloss_source": "By a meter."}
+    path.write_text(json.dumps(fields), "utf-8")
+    [egg] = readers.read(path)
+    assert (egg.gloss, egg.gloss_source) == (((60.0, 2.5), (85.0, 9.0)), "By a meter.")
+    again = library_format.sample_of(library_format.record(egg), "egg")
+    assert (again.gloss, again.gloss_source) == (egg.gloss, egg.gloss_source)
+
+
+def test_gloss_without_a_source_is_a_fault(tmp_path):
+    path = tmp_path / "egg.json"
+    fields = {**BRICK, "gloss": {"60": 2.5}}
+    fields.pop("gloss_source", None)
+    path.write_text(json.dumps(fields), "utf-8")
+    assert not allowed(SCHEMA, fields)
+    [sentence] = preset_validation.validate(path).faults
+    assert "field 'gloss_source': it is missing beside 'gloss'" in sentence
+
+
+def test_a_preset_of_an_earlier_version_has_no_gloss(tmp_path):
+    path = tmp_path / "old.json"
+    old = {key: value for key, value in BRICK.items() if not key.startswith("gloss")}
+    path.write_text(json.dumps(old), "utf-8")
+    assert preset_validation.validate(path).faults == ()
+    [sample] = readers.read(path)
+    assert (sample.gloss, sample.gloss_source) == ((), "")
 
 
 def test_the_verb_reports_every_file_and_fails(tmp_path, capsys):

@@ -11,7 +11,9 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.assets import build, catalogs, plan, previews
-from rough_spectra.addon.material import storage
+from rough_spectra.addon.interface.operators import build_assets
+from rough_spectra.addon.material import preferences, storage
+from rough_spectra.addon.samples import library as user_library
 from rough_spectra.addon.samples import presets
 from rough_spectra.core.errors import CancelledError, InputError, OutputError
 
@@ -103,7 +105,7 @@ def test_an_asset_carries_its_spectrum(appended):
     assert (brick.sample.source, brick.sample.lab) == (bundled.source, bundled.lab)
     assert degrees(brick.sigma) == pytest.approx(35.5)
     assert brick.sample.sigma_source == plan.CHOSEN
-    assert found["Brick σ 35.5°"].node_tree.nodes.keys() == ["Material Output", "Diffuse BSDF"]
+    assert found["Brick σ 35.5°"].node_tree.nodes.keys() == ["Material Output", "Principled BSDF"]
 
 
 def test_an_asset_says_what_it_is(library, appended):
@@ -120,8 +122,9 @@ def test_an_asset_says_what_it_is(library, appended):
     lines = asset.description.splitlines()
     assert lines[0] == f"σ 35.5°: {plan.CHOSEN}"
     assert lines[1].startswith("Predicted ΔE00: 0.00 at 45°/0°, over all angles mean 0.")
-    assert lines[2].startswith("Source: Physically Based database")
-    assert lines[3] == SENTENCE
+    assert lines[2].startswith("Gloss: Estimate, not measured: none")
+    assert lines[3].startswith("Source: Physically Based database")
+    assert lines[4] == SENTENCE
 
 
 def test_previews_are_balls_that_show_the_roughness(appended):
@@ -199,6 +202,7 @@ def test_a_sample_keeps_its_own_sigma_where_none_is_chosen(tmp_path):
     [brick] = plan.assets([plan.of_name("everyday/brick")], [], 63)
     assert degrees(brick.sigma) == pytest.approx(20)
     assert brick.sample.sigma_source.startswith("Estimate")
+    assert brick.name == "Brick"  # nothing to tell apart by σ
     [again] = plan.assets([plan.of_name("everyday/brick")], [20], 63)
     assert again.sample.sigma_source == brick.sample.sigma_source
     path = spectrum_csv(tmp_path / "paper.csv", "paper")
@@ -283,9 +287,29 @@ def test_bad_words_on_the_command_line_write_nothing(main, tmp_path):
     assert not output.exists()
 
 
-def test_the_operator_says_what_is_wrong_with_sigma(extension, tmp_path):
+@pytest.mark.parametrize("collection", ["everyday", "*"])
+def test_the_operator_says_what_is_wrong_with_sigma(extension, tmp_path, collection):
     with pytest.raises(RuntimeError, match="give degrees with blanks between them"):
         bpy.ops.rough_spectra.build_assets(
-            directory=str(tmp_path), collection="everyday", sigmas="ten"
+            directory=str(tmp_path), collection=collection, sigmas="ten"
         )
     assert list(tmp_path.iterdir()) == []
+
+
+def test_all_are_the_presets_and_the_users_own(extension, tmp_path, monkeypatch):
+    monkeypatch.setattr(preferences, "user_folder", lambda: tmp_path)
+    wall = replace(presets.load("plaster"), name="My wall")
+    heat = replace(wall, name="My wall, warm", kind="emissivity")
+    user_library.add([wall, heat], "walls", tmp_path)
+    user_library.contents(tmp_path)
+    items = build_assets.collection_items(None, None)
+    assert [(name, label) for name, label, _ in items] == [
+        ("*", "All"),
+        ("colorchecker", "ColorChecker (Bundled)"),
+        ("everyday", "Everyday (Bundled)"),
+        ("walls", "Walls (Yours)"),
+    ]
+    chosen = plan.of_all(tmp_path)
+    # An emissivity has no color, of which no material is made.
+    assert len(chosen) == len(presets.names()) + 1
+    assert (chosen[-1].sample.name, chosen[-1].catalog) == ("My wall", "Walls")

@@ -63,6 +63,22 @@ def test_operator_adds_several_files_at_once(folder, two):
     assert not bpy.data.materials
 
 
+def test_many_files_make_one_collection_if_wished(folder, two, tmp_path):
+    place = tmp_path / "Site 7"
+    place.mkdir()
+    shutil.copy(BRICK, place)
+    shutil.copy(two, place)
+    files = [{"name": "two.csv"}, {"name": "brick.csv"}]
+    OPS.import_samples("EXEC_DEFAULT", directory=str(place), files=files, together=True)
+    assert own(folder) == ["Site 7/plaster", "Site 7/chalk", "Site 7/brick"]
+    batch = importing.read([two, BRICK])
+    review(batch, [True, False, True], together=True, collection="named")
+    assert [name for name in own(folder) if name.startswith("named")] == [
+        "named/plaster",
+        "named/brick",
+    ]
+
+
 def test_operator_refuses_all_for_one_broken_file_unless_told_otherwise(folder, two, broken):
     files = [{"name": two.name}, {"name": broken.name}]
     options = {"directory": str(two.parent), "files": files}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write the manual's table of everyday presets: swatch, σ and what it matters, source.
+"""Write the manual's table of everyday presets: swatch, σ and what it matters, gloss, source.
 
     python -m tools.manual.presets_table [FILE]
 
@@ -31,8 +31,8 @@ from rough_spectra.core.numerics import direction_grid
 FILE = ROOT / "docs" / "presets-table.md"
 COLLECTION = "everyday"
 
-HEAD = "| | id | name | σ, estimated | ΔE00 of ±10° | because | spectrum |"
-RULE = "|---|---|---|---|---|---|---|"
+HEAD = "| | id | name | σ, estimated | ΔE00 of ±10° | because | gloss, estimated | spectrum |"
+RULE = "|---|---|---|---|---|---|---|---|"
 
 STEP = np.radians(10)
 """One step of the estimates."""
@@ -68,9 +68,15 @@ def row(name: str, sample: Any, hexadecimal: str) -> str:
     file = re.search(r"'([^']+)'$", sample.source)
     origin = "Physically Based" if sample.license == "CC0-1.0" else "USGS splib07"
     why = sample.sigma_source.partition("because ")[2]
+    gloss = "none"
+    if sample.gloss:
+        [(angle, units)] = sample.gloss
+        shine = sample.gloss_source.partition("because ")[2]
+        gloss = f"{units:g} GU at {angle:g}°: {shine}"
     return (
         f"| {swatch} | `{name.partition('/')[2]}` | {sample.name} | {sample.sigma_degrees:g}° | "
-        f"{difference_of_a_step(sample):.1f} | {why} | {origin}: `{file[1] if file else ''}` |"
+        f"{difference_of_a_step(sample):.1f} | {why} | {gloss} | "
+        f"{origin}: `{file[1] if file else ''}` |"
     )
 
 

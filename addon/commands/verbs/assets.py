@@ -62,9 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--illuminant", choices=ILLUMINANTS, default="D65")
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2)
     parser.add_argument("--model", choices=("auto", *NAMES), default="auto")
-    default = shaders.DEFAULT.name.lower()
     parser.add_argument(
-        "--shader", choices=[name.lower() for name in shaders.NAMES], default=default
+        "--shader", choices=[name.lower() for name in shaders.NAMES], default="principled"
     )
     parser.add_argument("--author", metavar="NAME", help="author of the assets")
 

@@ -8,14 +8,21 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ....core.errors import InputError
 from . import background
+from .import_options import waiting
 
 _items: list[tuple[str, str, str]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
+
+
+_ALL = "*"
+"""Identifier that no collection has."""
 
 
 def collection_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
@@ -26,10 +33,17 @@ def collection_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]
 
     known = library.cached(preferences.user_folder())
     ids = presets.names() if known is None else [entry.id for entry in known.entries]
+    bundled = set(presets.collections())
     _items[:] = [
-        (name, catalogs.title(name), f"All samples of {catalogs.title(name)}")
-        for name in dict.fromkeys(name.rpartition("/")[0] for name in ids)
+        (_ALL, iface_("All"), tip_("Every sample that came with Rough Spectra, and yours"))
     ]
+    for name in dict.fromkeys(name.rpartition("/")[0] for name in ids):
+        title = catalogs.title(name)
+        if name in bundled:
+            label, about = iface_("{} (Bundled)"), tip_("Samples that came with Rough Spectra")
+        else:
+            label, about = iface_("{} (Yours)"), tip_("Samples of your library")
+        _items.append((name, label.format(title), about))
     return _items
 
 
@@ -64,7 +78,12 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
     )
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
-        """Let the user choose the folder."""
+        """Let the user choose the folder, and what of presets and library."""
+        from ...material import preferences
+        from ...samples import library
+
+        with waiting(context):
+            library.contents(preferences.user_folder())
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -77,7 +96,11 @@ class ROUGHSPECTRA_OT_build_assets(background.InBackground, bpy.types.Operator):
             msg = "No folder was chosen for the asset library; choose one."
             raise InputError(msg)
         self._folder = Path(bpy.path.abspath(self.directory))
-        chosen = plan.of_collection(self.collection, preferences.user_folder())
+        folder = preferences.user_folder()
+        if self.collection == _ALL:
+            chosen = plan.of_all(folder)
+        else:
+            chosen = plan.of_collection(self.collection, folder)
         assets = plan.assets(chosen, _degrees(self.sigmas), build.LONGEST_NAME)
         return build.Build(assets, self._folder)
 

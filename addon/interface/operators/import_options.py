@@ -38,6 +38,10 @@ class ImportOptions(common.WhiteOptions, common.AssignOptions):
     collection: StringProperty(
         name="Collection", description="Where in the library; empty takes each file's name"
     )
+    together: BoolProperty(
+        name="One Collection",
+        description="Put the samples of all files into one collection, called as their folder",
+    )
     materials: EnumProperty(
         name="Materials", description="What to make of the samples", items=MATERIALS_ITEMS
     )
@@ -67,7 +71,10 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
         white = common.stated_white(operator)
         active, *chosen = importing.relative_to((active, *chosen), *white)
         if operator.add_to_library:
-            added = importing.add(chosen, operator.collection, preferences.user_folder())
+            collection = operator.collection or (
+                importing.common_name(chosen) if operator.together else ""
+            )
+            added = importing.add(chosen, collection, preferences.user_folder())
             said = importing.summary(added)
         if operator.materials == "ASSIGN":
             request = common.new_request(active.sample, _sigma(operator, active.sample))

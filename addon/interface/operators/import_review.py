@@ -142,6 +142,10 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         column = layout.column()
         column.enabled = self.add_to_library
         column.prop(self, "collection", placeholder="Names of the files")
+        if _batch and len({each.path for each in _batch[0].found}) > 1:
+            row = column.row()
+            row.enabled = not self.collection  # that is one already
+            row.prop(self, "together")
         layout.prop(self, "materials", expand=True)
         for name, label in (("sigma", "σ Unless Stated"), ("shader", "Shader")):
             row = layout.row()

@@ -95,7 +95,15 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files."""
-        names = ("add_to_library", "collection", "materials", "sigma", "shader", "scope")
+        names = (
+            "add_to_library",
+            "collection",
+            "together",
+            "materials",
+            "sigma",
+            "shader",
+            "scope",
+        )
         common.draw_in_browser(self, (*names, "keep_going"))
 
     def _paths(self) -> list[Path]:
@@ -112,6 +120,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             batch,
             add_to_library=self.add_to_library,
             collection=self.collection,
+            together=self.together,
             materials=self.materials,
             sigma=self.sigma,
             white=self.white,

@@ -49,6 +49,7 @@ _DAMAGED = (
 _SHOWN = (
     *(("device", "Device"), ("geometry", "Geometry"), ("aperture", "Aperture")),
     *(("condition", "Condition"), ("specular", "Specular"), ("license", "License")),
+    ("gloss_source", "Gloss from"),
 )
 
 

@@ -7,7 +7,8 @@ objects with the fields of `Sample`, of which ``name``, ``kind``, ``wavelengths`
 ``values`` (fractions) are needed. ``rdq`` or ``sdq`` may state the roughness instead of
 ``sigma_degrees``. ``others`` holds further readings of the same surface, objects as the samples, of
 which ``values`` are needed: ``name`` and ``wavelengths`` are the sample's where they aren't given.
-``gloss`` holds gloss units by the angle, as in ``{"60": 23.5}``. A sample's ``id`` tells it from
+``gloss`` holds gloss units by the angle, as in ``{"60": 23.5}``, and ``gloss_source`` says where
+they come from. A sample's ``id`` tells it from
 the others of the file. Other fields may stand beside them, and stay there when the library is
 written again.
 """

@@ -59,6 +59,7 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         lambda band: f"number {band + 1}",
     )
     sigma = stated_sigma(fields)
+    gloss = fields.get("gloss", {})
     optional: dict[str, Any] = {
         name: tuple(fields[name]) if isinstance(fields[name], list) else fields[name]
         for name in _OPTIONAL
@@ -74,6 +75,8 @@ def sample_of(document: Document, fields: dict[str, Any]) -> Sample:
         sigma_source=sigma.source(fields["sigma_source"]),
         source=fields["source"],
         license=fields["license"],
+        gloss=tuple((float(angle), float(gloss[angle])) for angle in sorted(gloss)),
+        gloss_source=fields.get("gloss_source", ""),
         **optional,
         **white_fields(fields.get("white"), fields.get("white_factor"))[0],
     )

@@ -188,8 +188,11 @@ def _joint(members: list[Sample], marks: list[Mark]) -> Sample | None:
     if len(stated) > 1:
         return None
     main = min(members, key=rank)
-    others = tuple(replace(member, gloss=()) for member in members if member is not main)
+    others = tuple(
+        replace(member, gloss=(), gloss_source="") for member in members if member is not main
+    )
     name = _name(main, members, marks)
+    of_gloss = next((m for m in members if m.gloss and m.gloss_source), main)
     of_sigma = next((m for m in members if m.sigma_degrees in stated), main)
     return replace(
         main,
@@ -197,6 +200,7 @@ def _joint(members: list[Sample], marks: list[Mark]) -> Sample | None:
         called="" if main.name == name else main.name,
         others=others,
         gloss=tuple(gloss.items()),
+        gloss_source=of_gloss.gloss_source,
         sigma_degrees=of_sigma.sigma_degrees,
         sigma_source=of_sigma.sigma_source,
         notes=(_note(main, others), *main.notes),

@@ -17,7 +17,7 @@ from typing import Any
 from .....core import white_scale
 from .....core.instruments import REGISTRY
 from .....core.limits import LARGEST_SIGMA_DEGREES, MATCHED_SIGMA_DEGREES, sigma_fault
-from ...sample import KINDS, KINDS_NAMED
+from ...sample import KINDS, KINDS_NAMED, MOST_GLOSS_UNITS
 from ...stated_sigma import FIELDS, StatedSigma
 from ...stated_white import PLAQUES
 from ...stated_white import fields as white_fields
@@ -27,6 +27,8 @@ FORMAT = "rough-spectra-preset"
 SCHEMA = 1
 
 _WHITE = ("white", "white_factor")
+_GLOSS_ANGLES = ("20", "45", "60", "75", "85")
+"""Degrees of gloss meters: ISO 2813, and the papers' 75 and films' 45."""
 _ID = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*/[a-z0-9]+(-[a-z0-9]+)*")
 
 
@@ -64,6 +66,8 @@ def faults(fields: dict[str, Any]) -> Iterator[tuple[str, str]]:
         name, fault = stated_sigma(fields).fault()
         if fault:
             yield name, fault
+    if "gloss" in fields and "gloss_source" not in fields:
+        yield "gloss_source", f"it is missing beside 'gloss' and {RULES['gloss_source'].demand}"
     if all(RULES[name].fault(fields[name]) == "" for name in _WHITE if name in fields):
         white, fault = white_fields(*map(fields.get, _WHITE))
         instrument: Any = fields.get("instrument")
@@ -140,6 +144,13 @@ def _is_sigma(value: Any) -> bool:
     return value is None or (is_number(value) and 0 <= value <= LARGEST_SIGMA_DEGREES)
 
 
+def _is_gloss(value: Any) -> bool:
+    return isinstance(value, dict) and all(
+        angle in _GLOSS_ANGLES and is_number(units) and 0 <= units <= MOST_GLOSS_UNITS
+        for angle, units in value.items()
+    )
+
+
 def _is_texts(value: Any) -> bool:
     return isinstance(value, list) and all(isinstance(text, str) and text for text in value)
 
@@ -179,6 +190,12 @@ RULES: dict[str, Rule] = {
     "rdq": _rule(is_number, "must be a number, the rms slope of a profile"),
     "sdq": _rule(is_number, "must be a number, the rms slope of an area"),
     "sigma_source": _text(required=True),
+    "gloss": _rule(
+        _is_gloss,
+        f"must hold gloss units, 0 to {MOST_GLOSS_UNITS:.0f}, by the angle, one of "
+        f"{', '.join(map(repr, _GLOSS_ANGLES))}; {{}} for none",
+    ),
+    "gloss_source": _text(),
     "quantity": _text(),
     "geometry": _text(),
     "aperture": _text(),
