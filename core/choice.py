@@ -69,7 +69,7 @@ def choose_shader(
     >>> choice.model, choice.error
     ('rough', 0.3)
     >>> choice.reason
-    'rough: at worst ΔE00 0.30 off, within the 1 allowed; without roughness it would be 2.50.'
+    'rough: ΔE00 0.30 in the worst direction, within the 1 allowed; without roughness 2.50.'
     """
     lambert, rough = (
         float(np.max(np.where(np.isfinite(e), e, np.inf)))
@@ -79,14 +79,15 @@ def choose_shader(
     limit = f"the {tolerance:g} allowed"
     kept = " with gloss, which is kept as it is set" if gloss else ""
     if lambert <= tolerance:
-        reason = f"lambert{kept}: at worst ΔE00 {_number(lambert, tolerance)} off, within {limit}."
+        worst = _number(lambert, tolerance)
+        reason = f"lambert{kept}: ΔE00 {worst} in the worst direction, within {limit}."
         return Choice("lambert", lambert, errors, reason)
     model = "rough" if rough <= tolerance or rough < lambert else "lambert"
     other = SHADERS[1 - SHADERS.index(model)]
     reason = (
-        f"{model}{kept}: at worst ΔE00 {_number(errors[model], tolerance)} off, "
+        f"{model}{kept}: ΔE00 {_number(errors[model], tolerance)} in the worst direction, "
         f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
-        f"{'without' if model == 'rough' else 'with'} roughness it would be "
+        f"{'without' if model == 'rough' else 'with'} roughness "
         f"{_number(errors[other], tolerance)}."
     )
     return Choice(model, errors[model], errors, reason)

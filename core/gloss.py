@@ -15,6 +15,9 @@ Tint = tuple[float, float, float]
 
 WHITE: Tint = (1.0, 1.0, 1.0)
 
+IMPOSSIBLE = "cannot have this gloss"
+"""In the sentence that says so of a sample, by which it is known again."""
+
 
 class Gloss(NamedTuple):
     """The sockets of a Principled BSDF that decide its gloss, named as Blender names them.

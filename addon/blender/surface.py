@@ -66,6 +66,11 @@ class Surface(NamedTuple):
         by_another = self.color_linked and not self.scaled
         return [sockets.color] * by_another + [sockets.roughness] * self.roughness_linked
 
+    @property
+    def gloss_linked(self) -> bool:
+        """Whether another node sets the gloss, so that it is not one."""
+        return any(name in self.disturbing for name in OF_NODE[self.shader].gloss.values())
+
 
 def shader_node(material: Any) -> Any | None:
     """Give the target shader's node behind the active output, or None."""

@@ -11,7 +11,7 @@ from ..commands import command_line
 from ..material import follow, preferences, properties
 from ..support import events
 from . import operators, shelf
-from .panels import menus, panels
+from .panels import menus, panels, shading
 
 _OPERATORS = operators.modules()
 _MODULES = (properties, preferences, *_OPERATORS, panels, shelf)
@@ -27,6 +27,7 @@ def register() -> None:
         if hasattr(module, "register_menu"):
             module.register_menu()
     menus.register(classes)
+    shading.register()
     follow.register()
     command_line.register()
 
@@ -37,6 +38,7 @@ def unregister() -> None:
     command_line.unregister()
     shelf.unregister_timer()
     follow.unregister()
+    shading.unregister()
     menus.unregister()
     for module in reversed(_OPERATORS):
         if hasattr(module, "unregister_menu"):

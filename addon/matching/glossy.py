@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.cycles import gloss_lobe, gloss_reading, instrument_lobe
 from ...core.cycles.gloss_lobe import Layer
-from ...core.gloss import Gloss
+from ...core.gloss import IMPOSSIBLE, Gloss
 from ...core.numerics.arrays import Array
 
 _ENOUGH = 1e-6
@@ -124,7 +124,7 @@ def warning(
             f"{alone.over(white)[channel]:.4f}"
         )
     possible = _possible(gloss, reading, white, instrument)
-    return f"{name!r} cannot have this gloss: it {why}; {possible}."
+    return f"{name!r} {IMPOSSIBLE}: it {why}; {possible}."
 
 
 def too_much(name: str, gloss: Gloss | None, reading: Array, instrument: str) -> str:

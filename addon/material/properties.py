@@ -8,6 +8,8 @@ would change measured values. `storage` reads and writes all of this.
 
 from __future__ import annotations
 
+from typing import Any
+
 from bpy.props import (
     BoolProperty,
     EnumProperty,
@@ -22,7 +24,7 @@ from bpy.types import Material, PropertyGroup
 from ...core import limits, models, white_scale
 from ...core.instruments import DEFAULT, REGISTRY
 from ..matching import shaders
-from . import changes
+from . import changes, gloss
 
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
@@ -131,6 +133,14 @@ WHITE_FACTOR = {
 """The white of a reading, wherever it is asked for."""
 
 
+def _gloss(group: Any) -> float:
+    return gloss.shown(group.id_data)
+
+
+def _put_gloss(group: Any, value: float) -> None:
+    gloss.put(group.id_data, value)
+
+
 class RoughSpectraMaterial(PropertyGroup):
     """Measured spectrum of a material, its roughness, and what was derived from them."""
 
@@ -162,6 +172,19 @@ class RoughSpectraMaterial(PropertyGroup):
         name="Viewport Color",
         description="What we set as the color of solid shading; another one is the user's",
         default=(-1.0, -1.0, -1.0),
+    )
+    gloss: FloatProperty(
+        name="Gloss",
+        description="How sharp the shine is, from 0, which is matte, to that of a mirror; how "
+        "strong it is, Specular IOR Level, stays as it was set, and so does the coat",
+        subtype="FACTOR",
+        precision=2,
+        min=0.0,
+        max=1.0,
+        get=_gloss,
+        set=_put_gloss,
+        update=changes.on_setting,
+        options=set(),  # what it sets can be animated, and it would be set twice
     )
     illuminant: EnumProperty(
         name="Illuminant",

@@ -54,6 +54,14 @@ def with_spectrum() -> list[Any]:
     return sorted(found, key=lambda m: (m.name, str(m.library)))
 
 
+def in_use(materials: Iterable[Any]) -> list[Any]:
+    """Leave out materials that nothing uses any more: Blender keeps them until the file is saved.
+
+    For who clicked that they go, they are deleted.
+    """
+    return [material for material in materials if material.users > 0]
+
+
 def surfaces(materials: Sequence[str], objects: Sequence[str]) -> list[tuple[str, Any]]:
     """Find what to measure: named materials and the surfaces of named objects.
 

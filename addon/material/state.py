@@ -130,7 +130,7 @@ def edited_by_hand(material: Any) -> bool:
         return True
     # A change of the working space converted the sockets: what they held is not known. Another
     # node holds what somebody set, unless it is the same one by another name.
-    return stamp.working_space == found.working_space and _edited(surface, stamp)
+    return stamp.working_space == found.working_space and edited(surface, stamp)
 
 
 def fingerprint(surface: shader_nodes.Surface | None) -> str:
@@ -229,7 +229,7 @@ def _changed_surface(found: Snapshot, stamp: Stamp) -> list[str]:
         reasons.append(f"the surface no longer comes from {stamp.node!r}")
     elif linked := surface.linked:
         reasons += [f"{name} comes from another node" for name in linked]
-    elif stamp.working_space == working_space and _edited(surface, stamp):
+    elif stamp.working_space == working_space and edited(surface, stamp):
         # A change of the working space converts sockets: whether they were edited can't be told.
         reasons.append("color or roughness was edited by hand")
     if surface is not None:
@@ -243,7 +243,8 @@ def _gloss(surface: shader_nodes.Surface) -> tuple[float, ...]:
     return () if surface.gloss is None else surface.gloss.numbers()
 
 
-def _edited(surface: shader_nodes.Surface, stamp: Stamp) -> bool:
+def edited(surface: shader_nodes.Surface, stamp: Stamp) -> bool:
+    """Whether a surface shows another color or roughness than was derived."""
     if surface.linked:
         return True
     written, found = (*stamp.color, stamp.roughness), (*surface.color, surface.roughness)

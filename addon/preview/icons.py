@@ -48,9 +48,9 @@ _BORDER = 0.3
 _PANEL_MARGIN = 1.7
 """Widget heights that a panel and its scroll bar take of the width of a region."""
 
-FIGURES = ("swatches", "sheet", "spectrum", "angles", "polar")
-"""Names of pictures of a material: target and Blender side by side; range of σ, spectrum and angles
-below each other; and each plot alone."""
+FIGURES = ("ball", "swatches", "sheet", "spectrum", "angles", "polar")
+"""Names of pictures of a material: a ball of it; target and Blender side by side; range of σ,
+spectrum and angles below each other; and each plot alone."""
 
 
 Basis = tuple[Snapshot, looks.Look]
@@ -191,7 +191,7 @@ def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
         for key, canvas in zip(missing, figures.swatches(wanted, _SWATCH_SIDE, look), strict=True):
             name = "swatch-{:02x}{:02x}{:02x}".format(*key)
             preview = _previews().new(name)
-            _upload(preview, canvas, small=True)
+            upload(preview, canvas, small=True)
             _swatches[key] = name
     for key in keys:
         _swatches.move_to_end(key)
@@ -289,7 +289,7 @@ def _store(wish: _Wish, basis: Basis, canvas: Any) -> None:
         picture.icon = 0
         return
     preview = _previews().get(picture.name) or _previews().new(picture.name)
-    _upload(preview, canvas)
+    upload(preview, canvas)
     picture.icon = preview.icon_id
     while len(_pictures) > _BOUND:
         _, oldest = _pictures.popitem(last=False)
@@ -297,8 +297,11 @@ def _store(wish: _Wish, basis: Basis, canvas: Any) -> None:
             del _previews()[oldest.name]
 
 
-def _upload(preview: Any, canvas: Any, *, small: bool = False) -> None:
-    """Give a canvas to Blender, which counts rows from the lowest up."""
+def upload(preview: Any, canvas: Any, *, small: bool = False) -> None:
+    """Give a canvas to Blender, which counts rows from the lowest up.
+
+    `small` is for icons in buttons and lists.
+    """
     import numpy as np
 
     height, width = canvas.shape[:2]
@@ -316,3 +319,8 @@ def redraw() -> None:
         for area in window.screen.areas:
             if area.type in {"PROPERTIES", "NODE_EDITOR"}:
                 area.tag_redraw()
+            elif area.type == "VIEW_3D":
+                # The sidebar alone: a viewport is dear.
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()

@@ -24,6 +24,8 @@ NO_CACHES = {
     ("addon/interface/operators/ahead.py", "_waiting"),
     ("addon/interface/operators/import_review.py", "_batch"),
     ("addon/interface/panels/redraw.py", "_last"),
+    ("addon/interface/panels/renewal.py", "_asked"),
+    ("addon/preview/balls.py", "_pending"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
     # What is registered.
@@ -34,6 +36,7 @@ NO_CACHES = {
     # On the list as one, because Blender holds the pictures.
     ("addon/preview/icons.py", "_pictures"),
     ("addon/preview/icons.py", "_swatches"),
+    ("addon/preview/balls.py", "_rows"),
     ("addon/preview/icons.py", "_differences"),
     ("core/numerics/memoized.py", "_caches"),
 }

@@ -222,8 +222,8 @@ USE = """
         for cls in registration.classes
         if issubclass(cls, bpy.types.Panel)
     ]
-    for name in ("ROUGHSPECTRA_PT_weather", "ROUGHSPECTRA_PT_nodes_weather"):
-        cls = getattr(bpy.types, name)
+    for name in ("weather", "view_weather", "nodes_weather"):
+        cls = getattr(bpy.types, f"ROUGHSPECTRA_PT_{name}")
         if cls.poll("Rome"):
             cls.draw(this, "Rome")
 
@@ -407,7 +407,8 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
     menu = found["drawn"][: found["drawn"].index("rough_spectra.bake") + 1]
     groups = " ".join(name.removeprefix("rough_spectra.") for name in menu).split(" - ")
     assert groups[1:] == [
-        "analyze_scene renew keep estimate_sigma make_local remove_gloss remove_scale wave",
+        "analyze_scene renew keep estimate_sigma make_local remove_gloss remove_scale "
+        "switch_to_cycles show_rendered use_wide_gamut wave",
         "measure bake",
     ]
 
@@ -415,12 +416,16 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
 def test_a_box_of_one_file_is_found_everywhere(found):
     names = [name.removeprefix("ROUGHSPECTRA_PT_") for name, *_ in found["boxes"]]
     assert names == [
-        *("material", "difference", "weather", "plots", "measurement", "scene", "source"),
-        *("nodes", "nodes_difference", "nodes_weather", "nodes_plots", "nodes_measurement"),
+        *("material", "details"),
+        *("difference", "weather", "plots", "measurement", "scene", "source"),
+        *("view", "view_details"),
+        *("view_difference", "view_weather", "view_plots", "view_measurement"),
+        *("nodes", "nodes_details"),
+        *("nodes_difference", "nodes_weather", "nodes_plots", "nodes_measurement"),
     ]
-    about = ["Weather", "ROUGHSPECTRA_PT_material", "How it is outside"]
-    assert found["boxes"][2] == ["ROUGHSPECTRA_PT_weather", *about]
-    assert found["drawn"][-2:] == ["Sunny in Rome"] * 2
+    about = ["Weather", "ROUGHSPECTRA_PT_details", "How it is outside"]
+    assert found["boxes"][3] == ["ROUGHSPECTRA_PT_weather", *about]
+    assert found["drawn"][-3:] == ["Sunny in Rome"] * 3
 
 
 def test_an_output_format_of_one_file_is_found_everywhere(found):

@@ -76,9 +76,9 @@ def area(kind):
     return next(area for area in window().screen.areas if area.type == kind)
 
 
-def over(where):
-    """Override the context, so that it is that of an area."""
-    region = next(region for region in where.regions if region.type == "WINDOW")
+def over(where, kind="WINDOW"):
+    """Override the context, so that it is that of an area, in its region of a kind."""
+    region = next(region for region in where.regions if region.type == kind)
     return bpy.context.temp_override(window=window(), area=where, region=region)
 
 
@@ -118,24 +118,36 @@ def write(text):
         yield from press(key, letter)
 
 
-def find(where, wanted, across=0.6):
+def find(where, wanted, across=0.6, kind="WINDOW"):
     """Move over an area, from the top down, until what is wanted is under the pointer.
 
-    Yields while it moves; returns the point.
+    Yields while it moves; returns the point. What is further down is scrolled to.
     """
     x = where.x + int(where.width * across)
     seen = set()
-    for y in range(where.y + where.height - 4, where.y, -STEP):
-        yield from move(x, y)
-        with over(where):
-            button = _under(bpy.context)
-        seen.add(button)
-        if button is not None and button.startswith(wanted):
-            # The middle of it: the first step may have met its edge.
-            yield from move(x, y - STEP // 2)
-            return x, y - STEP // 2
+    for scrolled in range(2):
+        for y in range(where.y + where.height - 4, where.y, -STEP):
+            yield from move(x, y)
+            with over(where, kind):
+                button = _under(bpy.context)
+            seen.add(button)
+            if button is not None and button.startswith(wanted):
+                # The middle of it: the first step may have met its edge.
+                yield from move(x, y - STEP // 2)
+                return x, y - STEP // 2
+        if not scrolled:
+            yield from move(*middle(where))
+            for _ in range(40):
+                window().event_simulate(type="WHEELDOWNMOUSE", value="PRESS", **_at(where))
+                yield TICK
+            yield 0.3
     msg = f"{wanted} is not in the {where.type} editor, but {seen} are"
     raise LookupError(msg)
+
+
+def _at(where):
+    x, y = middle(where)
+    return {"x": x, "y": y}
 
 
 def _under(context):

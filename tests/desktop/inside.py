@@ -17,6 +17,8 @@ import scenes_panel  # noqa: F401
 import scenes_quitting  # noqa: F401
 import scenes_rough  # noqa: F401
 import scenes_shelf  # noqa: F401
+import scenes_simple  # noqa: F401
+import stage
 
 ZIP, FOLDER, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 
@@ -29,6 +31,7 @@ def main() -> None:
     bpy.ops.extensions.package_install_files(
         filepath=ZIP, repo="user_default", enable_on_install=True, overwrite=True
     )
+    stage.open_details()
     driver.play(NAMES, Path(FOLDER) / "results.json")
 
 

@@ -52,6 +52,16 @@ def _ours_only():
             cls.poll = classmethod(lambda _cls, _context: False)
 
 
+def open_details():
+    """Register the panels anew, with Details open at first: a script cannot unfold one."""
+    panels = ours("addon.interface.panels.panels")
+    for cls in reversed(panels.classes):
+        bpy.utils.unregister_class(cls)
+    panels._Details.bl_options = set()
+    for cls in panels.classes:
+        bpy.utils.register_class(cls)
+
+
 def empty_file(beside="TEXT_EDITOR"):
     """Open an empty file, with a plane in it that has no material."""
     with bpy.context.temp_override(window=window()):

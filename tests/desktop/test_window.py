@@ -219,3 +219,40 @@ def test_dragging_from_the_shelf(scene):
     assert scene["here"] == [True, True]
     assert scene["state"] == "fresh"
     assert scene["browser"] == [True, True]
+
+
+def test_clicking_a_ball(scene):
+    assert scene["before"]["sigma"] == pytest.approx(0.5236, abs=1e-4)
+    assert scene["clicked"]["sigma"] == pytest.approx(0.7854, abs=1e-4)
+    assert scene["clicked"]["kind"] == "fresh"
+    assert scene["clicked"]["roughness"] > scene["before"]["roughness"]
+    assert same(scene["undone"], scene["before"])
+
+
+def test_dragging_gloss(scene):
+    before, gloss = scene["before"]
+    assert gloss == 0
+    shown = [gloss for _, gloss in scene["dragged"]]
+    assert len(set(shown)) > 4
+    assert shown == sorted(shown)
+    assert all(state["kind"] == "fresh" for state, _ in scene["dragged"])
+    # The whole reading stays, so that the color below a shine is darker.
+    assert scene["after"][0]["color"] < before["color"]
+    assert scene["after"][0]["sigma"] == before["sigma"]
+    assert same(scene["undone"][0], before)
+    assert scene["undone"][1] == 0
+
+
+def test_pressing_the_remedy(scene):
+    assert scene == {"edited": "stale", "same": True}
+
+
+def test_sidebar_of_the_3d_view(scene):
+    assert scene["category"] == "Rough Spectra"
+    assert "Foliage" in scene["chosen"]["sample"]
+    assert scene["chosen"]["kind"] == scene["set"]["kind"] == "fresh"
+    assert scene["set"]["sigma"] > 0
+
+
+def test_grease_pencil(scene):
+    assert scene == {"shown": False}

@@ -43,12 +43,14 @@ class Layout:
         assert icon_value in ICONS.values()
         self.page.append(text)
 
-    def prop(self, data, name, *, text=None, slider=False, expand=False):
+    def prop(self, data, name, *, text=None, slider=False, expand=False, translate=True):
         assert name in data.bl_rna.properties
         assert data.bl_rna.properties[name].description
         self.page.append(name)
 
-    def operator(self, name, *, text=None, icon="NONE", icon_value=0, translate=True):
+    def operator(
+        self, name, *, text=None, icon="NONE", icon_value=0, translate=True, depress=False
+    ):
         assert icon in ICONS
         assert icon_value in ICONS.values()
         module, _, function = name.partition(".")
@@ -119,7 +121,7 @@ def test_without_an_object_there_is_no_panel():
 def test_without_a_spectrum_the_panel_says_how_to_begin():
     mesh_object("Wall")
     page = drawn()
-    assert page[:2] == ["[Rough Spectra]", "rough_spectra.choose_sample"]
+    assert page[:2] == ["[Rough Spectra]", "rough_spectra.choose_sample: Choose Sample"]
     assert any("Choose a sample" in line for line in page)
     assert "[Difference]" not in page
     assert "[Measurement]" not in page
@@ -140,7 +142,7 @@ def test_pictures_are_made_after_drawing_and_not_while(green):
     drawn()
     assert not icons._pictures  # without a window Blender gives no icon numbers to look at
     icons._work()
-    assert {wish.figure for wish in icons._pictures} == {"swatches", "sheet"}
+    assert {wish.figure for wish in icons._pictures} == {"ball", "swatches", "sheet"}
 
 
 def test_drawing_computes_nothing(green):
@@ -221,7 +223,8 @@ def test_the_range_of_sigma_stands_below_the_slider(green):
     spectrum = json.loads(group.spectrum)
     limit = math.degrees(reading.sigma_max(max(spectrum["values"])))  # the closed form
     page = drawn()
-    assert page[page.index("sigma") + 2] == f"Fits up to {limit:.1f}°"
+    settings = page[page.index("kind") :]
+    assert settings[settings.index("sigma") + 2] == f"Fits up to {limit:.1f}°"
 
 
 def test_what_was_derived_before_is_not_told_of_a_stale_material(green):
@@ -303,7 +306,7 @@ def test_a_smooth_surface_is_the_same_in_every_engine(green):
         drawn()
         icons._work()
         assert sentence_with("Limited by nothing")
-        assert sentence_with("Material lambert: at worst")
+        assert sentence_with("Material lambert: ΔE00 0.00 in the worst direction")
 
 
 def test_what_another_node_sets_is_not_compared(green):

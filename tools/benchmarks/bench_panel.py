@@ -27,7 +27,7 @@ from tools.run.run_command_line import load_extension
 MATERIALS = 500
 DRAWS = 200
 STEPS = 40
-FIGURES = (("sheet", 280), ("swatches", 96))
+FIGURES = (("ball", 88), ("sheet", 280), ("swatches", 96))
 PRESET = "colorchecker/14-green"
 
 

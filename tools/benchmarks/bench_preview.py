@@ -81,12 +81,12 @@ def main() -> None:
                 return compose.picture(f, next(d), s, k)
 
             row(figure, draw)
-            row("… to Blender", partial(icons._upload, preview, draw()))
+            row("… to Blender", partial(icons.upload, preview, draw()))
 
         def everything(k: looks.Look = look, s: int = scale) -> None:
             numbers = drag()
             for figure, side in (("sheet", SHEET), ("swatches", SWATCHES)):
-                icons._upload(preview, compose.picture(figure, numbers, side * s, k))
+                icons.upload(preview, compose.picture(figure, numbers, side * s, k))
 
         row("all of a material", everything)
     icons.clear()

@@ -14,9 +14,11 @@ PAGE = ROOT / "docs" / "caches.md"
 KEPT = ROOT / "docs" / "data" / "caches.csv"
 
 NO_FUNCTIONS = {
+    "addon.interface.panels.renewal._answers": "material; snapshot",
     "addon.material.derivation._known": "text of a stamp",
     "addon.blender.shader_nodes._layouts": "type of a node",
     "addon.blender.surface._numbers": "type of a node",
+    "addon.preview.balls._rows": "spectrum and settings without σ, working space, side",
     "addon.preview.drawing.lines._kept": "points, width, dash, box, size",
     "addon.preview.icons._pictures": "material, figure, side; snapshot, look",
     "addon.samples.library._contents": "folder; names, sizes, times of its files",

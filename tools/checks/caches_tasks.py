@@ -22,7 +22,14 @@ ROOT = Path(__file__).resolve().parents[2]
 Run = Callable[[], object]
 
 STEPS = 12
-SIDES = (("sheet", 280), ("swatches", 96), ("spectrum", 200), ("angles", 200), ("polar", 200))
+SIDES = (
+    ("sheet", 280),
+    ("swatches", 96),
+    ("ball", 88),
+    ("spectrum", 200),
+    ("angles", 200),
+    ("polar", 200),
+)
 """Figures and their sides in pixels; the first two are what the panel shows."""
 PRESET = "colorchecker/14-green"
 MATERIALS = 100
@@ -113,7 +120,7 @@ def _pictures(material: Any, figures: int, wider: int = 0) -> None:
     icons._work()
 
 
-def _drag(sample: Any, scene: bool = False, figures: int = 2, model: str = "auto") -> Run:
+def _drag(sample: Any, scene: bool = False, figures: int = 3, model: str = "auto") -> Run:
     """Drag σ of a material with visible pictures, in a panel that is drawn again at each step."""
     import bpy
     from rough_spectra.addon.matching.request import Request
@@ -552,7 +559,7 @@ TASKS: dict[str, Callable[[Path], Run]] = {
     "drag σ, 401 bands": lambda _folder: _drag(_fine()),
     "drag σ, preset, in a scene": lambda _folder: _drag(_green(), scene=True),
     "drag σ, 401 bands, in a scene": lambda _folder: _drag(_fine(), scene=True),
-    "drag σ, V-cavity, all plots": lambda _folder: _drag(_green(), figures=5, model="reference"),
+    "drag σ, V-cavity, all plots": lambda _folder: _drag(_green(), figures=6, model="reference"),
     "drag σ, sphere, closure": lambda _folder: _drag(
         _fine(0.1, 0.6, 10, instrument="di:8"), model="closure"
     ),

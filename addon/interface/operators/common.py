@@ -43,12 +43,10 @@ ASSIGN_SCOPE_ITEMS = (
     ),
     ("SELECTED", "Selected Objects, All Slots", "Every material on the selected objects"),
 )
-ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material of the file with a spectrum")
+ALL_WITH_SPECTRUM = ("ALL", "All with a Spectrum", "Every material in use with a spectrum")
 
 
-_WITHOUT_SURFACE = {"GREASEPENCIL", "GPENCIL", "VOLUME"}
-"""Types of objects whose materials are not of surfaces."""
-
+_STROKES = {"GREASEPENCIL", "GPENCIL"}
 _CHARACTERS_A_LINE = 100
 _SWATCH_WIDTH = 1.6
 """Of a color in a list, in heights of a button."""
@@ -101,14 +99,17 @@ def stated_white(operator: Any) -> tuple[str | None, Any]:
     return operator.white, factors.get(operator.plaque, operator.plaque)
 
 
+def white_settings(owner: Any) -> list[str]:
+    """Name those of `WhiteOptions` that count for an owner of all of them."""
+    if owner.white in ("", AS_FILE, white_scale.PERFECT):
+        return ["white"]
+    return ["white", "plaque"] + ["white_factor"] * (owner.plaque == white_scale.STATED)
+
+
 def draw_white(layout: Any, owner: Any) -> None:
     """Ask which white values are relative to; `owner` has the properties of `WhiteOptions`."""
-    layout.prop(owner, "white")
-    if owner.white in ("", AS_FILE, white_scale.PERFECT):
-        return
-    layout.prop(owner, "plaque")
-    if owner.plaque == white_scale.STATED:
-        layout.prop(owner, "white_factor")
+    for name in white_settings(owner):
+        layout.prop(owner, name)
 
 
 def draw_in_browser(operator: Any, names: Sequence[str]) -> None:
@@ -127,13 +128,18 @@ def active_object(context: Any) -> Any | None:
     return pinned if pinned is not None else context.view_layer.objects.active
 
 
+def can_carry(thing: Any | None) -> bool:
+    """Whether an object may have surface materials: Grease Pencil has materials of its own."""
+    return thing is not None and hasattr(thing.data, "materials") and thing.type not in _STROKES
+
+
 def active_material(context: Any) -> Any | None:
     """Give the material that the Material tab shows."""
-    shown = getattr(context, "material", None)
-    if shown is not None:
-        return shown
-    thing = active_object(context)
-    return None if thing is None else thing.active_material
+    found = getattr(context, "material", None)
+    if found is None:
+        thing = active_object(context)
+        found = None if thing is None else thing.active_material
+    return None if found is None or found.is_grease_pencil else found
 
 
 def materials_in_scope(context: Any, scope: str) -> list[Any]:
@@ -155,7 +161,11 @@ def materials_in_scope(context: Any, scope: str) -> list[Any]:
     if scope == "ALL":
         from ...material import selection
 
-        return [material for _, material in selection.surfaces((), ())]
+        found = selection.in_use(material for _, material in selection.surfaces((), ()))
+        if not found:
+            msg = "No material in use has a measured spectrum; assign one first."
+            raise RoughSpectraError(msg)
+        return found
     material = active_material(context)
     if material is None:
         msg = "The active object has no material; give it one first."
@@ -245,11 +255,7 @@ def begin_scope(operator: Any, context: Any) -> None:
 def _carriers(context: Any) -> list[Any]:
     """Give the selected objects that a surface can be assigned to, the active one first."""
     active = active_object(context)
-    found = [
-        thing
-        for thing in context.selected_objects
-        if hasattr(thing.data, "materials") and thing.type not in _WITHOUT_SURFACE
-    ]
+    found = [thing for thing in context.selected_objects if can_carry(thing)]
     return sorted(found, key=lambda thing: (thing != active, thing.name))
 
 
@@ -342,8 +348,8 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
         return materials_in_scope(context, scope), []
     if scope == "ACTIVE":
-        things = [thing for thing in (active_object(context),) if hasattr(thing, "data")]
-        if not things or not hasattr(things[0].data, "materials"):
+        things = [thing for thing in (active_object(context),) if can_carry(thing)]
+        if not things:
             msg = "There is no object that can carry a material; select a mesh first."
             raise RoughSpectraError(msg)
     else:
@@ -379,8 +385,7 @@ def assign_from_library(
 
 def can_have_material(operator: Any, context: Any) -> bool:
     """Poll for operators that assign to the active material."""
-    thing = active_object(context)
-    if active_material(context) is not None or hasattr(getattr(thing, "data", None), "materials"):
+    if active_material(context) is not None or can_carry(active_object(context)):
         return True
     operator.poll_message_set("Select an object that can carry a material")
     return False
@@ -400,6 +405,35 @@ def is_local(operator: Any, material: Any) -> bool:
         return True
     operator.poll_message_set("The material is linked; make it local first")
     return False
+
+
+def has_own_spectrum(operator: Any, context: Any) -> bool:
+    """Poll for operators that change the active material's settings."""
+    from ...material import snapshot
+
+    material = active_material(context)
+    if material is None or not snapshot.has_spectrum(material):
+        operator.poll_message_set("The material has no measured spectrum; assign one first")
+        return False
+    return is_local(operator, material)
+
+
+def previews(context: Any) -> list[Any]:
+    """Give the 3D views that show Material Preview, which is Eevee whatever the scene's engine is.
+
+    In a 3D view that one alone; elsewhere those of the window, unless one of them is rendered.
+    """
+    screen = getattr(context, "screen", None)
+    own: Any = getattr(context, "space_data", None)
+    if getattr(own, "type", "") == "VIEW_3D":
+        spaces = [own]
+    else:
+        areas = () if screen is None else screen.areas
+        spaces = [area.spaces.active for area in areas if area.type == "VIEW_3D"]
+    kinds = [space.shading.type for space in spaces]
+    if "RENDERED" in kinds:
+        return []
+    return [space for space, kind in zip(spaces, kinds, strict=True) if kind == "MATERIAL"]
 
 
 def has_spectra(operator: Any) -> bool:
@@ -446,7 +480,15 @@ def report_error(operator: Any, error: Exception | str) -> None:
 
 
 def report_warnings(operator: Any, pairs: Iterable[tuple[Any, Any]]) -> None:
-    """Report every warning of the solutions, with the material's name."""
+    """Report every warning of the solutions, with the material's name.
+
+    What was altered when the file was read is told, too, but is no fault of the match. `pairs` are
+    materials that store what was solved, and their solutions.
+    """
+    from ...material import storage
+
     for material, solution in pairs:
+        altered = storage.load(material).sample.altered if solution.warnings else ()
         for warning in solution.warnings:
-            operator.report({"WARNING"}, f"{material.name}: {warning}")
+            level = "INFO" if warning in altered else "WARNING"
+            operator.report({level}, f"{material.name}: {warning}")

@@ -30,7 +30,7 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         description="Materials to renew",
         items=(
             *common.SCOPE_ITEMS,
-            ("ALL_STALE", "All Not Up to Date", "Every material of the file that needs it"),
+            ("ALL_STALE", "All Not Up to Date", "Every material in use that needs it"),
         ),
     )
     overwrite_edits: BoolProperty(
@@ -67,10 +67,10 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         return {"FINISHED"} if materials else {"CANCELLED"}
 
     def _materials(self, context: Any) -> list[Any]:
-        from ...material import snapshot, state
+        from ...material import selection, snapshot, state
 
         if self.scope == "ALL_STALE":
-            states = ((m, state.state(m)) for m in bpy.data.materials)
+            states = ((m, state.state(m)) for m in selection.in_use(bpy.data.materials))
             found = [m for m, known in states if known.kind in {"stale", "error"}]
             return sorted(found, key=lambda m: m.name)
         found = common.materials_in_scope(context, self.scope)

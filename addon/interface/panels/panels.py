@@ -1,6 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Material ▸ Rough Spectra, and the same in the sidebar of the shader editor."""
+"""The panel of a material, in the three places where artists look.
+
+Right below the material slots in the Material tab, and as a tab in the sidebars of 3D view and
+shader editor. In each a panel with what everybody needs, and inside it one that is closed at first,
+Details, with the boxes.
+"""
 
 from __future__ import annotations
 
@@ -24,11 +29,24 @@ class _Tab:
 
     @classmethod
     def is_here(cls, context: Any) -> bool:
-        """Show wherever a material can be."""
-        if common.active_material(context) is not None:
-            return True
-        thing = common.active_object(context)
-        return hasattr(getattr(thing, "data", None), "materials")
+        """Show wherever a surface material can be."""
+        material, thing = getattr(context, "material", None), common.active_object(context)
+        if material is not None:
+            return not material.is_grease_pencil
+        return common.can_carry(thing)
+
+
+class _View:
+    """Place of a panel in the sidebar of the 3D view."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Rough Spectra"
+
+    @classmethod
+    def is_here(cls, context: Any) -> bool:
+        """Show where the active object can have a surface material."""
+        return common.can_carry(common.active_object(context))
 
 
 class _Sidebar:
@@ -40,12 +58,12 @@ class _Sidebar:
 
     @classmethod
     def is_here(cls, context: Any) -> bool:
-        """Show where the nodes are those of a material."""
-        return common.is_material_tree(context)
+        """Show where the nodes are those of a surface material."""
+        return common.is_material_tree(context) and not context.space_data.id.is_grease_pencil
 
 
 class _Main:
-    """Measured spectrum of the material"""
+    """Measured color, roughness and gloss of the material"""
 
     bl_label = "Rough Spectra"
 
@@ -55,18 +73,70 @@ class _Main:
         return bool(cls.is_here(context))  # type: ignore[attr-defined]
 
     def draw(self, context: Any) -> None:
-        """Draw the sample and the settings."""
-        from . import sample  # most sessions of Blender never show the panel
+        """Draw what everybody needs."""
+        from . import simple  # most sessions of Blender never show the panel
 
-        sample.draw(self.layout, context)  # type: ignore[attr-defined]
+        simple.draw(self.layout, context)  # type: ignore[attr-defined]
 
 
 class ROUGHSPECTRA_PT_material(_Main, _Tab, bpy.types.Panel):
-    """Measured spectrum of the material"""
+    """Measured color, roughness and gloss of the material"""
+
+    # Panels without a header come first, and among these the slots, whoever registers when.
+    bl_options = {"HIDE_HEADER"}
+    bl_order = 1
+
+
+class ROUGHSPECTRA_PT_view(_Main, _View, bpy.types.Panel):
+    """Measured color, roughness and gloss of the material"""
 
 
 class ROUGHSPECTRA_PT_nodes(_Main, _Sidebar, bpy.types.Panel):
-    """Measured spectrum of the material"""
+    """Measured color, roughness and gloss of the material"""
+
+
+class _Details:
+    """Settings, numbers and plots"""
+
+    bl_label = ""
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show where there is a material, which can at least be measured."""
+        from . import redraw
+
+        return bool(redraw.current(context).has_material)
+
+    def draw_header(self, context: Any) -> None:
+        """Draw the name, which depends on the width."""
+        from . import simple
+
+        simple.draw_details_header(self.layout, context)  # type: ignore[attr-defined]
+
+    def draw(self, context: Any) -> None:
+        """Draw the settings; the boxes are panels of their own."""
+        from . import details
+
+        details.draw(self.layout, context)  # type: ignore[attr-defined]
+
+
+class ROUGHSPECTRA_PT_details(_Details, _Tab, bpy.types.Panel):
+    """Settings, numbers and plots"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_material"
+
+
+class ROUGHSPECTRA_PT_view_details(_Details, _View, bpy.types.Panel):
+    """Settings, numbers and plots"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_view"
+
+
+class ROUGHSPECTRA_PT_nodes_details(_Details, _Sidebar, bpy.types.Panel):
+    """Settings, numbers and plots"""
+
+    bl_parent_id = "ROUGHSPECTRA_PT_nodes"
 
 
 def _panel(box: Box, name: str, place: type, around: type) -> Any:
@@ -97,9 +167,15 @@ def _inside(prefix: str, found: list[Box], place: type, around: type) -> list[An
 
 
 _BOXES = boxes()
+_IN_SIDEBARS = [box for box in _BOXES if box.IN_SIDEBAR]
 classes = (
     ROUGHSPECTRA_PT_material,
-    *_inside("", _BOXES, _Tab, ROUGHSPECTRA_PT_material),
+    ROUGHSPECTRA_PT_details,
+    *_inside("", _BOXES, _Tab, ROUGHSPECTRA_PT_details),
+    ROUGHSPECTRA_PT_view,
+    ROUGHSPECTRA_PT_view_details,
+    *_inside("view_", _IN_SIDEBARS, _View, ROUGHSPECTRA_PT_view_details),
     ROUGHSPECTRA_PT_nodes,
-    *_inside("nodes_", [box for box in _BOXES if box.IN_SIDEBAR], _Sidebar, ROUGHSPECTRA_PT_nodes),
+    ROUGHSPECTRA_PT_nodes_details,
+    *_inside("nodes_", _IN_SIDEBARS, _Sidebar, ROUGHSPECTRA_PT_nodes_details),
 )

@@ -42,11 +42,15 @@ class Redraw:
         self.style = sentences.style(form)
         material: Any = common.active_material(context)
         self.has_material = material is not None
+        self.scale = look.scale
+        self.previewed = False
         self.shown = None
         found = None if material is None else snapshot.of(material)
         if found is not None and found.inputs.spectrum:
             unit = icons.unit(look.scale, preferences.system.pixel_size)
             self.shown = PanelMaterial(material.session_uid, found, look, unit)
+            # Of a scene for Cycles, Material Preview is of another engine than the scene's.
+            self.previewed = not found.flat and bool(common.previews(context))
 
     @property
     def format(self) -> text.Format:

@@ -17,15 +17,12 @@ from ....core import instruments, limits, roughness, white_scale
 from ....core.errors import RoughSpectraError
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
-from ...material import derivation, settled, state
+from ...material import derivation, settled, state, verdict
 from ...material.snapshot import Snapshot
 from ...samples import gloss_of_set, stated_white
 from ...samples.readers.formats import library as library_format
 from ...samples.sample import Sample
 from .text import Format, Sentence
-
-Numbers = tuple[float, float, float]
-"""ΔE00 at the instrument, and mean and 95th percentile over all angles."""
 
 _KEPT = 1024
 """Materials whose sentences are kept, as many as their states."""
@@ -33,13 +30,18 @@ _KEPT = 1024
 SWATCHES = 98.0
 """Pixels at UI scale 1 that the swatches take beside the numbers."""
 
-_WHERE = ("All angles", "95 % below")
+_EVERYWHERE = "All angles"
 _BOX = 24.0
-_NOTHING = 0.005
-"""ΔE00 that is written as 0.00."""
-_GAMUT = 0.05
-"""ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
 _ANGLES = "Limited by the angles: one roughness has to fit all of them"
+_LIMITS: dict[verdict.Limit, str] = {
+    "nothing": "Limited by nothing: Blender shows the target",
+    "engine": "Limited by the engine: only Cycles shows the roughness",
+    "lights": "Limited by the lights: no single color is right under all of them",
+    "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
+    "gamut": "Limited by the gamut: {space} cannot hold this color",
+    "lambert": "Limited by leaving the roughness out, which hardly shows here",
+    "angles": _ANGLES,
+}
 _DAMAGED = (
     *(ValueError, TypeError, AttributeError, KeyError, RecursionError, OverflowError),
     RoughSpectraError,
@@ -89,6 +91,11 @@ def reasons(found: Snapshot, how: Style) -> tuple[Sentence, ...]:
     return tuple(sentences)
 
 
+def refused(why: str, how: Style) -> tuple[Sentence, ...]:
+    """Say why a material cannot be renewed, in the words of who would refuse it."""
+    return (how.format.sentence(why, "INFO", _BOX),)
+
+
 @memoized(maxsize=64)
 def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
     """Say why there is no number."""
@@ -97,23 +104,29 @@ def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
-def numbers(apart: Numbers, read_at: str, beside: bool, how: Style) -> tuple[Sentence, ...]:
+def numbers(apart: verdict.Numbers, read_at: str, beside: bool, how: Style) -> tuple[Sentence, ...]:
     """Tell how far Blender is from the target, beside the swatches or below them.
 
     `read_at` is the virtual instrument.
     """
     inset = SWATCHES if beside else 0.0
-    return tuple(
-        how.format.sentence(_difference(iface_(where), delta_e), "NONE", inset)
-        for where, delta_e in zip((_instrument(read_at), *_WHERE), apart, strict=True)
-    )
+    told = [
+        _difference(iface_(where), delta_e)
+        for where, delta_e in zip((_instrument(read_at), iface_(_EVERYWHERE)), apart, strict=False)
+    ]
+    # The few angles that are further off are told without a word: what is visible is of the mean.
+    told.append(iface_("95 % of them: below ΔE00 {}").format(f"{apart[2]:.2f}"))
+    return tuple(how.format.sentence(text, "NONE", inset) for text in told)
 
 
 @memoized(maxsize=_KEPT)
-def difference(found: Snapshot, apart: Numbers | None, how: Style) -> tuple[Sentence, ...]:
+def difference(
+    found: Snapshot, apart: verdict.Numbers | None, how: Style, details: str = ""
+) -> tuple[Sentence, ...]:
     """Say what limits a fresh material, and why its model and shader were taken.
 
-    `apart` is None until it is computed.
+    `apart` is None until it is computed. `details` is what the file said besides: what was altered
+    in reading it is no fault, and stands with the source.
     """
     last = state.evaluate(found).stamp
     if last is None:
@@ -124,7 +137,8 @@ def difference(found: Snapshot, apart: Numbers | None, how: Style) -> tuple[Sent
         text = iface_("Target of the model {}" if found.flat else "Model {}")
         told.append((text.format(last.model_reason), "MODIFIER"))
     told.append((iface_("Material {}").format(_shader(last, found)), "MATERIAL"))
-    told += [(warning, "ERROR") for warning in last.warnings]
+    notes = _details(details)[1]
+    told += [(warning, "ERROR") for warning in last.warnings if warning not in notes]
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
@@ -227,26 +241,9 @@ def _difference(where: str, delta_e: float) -> str:
     return f"{where}: ΔE00 {delta_e:.2f}, {iface_(perceptibility.words(delta_e))}"
 
 
-def _limit(last: derivation.Stamp, apart: Numbers | None, found: Snapshot) -> str:
-    if apart is not None and max(apart) < _NOTHING:
-        return tip_("Limited by nothing: Blender shows the target")
-    if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
-        return tip_("Limited by the engine: only Cycles shows the roughness")
-    lights = [delta_e for _, delta_e in last.delta_e_lights]
-    several = len(lights) > 1
-    # Where lights mix everywhere, it is at the instrument, under the main one alone, that it shows.
-    if (
-        several
-        and max(max(lights) - min(lights), last.delta_e_instrument) >= perceptibility.SIDE_BY_SIDE
-    ):
-        return tip_("Limited by the lights: no single color is right under all of them")
-    if not several and last.delta_e_instrument > _GAMUT:
-        return tip_("Limited by the gamut: {space} cannot hold this color").format(
-            space=last.working_space
-        )
-    if last.roughness == 0.0:
-        return tip_("Limited by leaving the roughness out, which hardly shows here")
-    return tip_(_ANGLES)
+def _limit(last: derivation.Stamp, apart: verdict.Numbers | None, found: Snapshot) -> str:
+    limit = verdict.limit(found, last, apart)
+    return tip_(_LIMITS[limit]).format(space=last.working_space)
 
 
 def _shader(last: derivation.Stamp, found: Snapshot) -> str:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import blf
@@ -13,9 +13,11 @@ import blf
 from .icon_values import icon_value
 
 _FONT = 0  # the interface's
-_MARGINS = 64.0  # icon, panel and scroll bar, pixels at UI scale 1
+_MARGINS = 36.0  # panel and scroll bar, pixels at UI scale 1
+_ICON = 28.0
 _TABS = 20.0  # beside the panels of a sidebar
-_LEAST = 80.0
+_WITH_TABS = {"NODE_EDITOR", "VIEW_3D"}
+_LEAST = 60.0
 _LINE = 0.8
 """Height of a line, in heights of a button."""
 _GLUE = "\N{NO-BREAK SPACE}"
@@ -47,8 +49,12 @@ class Format(NamedTuple):
 
     def width(self, inset: float = 0.0) -> float:
         """Width of a line in pixels at UI scale 1; `inset` is taken by what is around it."""
+        return max(int(self.room(inset) - _ICON), _LEAST)
+
+    def room(self, inset: float = 0.0) -> float:
+        """Width that buttons share in pixels at UI scale 1; parameters as with `width`."""
         tabs = _TABS if self.sidebar else 0.0
-        return max(int(self.pixels / self.scale - _MARGINS - tabs - inset), _LEAST)
+        return self.pixels / self.scale - _MARGINS - tabs - inset
 
     def sentence(self, text: str, icon: str = "BLANK1", inset: float = 0.0) -> Sentence:
         """Break a sentence into as many lines as it needs.
@@ -66,11 +72,29 @@ class Format(NamedTuple):
         others = icon_value("NONE" if icon == "NONE" else "BLANK1")
         return tuple((line, others if at else icon_value(icon)) for at, line in enumerate(lines))
 
+    def fitting(self, texts: Sequence[str], inset: float = 0.0) -> str:
+        """Give the first of several wordings that fits into a line, or the last of them.
+
+        Other parameters as in `sentence`.
+        """
+        return next((text for text in texts if self.fits(text, inset)), texts[-1])
+
+    def fits(self, text: str, inset: float = 0.0) -> bool:
+        """Whether a text fits into a line."""
+        size = self.points * self.scale
+        return _width(text, size) <= self.width(inset) * self.scale
+
+    def shortened(self, text: str, inset: float = 0.0) -> str:
+        """Leave out the last words of a name that does not fit, or all: Blender cuts in between."""
+        words = text.split()
+        shorter = [f"{' '.join(words[:count])}…" for count in range(len(words) - 1, 0, -1)]
+        return self.fitting((text, *shorter, ""), inset)
+
 
 def format_of(preferences: Any, scale: float, pixels: int, area: str) -> Format:
     """Give the format of a region of an editor of the type `area`."""
     points = float(preferences.ui_styles[0].widget.points)
-    return Format(pixels, area == "NODE_EDITOR", scale, points)
+    return Format(pixels, area in _WITH_TABS, scale, points)
 
 
 def draw(layout: Any, sentences: Iterable[Sentence]) -> None:

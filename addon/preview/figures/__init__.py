@@ -16,6 +16,7 @@ from .angles import (
     angles_polar,
     polar_place,
 )
+from .ball import ball
 from .sigma_range import sigma_range
 from .spectrum import SHOWN_NM, spectrum, spectrum_axes
 from .swatches import swatch, swatch_pair, swatches
@@ -27,6 +28,7 @@ __all__ = [
     "angles",
     "angles_axes",
     "angles_polar",
+    "ball",
     "polar_place",
     "sigma_range",
     "spectrum",

@@ -31,7 +31,8 @@ def picture(figure: str, found: Data, side: int, look: Look) -> Array:
     Parameters
     ----------
     figure
-        "swatches", "spectrum", "angles", "polar", or "sheet": range of σ, spectrum and angles.
+        "ball", "swatches", "spectrum", "angles", "polar", or "sheet": range of σ, spectrum and
+        angles.
     found
         What it shows.
     side
@@ -46,6 +47,12 @@ def picture(figure: str, found: Data, side: int, look: Look) -> Array:
 def _swatches(canvas: Array, found: Data, look: Look) -> list[Line]:
     outside = (found.target.outside, found.blender.outside)
     figures.swatch_pair(canvas, found.target.color, found.blender.color, look, outside)
+    return []
+
+
+def _ball(canvas: Array, found: Data, _look: Look) -> list[Line]:
+    what = (found.color, found.roughness, found.to_screen, found.gloss)
+    canvas[:] = figures.ball(len(canvas), *what)
     return []
 
 
@@ -84,6 +91,7 @@ def _polar(canvas: Array, found: Data, look: Look) -> list[Line]:
 
 
 _DRAWN = {
+    "ball": _ball,
     "swatches": _swatches,
     "sheet": _sheet,
     "spectrum": _spectrum,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ....core import cycles
 from ....core.cycles import instrument_lobe
+from ....core.gloss import Gloss
 from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
 from ...colorimetry import srgb, tristimulus
@@ -71,6 +72,10 @@ class Data:
         Degrees; None where every σ fits the reading.
     engine
         What draws for Blender.
+    color, roughness, gloss
+        What is drawn: scene-linear RGB, shape (3,), Cycles' diffuse roughness, and what lies over.
+    to_screen
+        Matrix from scene-linear RGB to linear sRGB, (3, 3).
     """
 
     target: Patch
@@ -86,6 +91,10 @@ class Data:
     sigma: float
     sigma_max: float | None
     engine: str
+    color: Array
+    roughness: float
+    gloss: Gloss | None
+    to_screen: Array
     open_albedos: tuple[Array, Array] | None = None
 
 
@@ -154,6 +163,10 @@ def of_request(
         sigma=float(np.degrees(request.sigma)),
         sigma_max=surface_spectra.sigma_max(request),
         engine=engine,
+        color=color,
+        roughness=roughness,
+        gloss=request.gloss,
+        to_screen=to_screen(space.key),
         open_albedos=surface_spectra.open_albedos(request),
     )
 
@@ -166,7 +179,7 @@ def patch(rgb: Array, space: WorkingSpace) -> Patch:
 
 def patches(colors: Array, space: WorkingSpace) -> list[Patch]:
     """Show several, (colors, 3), as `patch` does one."""
-    encoded = srgb.encode(colors @ _to_screen(space.key).T)
+    encoded = srgb.encode(colors @ to_screen(space.key).T)
     shown = np.minimum(np.maximum(encoded, 0), 1)
     outside = np.abs(encoded - shown).max(axis=-1) > _OUTSIDE
     return [
@@ -175,7 +188,7 @@ def patches(colors: Array, space: WorkingSpace) -> list[Patch]:
     ]
 
 
-def _to_screen(key: bytes) -> Array:
+def to_screen(key: bytes) -> Array:
     """Matrix from scene-linear RGB to linear sRGB."""
     return srgb.from_xyz(np.ones(3), of=np.linalg.inv(matrix_of(key)))
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .. import redraw, sentences
+    from ....material import verdict
+    from .. import redraw
 
 LABEL = "Difference"
 TOOLTIP = "Target and Blender side by side, and what the difference means"
@@ -29,6 +30,7 @@ def poll(context: Any) -> bool:
 
 def draw(layout: Any, context: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
+    from ...operators import common
     from .. import redraw, sentences, text
 
     here = redraw.current(context)
@@ -40,7 +42,10 @@ def draw(layout: Any, context: Any) -> None:
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
-        text.draw(layout, sentences.difference(shown.facts, apart, here.style))
+        material: Any = common.active_material(context)
+        details = material.rough_spectra.details
+        text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
+        _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:
         told = "The gloss is kept as it is set, and counted in color and numbers"
         text.draw(layout, sentences.of(told, "INFO", here.style))
@@ -49,11 +54,30 @@ def draw(layout: Any, context: Any) -> None:
     if shown.is_bumped:
         told = "Bump is not counted: numbers are of the surface without it. Measure it to know"
         text.draw(layout, sentences.of(told, "INFO", here.style))
+        layout.operator("rough_spectra.measure", text="Measure").scope = "ACTIVE"
+
+
+def _draw_remedies(
+    layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial, apart: verdict.Numbers | None
+) -> None:
+    """Offer what the sentences above name."""
+    from ....material import verdict
+
+    last = shown.state.stamp
+    limit = "" if last is None else verdict.limit(shown.facts, last, apart)
+    wide = here.format.width() >= _NARROWEST
+    row = layout.row(align=True) if wide else layout.column(align=True)
+    if limit == "engine":
+        row.operator("rough_spectra.switch_to_cycles")
+        if not shown.facts.analyzed:
+            row.operator("rough_spectra.analyze_scene").scope = "VIEW"
+    elif limit == "gamut" and verdict.has_wider_space(shown.facts.working_space):
+        row.operator("rough_spectra.use_wide_gamut")
 
 
 def _draw_swatches(
     layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
-) -> sentences.Numbers | None:
+) -> verdict.Numbers | None:
     """Draw the colors with their numbers, which are None until they are computed."""
     from .. import sentences, text
 

@@ -15,6 +15,9 @@ PLACE = 30
 IN_SIDEBAR = True
 IS_CLOSED = False
 
+_NARROWEST = 150.0
+"""Pixels at UI scale 1 that two buttons need beside each other."""
+
 
 def poll(context: Any) -> bool:
     """Show where there is a material."""
@@ -28,10 +31,11 @@ def draw(layout: Any, context: Any) -> None:
     from .. import redraw
     from ..icon_values import icon_value
 
-    row, render = layout.row(align=True), icon_value("RENDER_STILL")
+    here, render = redraw.current(context), icon_value("RENDER_STILL")
+    beside = here.format.width() >= _NARROWEST
+    row = layout.row(align=True) if beside else layout.column(align=True)
     row.operator("rough_spectra.measure", text="Measure", icon_value=render).scope = "ACTIVE"
     row.operator("rough_spectra.measure", text="Measure All").scope = "ALL"
-    here = redraw.current(context)
     if here.shown is not None:
         _draw_measured(layout, context, here, here.shown)
     layout.operator("rough_spectra.bake", icon_value=icon_value("EXPORT"))

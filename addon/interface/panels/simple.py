@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What everybody sees of a material: sample, roughness, gloss, and one verdict with its remedy.
+
+The same in the Material tab, right below the material slots, and in the sidebars of 3D view and
+shader editor. All else is in the panel Details.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bpy.app.translations import pgettext_iface as iface_
+
+from ....core.limits import MATCHED_SIGMA_DEGREES
+from ...material import roughness_words, verdict
+from ...preview import balls
+from ..operators import common
+from . import redraw, renewal, sentences, text
+from .icon_values import icon_value
+
+_PICTURE_UNITS = 4.4
+"""Height of the picture: as high as what stands beside it."""
+_PICTURE = 96.0
+"""Pixels at UI scale 1 that it takes of the width."""
+_BESIDE = 150.0
+"""Pixels that sliders need beside it; else they go below."""
+_NARROW_UNITS = 3.4
+_BALLS_HIGH = 1.3
+_BUTTON = 20.0
+"""Pixels of a button with an icon alone."""
+_BUTTONS = 42.0
+"""Pixels of the two buttons beside the sample's name."""
+_NAME = 80.0
+"""Pixels that the name needs beside them; else they go below."""
+_VALUE = 34.0
+"""Pixels that a slider keeps free for its number."""
+_PADDING = 60.0
+"""Pixels of a button that its text cannot have, less the margins that a line has anyway."""
+_FOLD = 6.0
+"""Pixels of the arrow that folds a panel, and of its distances, less an icon's."""
+_BELOW = 0.05
+"""Degrees that a roughness is set below the largest: what is shown rounds."""
+
+_MARKS: dict[verdict.Mark, str] = {
+    "right": "STRIP_COLOR_04",
+    "near": "STRIP_COLOR_03",
+    "off": "STRIP_COLOR_01",
+    "open": "STRIP_COLOR_09",
+}
+"""Colored squares: green, yellow, red and gray; what they mean stands beside them."""
+
+_REMEDIES: dict[verdict.Remedy, tuple[str, tuple[str, ...]]] = {
+    "cycles": ("rough_spectra.switch_to_cycles", ("Switch to Cycles", "Cycles")),
+    "rendered": ("rough_spectra.show_rendered", ("Show Rendered", "Rendered")),
+    "local": ("rough_spectra.make_local", ("Make Local",)),
+    "renew": ("rough_spectra.renew", ("Renew",)),
+    "wide": ("rough_spectra.use_wide_gamut", ("Use ACEScg", "ACEScg")),
+    "matte": ("rough_spectra.remove_gloss", ("Remove Gloss", "Matte")),
+    "smoother": ("rough_spectra.set_roughness", ("Make Smoother", "Smoother")),
+    "measure": ("rough_spectra.measure", ("Measure",)),
+    "unmute": ("rough_spectra.unmute", ("Unmute",)),
+}
+
+
+def draw_details_header(layout: Any, context: Any) -> None:
+    """Name the panel Details, in the Material tab with whose they are."""
+    form = redraw.current(context).format
+    names = (iface_("Rough Spectra Details"), iface_("Details"))
+    layout.label(text=form.fitting(names[form.sidebar :], _FOLD), translate=False)
+
+
+def draw(layout: Any, context: Any) -> None:
+    """Draw what there is to see, and to do, without a second thought."""
+    here = redraw.begin(context)
+    if here.shown is None:
+        _draw_sample(layout, here, None, 0.0)
+        told = "Choose a sample, or open a file that an instrument wrote"
+        text.draw(layout, sentences.of(told, "INFO", here.style))
+        return
+    material: Any = common.active_material(context)
+    group, shown = material.rough_spectra, here.shown
+    column, inset = _beside_picture(layout, here, shown)
+    row_of_balls = balls.icon_ids(shown.uid, shown.facts, here.scale)
+    _draw_sample(column, here, group.sample_name, inset)
+    _draw_balls(column, row_of_balls, shown, here.format.room(inset))
+    _draw_sliders(column, group, here, shown, inset)
+    _draw_verdict(layout, here, shown)
+
+
+def _beside_picture(
+    layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
+) -> tuple[Any, float]:
+    """Draw the picture, and give the layout beside or below it, with what it takes of the width."""
+    if shown.obstacle is not None:
+        return layout.column(), 0.0
+    if here.format.width(_PICTURE) < _BESIDE:
+        layout.template_icon(shown.picture("ball", _NARROW_UNITS), scale=_NARROW_UNITS)
+        return layout.column(), 0.0
+    share = _PICTURE * here.scale / max(here.width - _PICTURE * here.scale / 4, 1)
+    split = layout.split(factor=min(share, 0.5))
+    split.template_icon(shown.picture("ball", _PICTURE_UNITS), scale=_PICTURE_UNITS)
+    return split.column(), _PICTURE
+
+
+def _draw_sample(layout: Any, here: redraw.Redraw, name: str | None, inset: float) -> None:
+    """Name the sample on the button that chooses another, beside other ways to find one."""
+    beside = here.format.width(inset + _BUTTONS) >= _NAME
+    row = layout.row(align=True) if beside else layout.column(align=True)
+    label = iface_("Choose Sample") if name is None else name
+    told = here.format.shortened(label, inset + _BUTTONS * beside)
+    color = icon_value("COLOR")
+    row.operator("rough_spectra.choose_sample", text=told, icon_value=color, translate=False)
+    if not beside:
+        row = row.row(align=True)
+    row.operator("rough_spectra.assign_file", text="", icon_value=icon_value("FILE_FOLDER"))
+    row.operator("rough_spectra.find_nearest", text="", icon_value=icon_value("EYEDROPPER"))
+
+
+def _draw_balls(
+    layout: Any, icons: tuple[int, ...], shown: redraw.PanelMaterial, room: float
+) -> None:
+    """Draw how rough it may be; each sets that."""
+    row = layout.row(align=True)
+    # An icon's button is as wide as high, unless it is scaled.
+    row.scale_x = max(room / (len(roughness_words.STEPS) * _BUTTON), 1.0)
+    row.scale_y = _BALLS_HIGH
+    now = shown.facts.inputs.sigma_degrees
+    for number, step in enumerate(roughness_words.STEPS):
+        icon = icons[number] if icons else icon_value("MATSPHERE")
+        chosen = math.isclose(now, step, abs_tol=_BELOW)
+        button = row.operator(
+            "rough_spectra.set_roughness", text="", icon_value=icon, depress=chosen
+        )
+        button.sigma = math.radians(step)
+
+
+def _draw_sliders(
+    layout: Any, group: Any, here: redraw.Redraw, shown: redraw.PanelMaterial, inset: float
+) -> None:
+    column = layout.column(align=True)
+    column.enabled = group.id_data.is_editable
+    label = iface_("Roughness")
+    word = iface_(roughness_words.word(shown.facts.inputs.sigma_degrees))
+    told = here.format.fitting((f"{label}: {word}", label, iface_("Rough")), inset + _VALUE)
+    column.prop(group, "sigma", text=told, slider=True, translate=False)
+    shine = column.row(align=True)
+    surface = shown.facts.surface
+    shine.enabled = surface is not None and not surface.muted and not surface.gloss_linked
+    shine.prop(group, "gloss", slider=True)
+
+
+def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
+    """Say whether it looks right, and offer what helps."""
+    found = verdict.of(shown.facts, shown.apart(), here.previewed)
+    words = sentences.of(found.words, _MARKS[found.mark], here.style)
+    if not found.remedy:
+        text.draw(layout, words)
+        return
+    name, labels = _REMEDIES[found.remedy]
+    texts = tuple(map(iface_, labels))
+    beside = here.format.fits(f"{iface_(found.words)} {texts[0]}", _PADDING)
+    row = layout.row(align=False) if beside else layout.column()
+    text.draw(row.column(), words)
+    row = row.row()
+    told = here.format.fitting(texts)
+    if found.remedy == "renew":
+        row.enabled = renewal.reason_against(shown.uid, shown.facts) == ""
+    button = row.operator(name, text=told, translate=False)
+    if found.remedy in {"renew", "matte", "measure"}:
+        button.scope = "ACTIVE"
+    elif found.remedy == "smoother":
+        button.sigma = math.radians(_largest(shown))
+
+
+def _largest(shown: redraw.PanelMaterial) -> float:
+    """Degrees that the sample may have at most."""
+    last = shown.state.stamp
+    if last is None or last.sigma_max is None:
+        return MATCHED_SIGMA_DEGREES
+    return max(min(last.sigma_max, MATCHED_SIGMA_DEGREES) - _BELOW, 0.0)

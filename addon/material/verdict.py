@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One verdict on a material: whether it looks as it was measured, and the one thing to do if not.
+
+Only compares what is stored and what was computed with the pictures: cheap enough for a panel to
+draw. What it says is of the mean over all angles and of the reading at the instrument; the few
+angles near grazing that are further off are told among the numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from ...core.gloss import IMPOSSIBLE
+from ...core.limits import MATCHED_SIGMA_DEGREES
+from ..colorimetry import perceptibility
+from . import settled, state
+from .derivation import DERIVATION, Stamp
+from .properties import SCHEMA
+from .snapshot import Snapshot, digest
+from .state import State
+
+Mark = Literal["right", "near", "off", "open"]
+Limit = Literal["nothing", "engine", "lights", "gloss", "gamut", "lambert", "angles"]
+Remedy = Literal[
+    "", "cycles", "rendered", "local", "renew", "wide", "matte", "smoother", "measure", "unmute"
+]
+
+WIDE_SPACE = "ACEScg"
+"""Working space that holds nearly all colors of surfaces."""
+
+_WIDE = {WIDE_SPACE, "Linear Rec.2020"}
+_NOTHING = 0.005
+"""ΔE00 that is written as 0.00."""
+_GAMUT = 0.05
+"""ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
+
+Numbers = tuple[float, float, float]
+"""ΔE00 at the instrument, and mean and 95th percentile over all angles."""
+
+_DIFFERS: dict[Limit, tuple[str, Remedy]] = {
+    "engine": ("differs: roughness missing", "cycles"),
+    "lights": ("differs: several lights", ""),
+    "gloss": ("differs: too glossy", "matte"),
+    "gamut": ("differs: out of gamut", "wide"),
+    "lambert": ("differs: left smooth", ""),
+    "angles": ("differs: some angles", ""),
+    "nothing": ("differs: unknown", ""),
+}
+
+
+class Verdict(NamedTuple):
+    """What is said of a material, in three words or so.
+
+    Parameters
+    ----------
+    mark
+        "right", "near": visible side by side, "off", or "open" where nothing is predicted.
+    words
+        An English label, to be translated.
+    remedy
+        The one thing to do about it; empty where there is none.
+    """
+
+    mark: Mark
+    words: str
+    remedy: Remedy = ""
+
+
+def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdict:
+    """Judge a material with a spectrum.
+
+    Parameters
+    ----------
+    found
+        Its facts.
+    apart
+        ΔE00 of what it shows; None until they are computed, or where there are none.
+    previewed
+        Whether the window shows it by another engine than the scene's.
+    """
+    known = state.evaluate(found)
+    if known.kind == "linked":
+        return Verdict("open", "linked: settings locked", "local")
+    if known.kind == "error":
+        return _failed(found)
+    if known.kind == "stale":
+        return _stale(found, known.stamp)
+    if known.kind == "kept":
+        return _kept(known)
+    if found.surface is not None and found.surface.scaled:
+        return Verdict("right", "texture follows sample")
+    if settled.obstacle(found.surface) is not None:
+        return Verdict("open", "cannot be predicted", "measure")
+    if apart is None or known.stamp is None:
+        return Verdict("open", "comparing")
+    judged = _judged(found, known.stamp, apart)
+    if previewed and judged.mark != "off":
+        return Verdict("near", "preview is Eevee", "rendered")
+    return judged
+
+
+def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
+    """Say what keeps the match of a material that is up to date from being better."""
+    if apart is not None and max(apart) < _NOTHING:
+        return "nothing"
+    if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
+        return "engine"
+    lights = [delta_e for _, delta_e in last.delta_e_lights]
+    several = len(lights) > 1
+    # Where lights mix everywhere, it is at the instrument, under the main one alone, that it shows.
+    if (
+        several
+        and max(max(lights) - min(lights), last.delta_e_instrument) >= perceptibility.SIDE_BY_SIDE
+    ):
+        return "lights"
+    if not several and last.delta_e_instrument > _GAMUT:
+        # It is the gloss where no color below it reads as the sample.
+        return "gloss" if any(IMPOSSIBLE in each for each in last.warnings) else "gamut"
+    return "lambert" if last.roughness == 0.0 else "angles"
+
+
+def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
+    if last.sigma_max is not None and last.sigma_max < found.inputs.sigma_degrees:
+        # However well it is matched: no surface this rough reads so.
+        return Verdict("off", "brighter than possible", "smoother")
+    seen = max(apart[:2])
+    if seen < perceptibility.SIDE_BY_SIDE:
+        return Verdict("right", "looks right")
+    words, remedy = _DIFFERS[limit(found, last, apart)]
+    if remedy == "wide" and not has_wider_space(found.working_space):
+        remedy = ""
+    if seen < perceptibility.VISIBLE:
+        return Verdict("near", perceptibility.words(seen), remedy)
+    return Verdict("off", words, remedy)
+
+
+def has_wider_space(name: str) -> bool:
+    """Whether the file can be let work in a wider space than the one of this name."""
+    import bpy
+
+    return hasattr(bpy.data, "colorspace") and name not in _WIDE
+
+
+def _failed(found: Snapshot) -> Verdict:
+    if found.schema > SCHEMA:
+        return Verdict("open", "needs newer version")
+    if found.inputs.sigma_degrees > MATCHED_SIGMA_DEGREES:
+        return Verdict("off", "too rough", "smoother")
+    return Verdict("off", "could not follow", "renew")
+
+
+def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
+    surface = found.surface
+    if last is None:
+        return Verdict("off", "not matched yet", "renew")
+    if found.inputs.sigma_degrees > MATCHED_SIGMA_DEGREES:
+        return Verdict("off", "too rough", "smoother")
+    if surface is not None and surface.muted:
+        return Verdict("off", "node is muted", "unmute")
+    if surface is not None and (surface.disturbing or surface.roughness_linked):
+        return Verdict("open", "cannot be predicted", "measure")
+    if surface is not None and surface.linked:
+        return Verdict("off", "texture not matched", "renew")
+    if surface is None or surface.node != last.node:
+        return Verdict("off", "another shader", "renew")
+    if last.working_space != found.working_space:
+        return Verdict("off", "color space changed", "renew")
+    if last.derivation != DERIVATION:
+        return Verdict("off", "of another version", "renew")
+    if state.edited(surface, last):
+        return Verdict("off", "edited by hand", "renew")
+    if last.inputs != digest(found.inputs):
+        return Verdict("off", "settings changed", "renew")
+    return Verdict("off", "gloss changed", "renew")
+
+
+def _kept(known: State) -> Verdict:
+    if known.stamp is not None and known.stamp.measured:
+        return Verdict("right", "found by measuring")
+    return Verdict("open", "edited, and kept", "renew")

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What everybody does in the panel, with one click or drag each."""
+
+import bpy
+from driver import TICK, area, click, find, move, press, scene, window, write
+from stage import empty_file, green_file, ours, state, undo_step, wall
+
+
+@scene
+def clicking_a_ball(found):
+    """Click the last of the four balls, and undo."""
+    yield from green_file()
+    found["before"] = state()
+    x, y = yield from find(area("PROPERTIES"), "rough_spectra.set_roughness", 0.9)
+    yield from click(x, y)
+    yield 0.5
+    found["clicked"] = state()
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = state()
+
+
+@scene
+def dragging_gloss(found):
+    """Drag the slider of a matte material, and undo."""
+    yield from green_file()
+    found["before"] = [state(), wall().rough_spectra.gloss]
+    x, y = yield from find(area("PROPERTIES"), "gloss")
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield TICK
+    found["dragged"] = []
+    for step in range(1, 9):
+        yield from move(x + 10 * step, y)
+        found["dragged"].append([state(), wall().rough_spectra.gloss])
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x + 80, y=y)
+    yield 0.5
+    found["after"] = [state(), wall().rough_spectra.gloss]
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = [state(), wall().rough_spectra.gloss]
+
+
+@scene
+def pressing_the_remedy(found):
+    """Edit the color by hand, and press the button beside the verdict."""
+    yield from green_file()
+    before = state()
+    nodes = ours("addon.blender.shader_nodes")
+    node = nodes.shader_node(wall())
+    nodes.color_socket(node).default_value = (0.5, 0.1, 0.1, 1)
+    undo_step("Edit")
+    yield 1.0
+    found["edited"] = state()["kind"]
+    x, y = yield from find(area("PROPERTIES"), "rough_spectra.renew", 0.8)
+    yield from click(x, y)
+    yield 0.5
+    found["same"] = state() == before
+
+
+@scene
+def sidebar_of_the_3d_view(found):
+    """Choose a sample in its tab, and set the roughness there."""
+    yield from empty_file("VIEW_3D")
+    view = area("VIEW_3D")
+    view.spaces.active.show_region_ui = True
+    yield 1.0
+    sidebar = next(region for region in view.regions if region.type == "UI")
+    sidebar.active_panel_category = "Rough Spectra"
+    yield 1.0
+    found["category"] = sidebar.active_panel_category
+    across = (sidebar.x - view.x + sidebar.width * 0.3) / view.width
+    x, y = yield from find(view, "rough_spectra.choose_sample", across, "UI")
+    yield from click(x, y)
+    yield 1.0
+    yield from write("foliage")
+    yield 0.5
+    yield from press("RET")
+    yield 1.0
+    found["chosen"] = state()
+    x, y = yield from find(view, "rough_spectra.set_roughness", across, "UI")
+    yield from click(x, y)
+    yield 0.5
+    found["set"] = state()
+
+
+@scene
+def grease_pencil(found):
+    """Look for the panel of a stroke."""
+    yield from empty_file()
+    lines = bpy.data.grease_pencils.new("Lines")
+    strokes = bpy.data.materials.new("Stroke")
+    bpy.data.materials.create_gpencil_data(strokes)
+    lines.materials.append(strokes)
+    thing = bpy.data.objects.new("Lines", lines)
+    bpy.context.scene.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    yield 1.0
+    try:
+        yield from find(area("PROPERTIES"), "rough_spectra.choose_sample", 0.5)
+        found["shown"] = True
+    except LookupError:
+        found["shown"] = False
