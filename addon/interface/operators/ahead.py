@@ -57,6 +57,7 @@ STEPS = (
     "addon.material.derive",
     "addon.material.last_measurement",
     "addon.matching.assess",
+    "addon.matching.own_gloss",
     "addon.preview.icons",
     "addon.preview.figures.compose",
     "addon.preview.data",

@@ -281,10 +281,19 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
         update=_compare,
     )
     began: FloatVectorProperty(
-        name="First Color", default=(-1.0, -1.0, -1.0), options={"SKIP_SAVE", "HIDDEN"}
+        name="First Color",
+        description="The material's, with which the dialog began",
+        default=(-1.0, -1.0, -1.0),
+        options={"SKIP_SAVE", "HIDDEN"},
     )
-    fault: StringProperty(name="Fault", options={"SKIP_SAVE", "HIDDEN"})
-    apart: StringProperty(name="Metamerism Index", options={"SKIP_SAVE", "HIDDEN"})
+    fault: StringProperty(
+        name="Fault", description="Why nothing is found", options={"SKIP_SAVE", "HIDDEN"}
+    )
+    apart: StringProperty(
+        name="Metamerism Index",
+        description="How far match and color are apart in other lights",
+        options={"SKIP_SAVE", "HIDDEN"},
+    )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
