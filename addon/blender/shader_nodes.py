@@ -171,6 +171,17 @@ def new_material(name: str) -> Any:
     return material
 
 
+def can_shine(place: SocketTarget) -> bool:
+    """Whether the node at a place that `find` gave can have gloss, and it is ours to set."""
+    if place.make and not place.node_name:
+        return bool(OF_NODE[place.make].gloss)
+    node = place.material.node_tree.nodes[place.node_name]
+    names = OF_NODE[node.bl_idname].gloss.values()
+    animated = (_is_animated(place.material.node_tree, node.inputs[name]) for name in names)
+    linked = (node.inputs[name].is_linked for name in names)
+    return bool(names) and not any(linked) and not any(animated)
+
+
 def put_gloss(material: Any, gloss: Gloss) -> None:
     """Set the gloss of the shader node that makes a material's surface, if its shader has any."""
     node = shader_node(material)

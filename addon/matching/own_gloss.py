@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import json
+
+from ...core import gloss
 from ...core.cycles import gloss_estimate
 from ...core.gloss import Gloss
 from ...core.instruments import HEMISPHERE, REGISTRY
 from ...core.instruments import gloss as meters
 from ..colorimetry import tristimulus
-from ..samples import sets
+from ..samples import preset_index, sets
 from ..samples.sample import Sample
 
 _LEAST = 0.25
@@ -29,6 +32,14 @@ def of_sample(sample: Sample) -> Gloss | None:
     -------
     None where it is matte or says nothing, and where a matte body reads as many units.
     """
+    found = readings(sample)
+    return None if found is None else _found(*found)
+
+
+def readings(
+    sample: Sample,
+) -> tuple[float, float | None, tuple[tuple[int, float], ...]] | None:
+    """Return what gloss is found from: luminance with and without specular light, and units."""
     units = {round(angle): read for angle, read in sample.gloss if angle in meters.METERS}
     if not units or not sample.has_color:
         return None
@@ -41,12 +52,26 @@ def of_sample(sample: Sample) -> Gloss | None:
     excluded = sphere.get("SCE") if "SCI" in sphere else None
     if excluded is not None and excluded >= included:
         excluded = None
-    return _found(round(included, 4), excluded, tuple(sorted(units.items())))
+    return round(included, 4), excluded, tuple(sorted(units.items()))
+
+
+def key_of(included: float, excluded: float | None, units: tuple[tuple[int, float], ...]) -> str:
+    """Return the name under which `preset_index` keeps what was found from readings."""
+    return json.dumps([included, excluded, units])
 
 
 def _found(
     included: float, excluded: float | None, units: tuple[tuple[int, float], ...]
 ) -> Gloss | None:
+    key = key_of(included, excluded, units)
+    known = preset_index.glosses()
+    return gloss.from_numbers(known[key]) if key in known else estimated(included, excluded, units)
+
+
+def estimated(
+    included: float, excluded: float | None, units: tuple[tuple[int, float], ...]
+) -> Gloss | None:
+    """Find the gloss from readings, which takes a tenth of a second and more."""
     angles = tuple(angle for angle, _ in units)
     matte = gloss_estimate.readings(Gloss(level=0.0), included, angles).units
     if all(read < matte[angle] + _LEAST for angle, read in units):

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...core.errors import MaterialError, RoughSpectraError
+from ...core.gloss import Gloss
 from ..blender import shader_nodes, working_space
 from ..blender.texture_scale import Palette
 from ..colorimetry.rgb_space import WorkingSpace
@@ -25,6 +26,7 @@ def assign(
     pairs: Sequence[tuple[Any, Request]],
     shader: str | Sequence[str] = shaders.AUTO,
     keep_gloss: bool = True,
+    glosses: Sequence[Gloss | None] = (),
 ) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
@@ -37,6 +39,9 @@ def assign(
     keep_gloss
         Whether a node that is there keeps the gloss that it has, which is then counted; else it is
         set to 0. What a request says of gloss is not looked at.
+    glosses
+        For each material the gloss that its node is to have instead, or None; a node that can have
+        none stays matte.
 
     Returns
     -------
@@ -58,13 +63,23 @@ def assign(
         )
         for (material, request), node in zip(pairs, nodes, strict=True)
     ]
+    given = [
+        gloss if gloss is not None and shader_nodes.can_shine(place) else None
+        for (place, _), gloss in zip(work, glosses or [None] * len(work), strict=True)
+    ]
+    work = [
+        (place, request if gloss is None else replace(request, gloss=gloss))
+        for (place, request), gloss in zip(work, given, strict=True)
+    ]
     space, solutions = _solve(work)
     palettes, solutions, written = textures.scaled(work, solutions, space)
-    together = zip(work, written, palettes, nodes, strict=True)
-    for (place, request), solution, palette, shader in together:
+    together = zip(work, written, palettes, nodes, given, strict=True)
+    for (place, request), solution, palette, shader, gloss in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
         node = _write(place, solution, palette)
+        if gloss is not None:
+            shader_nodes.put_gloss(place.material, gloss)
         storage.store(place.material, request, shader)
         storage.note_own_sigma(place.material, request.sample)
         inputs = snapshot.inputs(place.material.rough_spectra)

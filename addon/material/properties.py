@@ -168,6 +168,9 @@ class RoughSpectraMaterial(PropertyGroup):
         description="Roughness that the sample came with, radians; below 0 where nobody knows",
         default=-1.0,
     )
+    own_gloss: StringProperty(
+        name="Sample's Gloss", description="Gloss that the sample came with, as JSON"
+    )
     solid_color: FloatVectorProperty(
         name="Viewport Color",
         description="What we set as the color of solid shading; another one is the user's",

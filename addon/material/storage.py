@@ -15,10 +15,11 @@ from typing import Any
 
 from ...core import limits, white_scale
 from ...core.errors import InputError, MaterialError, RoughSpectraError
-from ...core.gloss import Gloss
+from ...core.gloss import Gloss, from_numbers
 from ...core.numerics.memoized import memoized
 from ..blender import shader_nodes, working_space
 from ..colorimetry import tristimulus
+from ..matching import own_gloss as gloss_of_sample
 from ..matching import scene_view
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
@@ -111,6 +112,37 @@ def is_sigma_set(material: Any) -> bool:
     group = material.rough_spectra
     own = snapshot.entered_degrees(group.own_sigma)
     return own < 0 or own != snapshot.sigma_degrees(group)
+
+
+def note_own_gloss(material: Any, gloss: Gloss | None) -> None:
+    """Note the gloss that a sample came with, so that one set by the user is known."""
+    material.rough_spectra.own_gloss = "" if gloss is None else json.dumps(gloss.numbers())
+
+
+def own_gloss(material: Any) -> Gloss | None:
+    """Give the gloss that a material's sample came with; None of one without."""
+    try:
+        return from_numbers(tuple(json.loads(material.rough_spectra.own_gloss or "[]")))
+    except (ValueError, TypeError):
+        pass
+    try:
+        return gloss_of_sample.of_sample(load(material).sample)  # as of an asset's material
+    except MaterialError:
+        return None
+
+
+def is_gloss_set(material: Any) -> bool:
+    """Whether a material's gloss is the user's, and neither its sample's nor that of a new node."""
+    shown, own = shown_gloss(material), own_gloss(material)
+    if shown is None:
+        return own is not None
+    return not any(_same_gloss(shown, other) for other in (own, Gloss()) if other is not None)
+
+
+def _same_gloss(one: Gloss, other: Gloss) -> bool:
+    """Whether two are the same in the single precision of sockets."""
+    pairs = zip(one.numbers(), other.numbers(), strict=True)
+    return all(abs(a - b) <= 1e-5 for a, b in pairs)
 
 
 def load(material: Any, view: SceneView | None = None) -> Request:

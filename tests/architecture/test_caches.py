@@ -22,6 +22,7 @@ NO_CACHES = {
     ("addon/commands/command_line.py", "_handles"),
     # What is under way.
     ("addon/interface/operators/ahead.py", "_left"),
+    ("addon/interface/operators/ahead.py", "_waiting"),
     ("addon/interface/operators/import_review.py", "_batch"),
     ("addon/interface/panels/redraw.py", "_last"),
     ("addon/interface/panels/renewal.py", "_asked"),

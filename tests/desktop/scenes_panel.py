@@ -4,7 +4,7 @@
 
 import bpy
 from driver import TICK, area, click, find, move, press, scene, window, write
-from stage import empty_file, green_file, state, undo_step
+from stage import empty_file, green_file, ours, state, undo_step
 
 
 @scene
@@ -88,6 +88,29 @@ def choosing_for_several(found):
     yield from press("Z", ctrl=True, shift=True)
     yield 0.5
     found["redone"] = _materials()
+
+
+@scene
+def finding_by_color(found):
+    """Open the dialog, which begins at the material's color, take the second match, and undo."""
+    yield from green_file()
+    panel = area("PROPERTIES")
+    x, y = yield from find(panel, "rough_spectra.find_nearest", across=0.9)
+    yield from click(x, y)
+    yield lambda: ours("addon.interface.operators.ahead").is_done()
+    yield 1.0
+    yield from press("RET")
+    yield 1.0
+    done = bpy.context.window_manager.operators[-1]
+    found["ran"] = done.bl_idname
+    found["nearest"] = [(m.name, round(m.difference, 2)) for m in done.matches][:2]
+    found["color"] = [round(value, 3) for value in done.color]
+    found["apart"] = done.apart
+    found["sigma"] = state()["sigma"]
+    found["sample"] = state()["sample"]
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = state()
 
 
 def _materials():

@@ -43,6 +43,19 @@ def test_choosing_for_several(scene):
     assert scene["redone"] == scene["chosen"]
 
 
+def test_finding_by_color(scene):
+    assert scene["ran"] == "ROUGH_SPECTRA_OT_find_nearest"
+    (name, difference), second = scene["nearest"]
+    assert (name, difference) == ("ColorChecker 14 Green", 0.0)
+    assert second[1] > 0
+    assert scene["sample"] == name
+    red, green, blue = scene["color"]
+    assert green > max(red, blue)
+    assert scene["apart"] == "A 0.0, F11 0.0, LED-B3 0.0, if alike in D65"
+    assert scene["sigma"] == pytest.approx(0.5236, abs=1e-4)  # the user's
+    assert scene["undone"]["sample"] == name
+
+
 BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
 TOLD = (" σ 20°: ",)
 """What a user is told of the samples in a library that a scene builds."""
@@ -193,6 +206,13 @@ def test_adding_a_rough_sample(scene):
     assert scene["same"]
 
 
+def test_first_list(scene):
+    assert scene["known"] == 0
+    assert "Foliage" in scene["chosen"]
+    for step in ("opened", "typed", "assigned"):
+        assert scene[step] < 0.2, step
+
+
 def test_dragging_from_the_shelf(scene):
     assert scene["libraries"] == ["APPEND"]
     assert scene["names"][1].startswith(f"{scene['sample']}.")  # each drag is a copy of its own
@@ -201,13 +221,6 @@ def test_dragging_from_the_shelf(scene):
     assert scene["here"] == [True, True]
     assert scene["state"] == "fresh"
     assert scene["browser"] == [True, True]
-
-
-def test_first_list(scene):
-    assert scene["known"] == 0
-    assert "Foliage" in scene["chosen"]
-    for step in ("opened", "typed", "assigned"):
-        assert scene[step] < 0.2, step
 
 
 def test_clicking_a_ball(scene):

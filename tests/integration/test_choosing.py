@@ -177,3 +177,60 @@ def test_solid_shading_shows_the_reading_unless_the_user_gave_it_a_color():
     wall.diffuse_color = (1, 0, 0, 0.5)
     choose(BRICK)
     assert tuple(wall.diffuse_color) == (1, 0, 0, 0.5)
+
+
+def test_a_sample_brings_its_own_gloss_until_the_user_sets_one():
+    from rough_spectra.addon.matching import own_gloss
+    from rough_spectra.addon.material import storage
+    from rough_spectra.addon.samples import presets
+
+    glossy, other = "everyday/tarp-blue", "everyday/nylon-red"
+    wall = mesh_object("Wall")
+    choose(glossy)
+    wall = wall.active_material
+    expected = own_gloss.estimated(*own_gloss.readings(presets.load(glossy)))
+    found = storage.shown_gloss(wall)
+    assert found.numbers() == pytest.approx(expected.numbers(), abs=1e-5)
+    choose(other)
+    assert storage.shown_gloss(wall).roughness > found.roughness + 0.05
+    choose(GREEN)  # which has none
+    assert storage.shown_gloss(wall) is None
+    choose(glossy)
+    node = next(node for node in wall.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Roughness"].default_value = 0.2
+    for sample in (other, GREEN, glossy):
+        choose(sample)
+        assert storage.shown_gloss(wall).roughness == pytest.approx(0.2)
+    node.inputs["Specular IOR Level"].default_value = 0.0
+    choose(other)
+    assert storage.shown_gloss(wall) is None  # the user took it away
+
+
+def test_gloss_of_an_asset_is_its_samples():
+    from rough_spectra.addon.blender import shader_nodes
+    from rough_spectra.addon.matching import own_gloss
+    from rough_spectra.addon.matching.request import Request
+    from rough_spectra.addon.material import derive, storage
+    from rough_spectra.addon.samples import presets
+
+    sample = presets.load("everyday/tarp-blue")
+    wall = shader_nodes.new_material("Wall")
+    shader_nodes.put_gloss(wall, own_gloss.of_sample(sample))
+    derive.assign([(wall, Request(sample, 0.1))])
+    assert not storage.is_gloss_set(wall)
+    mesh_object("Wall", wall)
+    choose(GREEN)
+    assert storage.shown_gloss(wall) is None
+
+
+def test_gloss_that_the_user_gave_a_material_before_stays():
+    from rough_spectra.addon.material import storage
+
+    wall = bpy.data.materials.new("Wall")
+    wall.use_nodes = True
+    node = next(node for node in wall.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Coat Weight"].default_value = 0.25
+    mesh_object("Wall", wall)
+    before = storage.shown_gloss(wall)
+    choose("everyday/tarp-blue")
+    assert storage.shown_gloss(wall) == before

@@ -218,6 +218,44 @@ def test_nearest_color_is_assigned(folder, two):
     assert "only 3 matches" in refusal(OPS.find_nearest, count=3, index=3)
 
 
+def test_nearest_to_typed_colors_and_rows_of_a_palette_is_assigned(folder, tmp_path):
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    entries = {entry.id: entry for entry in library.entries(folder)}
+    moss, sand = entries["colorchecker/11-yellow-green"], entries["everyday/sand"]
+    assigned = wall.active_material.rough_spectra
+    OPS.find_nearest("EXEC_DEFAULT", by="LAB", lab=moss.lab)
+    assert assigned.sample_name == moss.name
+    lab = library.contents(folder).lab("D50", 10)[list(entries).index(sand.id)]
+    OPS.find_nearest("EXEC_DEFAULT", by="LAB", lab=lab, illuminant="D50", observer="10")
+    assert assigned.sample_name == sand.name
+    assert math.degrees(assigned.sigma) == pytest.approx(sand.sigma_degrees)
+    own = tmp_path / "own.csv"
+    rows = [f"{name},{','.join(map(repr, e.lab))}\n" for name, e in (("a", sand), ("b", moss))]
+    own.write_text("".join(rows), encoding="utf-8")
+    OPS.find_nearest("EXEC_DEFAULT", by="PALETTE", palette=str(own), row="b")
+    assert assigned.sample_name == moss.name
+    OPS.find_nearest("EXEC_DEFAULT", by="PALETTE", palette=str(own))
+    assert assigned.sample_name == sand.name
+    sentence = refusal(OPS.find_nearest, by="PALETTE", palette=str(own), row="c")
+    assert "no row 'c'" in sentence
+    assert "none.csv" in refusal(OPS.find_nearest, by="PALETTE", palette=str(tmp_path / "none.csv"))
+    assert assigned.sample_name == sand.name
+
+
+def test_search_begins_at_the_materials_color(folder):
+    from rough_spectra.addon.interface.operators import find_nearest
+
+    wall = rgb_material("Wall")
+    mesh_object("Wall", wall)
+    node = next(node for node in wall.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    node.inputs["Color"].default_value = (0.2140411, 0.0512695, 1.0, 1.0)
+    # IEC 61966-2-1: 0.5, 0.25 and 1 of a screen.
+    assert find_nearest.color_of(wall) == pytest.approx((0.5, 0.25, 1.0), abs=2e-3)
+    OPS.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+    entry = next(e for e in library.entries(folder) if e.id == "everyday/brick")
+    assert find_nearest.color_of(wall) == pytest.approx(entry.swatch, abs=1e-6)
+
+
 def test_import_verb_prints_ids_and_warns(main, folder, two, noisy, tmp_path):
     result = main("import", two, noisy, "--folder", tmp_path / "other")
     assert result.status == 0

@@ -13,10 +13,20 @@ from tools.run.run_command_line import load_extension
 def main() -> None:
     """Read all presets and write the index."""
     load_extension()
+    from rough_spectra.addon.matching import own_gloss
     from rough_spectra.addon.samples import library, preset_index
 
-    found = tuple(entry for file in library.read_presets() for entry in file.entries)
-    preset_index.FILE.write_text(preset_index.text(found), encoding="utf-8", newline="\n")
+    found, glosses = [], {}
+    for file in library.read_presets():
+        found += file.entries
+        for entry, sample in zip(file.entries, file.samples, strict=True):
+            readings = own_gloss.readings(sample)
+            gloss = None if readings is None else own_gloss.estimated(*readings)
+            if gloss is not None:
+                numbers = [round(number, 6) for number in gloss.numbers()]
+                glosses[entry.id] = (own_gloss.key_of(*readings), numbers)
+    text = preset_index.text(tuple(found), glosses)
+    preset_index.FILE.write_text(text, encoding="utf-8", newline="\n")
     print(f"{preset_index.FILE}: {len(found)} presets")
 
 

@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import bpy
 
@@ -56,6 +57,7 @@ STEPS = (
     "addon.material.derive",
     "addon.material.last_measurement",
     "addon.matching.assess",
+    "addon.matching.own_gloss",
     "addon.preview.icons",
     "addon.preview.figures.compose",
     "addon.preview.data",
@@ -78,11 +80,22 @@ _WORK = (_import_masked, _unpack_surface)
 """What no import brings along."""
 
 _left: list[Callable[[], object]] = []
+_waiting: list[tuple[str, Any, Any, Any]] = []
+"""An operator that is to be invoked afterwards, with window, area and region."""
 _ROOT = __name__.partition(".addon.")[0]
 
 
-def begin() -> None:
-    """Begin, unless it was done; in a background Blender, which has no window, never."""
+def begin(context: Any = None, then: str = "") -> None:
+    """Begin, unless it was done; in a background Blender, which has no window, never.
+
+    Parameters
+    ----------
+    context, then
+        Name of one of our operators that waits for it, and where it is to be invoked.
+    """
+    if then:
+        _waiting[:] = [(then, context.window, context.area, context.region)]
+        context.window.cursor_set("WAIT")
     if bpy.app.background or is_done() or bpy.app.timers.is_registered(_turn):
         return
     _left[:] = [*(partial(importlib.import_module, f"{_ROOT}.{name}") for name in STEPS), *_WORK]
@@ -99,11 +112,32 @@ def _turn() -> float | None:
     from ...material import preferences
     from ...samples import library
 
-    return _PAUSE if library.read_next(preferences.user_folder()) else None
+    if library.read_next(preferences.user_folder()):
+        return _PAUSE
+    if _waiting:
+        bpy.app.timers.register(_invoke, first_interval=0.0)
+    return None
+
+
+def _invoke() -> None:
+    """Invoke what waited, if the editor that it came from is still there."""
+    while _waiting:
+        name, window, area, region = _waiting.pop()
+        if window not in tuple(bpy.context.window_manager.windows):
+            continue
+        window.cursor_set("DEFAULT")
+        if area in tuple(window.screen.areas):
+            with bpy.context.temp_override(window=window, area=area, region=region):
+                getattr(bpy.ops.rough_spectra, name)("INVOKE_DEFAULT")
 
 
 def is_done() -> bool:
-    """Whether all modules are loaded and the user's samples read, but for what changed since."""
+    """Whether all modules are loaded and the user's samples read, but for what changed since.
+
+    A background Blender has nothing to wait for.
+    """
+    if bpy.app.background:
+        return True
     if f"{_ROOT}.{STEPS[-1]}" not in sys.modules:
         return False
     return not bpy.app.timers.is_registered(_turn)
@@ -112,6 +146,7 @@ def is_done() -> bool:
 def _end() -> None:
     """Stop: the extension is switched off."""
     _left.clear()
+    _waiting.clear()
     if bpy.app.timers.is_registered(_turn):
         bpy.app.timers.unregister(_turn)
     events.unregistering.unsubscribe(_end)

@@ -26,6 +26,7 @@ from ...material.properties import (
 )
 
 if TYPE_CHECKING:
+    from ....core.gloss import Gloss
     from ...matching.solution import Solution
     from ...matching.solve import Request
     from ...samples.sample import Sample
@@ -278,7 +279,7 @@ def assign_in_scope(
     context: Any, scope: str, request: Request, shader: str
 ) -> list[tuple[Any, Solution]]:
     """Assign one request to all materials in scope, or to none; see `assign_sample`."""
-    return _assign(context, scope, lambda _material: (request, shader), request.sample.name)
+    return _assign(context, scope, lambda _material: (request, shader), request.sample)
 
 
 def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any, Solution]]:
@@ -304,7 +305,7 @@ def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any
         request, shader = replacing_request(material, sample, sigma)
         return request, operator.shader if told("shader") else shader
 
-    assigned = _assign(context, operator.scope, wanted, sample.name)
+    assigned = _assign(context, operator.scope, wanted, sample)
     given = {material.rough_spectra.sigma for material, _ in assigned}
     if sigma is None and len(given) == 1:
         [operator.sigma] = given  # to be seen, and changed, afterwards
@@ -312,10 +313,10 @@ def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any
 
 
 def _assign(
-    context: Any, scope: str, wanted: Callable[[Any], tuple[Request, str]], name: str
+    context: Any, scope: str, wanted: Callable[[Any], tuple[Request, str]], sample: Sample
 ) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
-    from ...material import derive
+    from ...material import derive, storage
 
     materials, bare = _in_scope(context, scope)
     made = None
@@ -326,22 +327,48 @@ def _assign(
                 raise RoughSpectraError(msg)
         active = active_object(context)
         if not (materials and active not in bare):
-            made = shader_nodes.new_material(name)
+            made = shader_nodes.new_material(sample.name)
             materials = [made, *materials]
     try:
         found = [wanted(None if material == made else material) for material in materials]
         pairs = [
             (material, request) for material, (request, _) in zip(materials, found, strict=True)
         ]
-        solutions = derive.assign(pairs, [shader for _, shader in found])
+        glosses = _glosses(materials, sample)
+        solutions = derive.assign(pairs, [shader for _, shader in found], glosses=glosses)
     except RoughSpectraError:
         if made is not None:
             bpy.data.materials.remove(made)
         raise
+    for material, gloss in zip(materials, glosses, strict=True):
+        if gloss is not None:
+            storage.note_own_gloss(material, storage.shown_gloss(material))
     for thing in bare:
         if thing.active_material is None:  # one of the same mesh may have been given it
             thing.active_material = materials[0]
     return list(zip(materials, solutions, strict=True))
+
+
+def _glosses(materials: Sequence[Any], sample: Sample) -> list[Gloss | None]:
+    """Give the gloss that each material gets with a sample, or None: it stays as it is.
+
+    That of the sample, unless the user set one. One that an earlier sample brought goes with it.
+    """
+    from ....core.gloss import Gloss
+    from ...matching import own_gloss
+    from ...material import storage
+
+    own = own_gloss.of_sample(sample)
+    matte = Gloss(level=0.0)
+    found: list[Gloss | None] = []
+    for material in materials:
+        if storage.is_gloss_set(material):
+            found.append(None)
+        elif own is None and storage.own_gloss(material) is not None:
+            found.append(matte)
+        else:
+            found.append(own)
+    return found
 
 
 def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
@@ -352,8 +379,8 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
         return materials_in_scope(context, scope), []
     if scope == "ACTIVE":
-        things = [active_object(context)]
-        if not can_carry(things[0]):
+        things = [thing for thing in (active_object(context),) if can_carry(thing)]
+        if not things:
             msg = "There is no object that can carry a material; select a mesh first."
             raise RoughSpectraError(msg)
     else:
