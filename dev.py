@@ -12,14 +12,16 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import hashlib
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tools.environment import environments, package, side_by_side, wheels
+from tools.environment import core_package, environments, package, side_by_side, wheels
 from tools.environment.environments import Environment
 from tools.environment.errors import SetupError
 from tools.environment.side_by_side import Result, Step
@@ -229,6 +231,31 @@ def command_build(_options: argparse.Namespace) -> int:
     return 0
 
 
+def command_release(options: argparse.Namespace) -> int:
+    """Build what a release has: the zip for the extensions platform, and the core as a wheel."""
+    if not options.website and not package.has_website(ROOT):
+        raise SetupError(
+            "The extensions platform wants the project's website, and the manifest names none: "
+            "add --website ADDRESS."
+        )
+    python = prepare_blender().python
+    folder = BUILD / "release"
+    shutil.rmtree(folder, ignore_errors=True)
+    output = folder / f"rough_spectra-{package.version(ROOT)}.zip"
+    staging = BUILD / "stage" / "rough_spectra"
+    shipped = wheels.shipped(ROOT, python)
+    package.build(ROOT, python, shipped, staging, output, options.website or "")
+    wheel = core_package.build(ROOT, BUILD / "stage")
+    shutil.copy2(wheel, folder / wheel.name)
+    made = sorted(path for path in folder.iterdir() if path.is_file())
+    sums = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}" for path in made]
+    (folder / "SHA256SUMS").write_text("\n".join(sums) + "\n", encoding="utf-8")
+    for line in sums:
+        say(line)
+    say(f"Made {folder}; the zip is accepted by Blender's own validator.")
+    return 0
+
+
 def command_run(arguments: Sequence[str]) -> int:
     """Run the extension's command line in the caller's folder."""
     # What a verb prints may be piped on: set-up talks elsewhere.
@@ -343,6 +370,7 @@ COMMANDS = {
     "demo": (command_demo, "make the demo scene, its readings and its pictures"),
     "test": (command_test, "tests over both Blender LTS versions, lint, layout and types"),
     "build": (command_build, "build and validate the extension zip"),
+    "release": (command_release, "build and validate all that a release has"),
     "docs": (command_docs, "build the manual into site/"),
     "figures": (command_figures, "draw the figures of the manual"),
     "bench": (command_bench, "measure speed"),
@@ -373,6 +401,10 @@ def parser() -> argparse.ArgumentParser:
             epilog = f"Other arguments go to {TAKES_ARGUMENTS[name]}."
         sub = commands.add_parser(name, help=about, description=function.__doc__, epilog=epilog)
         sub.set_defaults(function=function)
+        if name == "release":
+            sub.add_argument(
+                "--website", metavar="ADDRESS", help="of the project, for the manifest"
+            )
         if name == "test":
             sub.add_argument(
                 "--only",

@@ -32,12 +32,16 @@ DIGITS = 6
 
 
 def of_rgb(rgb: npt.ArrayLike, space: WorkingSpace) -> dict[str, Triple]:
-    """Give scene-linear RGB (3,) of a space in all of `NAMES`; not clipped to any gamut."""
-    xyz = np.linalg.solve(space.from_xyz, np.asarray(rgb, np.float64))
-    xyz = color_difference.adaptation(space.white, _WHITE) @ xyz
+    """Give scene-linear RGB (3,) of a space in all of `NAMES`; not clipped to any gamut.
+
+    In the space's own name it is as given: Blender's matrices have fewer digits than ours.
+    """
+    own = np.asarray(rgb, np.float64)
+    xyz = color_difference.adaptation(space.white, _WHITE) @ np.linalg.solve(space.from_xyz, own)
     found: dict[str, Triple] = {}
     for name, other in SPACES.items():
-        red, green, blue = (other.from_xyz @ xyz).round(DIGITS).tolist()
+        there = own if name == space.name else other.from_xyz @ xyz
+        red, green, blue = there.round(DIGITS).tolist()
         found[name] = (red + 0.0, green + 0.0, blue + 0.0)  # no -0.0
     return found
 

@@ -10,9 +10,8 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, cast
 
 import bpy
@@ -60,7 +59,7 @@ class Row:
     material: str
     sample: Sample
     where: str = ""
-    said: Mapping[str, str] = MappingProxyType({})
+    said: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

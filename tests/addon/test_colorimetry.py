@@ -253,6 +253,6 @@ def test_standard_spaces_are_blenders_own(name, set_working_space):
         set_working_space(name)
     blenders, ours = working_space.current(), standard_spaces.SPACES
     assert blenders.name == name
-    # Blender's matrices have the digits of its configuration.
-    assert ours[name].from_xyz == pytest.approx(blenders.from_xyz, abs=5e-4)
+    # Blender's matrices have the digits of its configuration: 4.5 has 3.2404 for 3.2410.
+    assert ours[name].from_xyz == pytest.approx(blenders.from_xyz, abs=6e-4)
     assert standard_spaces.of_rgb((1, 1, 1), blenders)[name] == pytest.approx((1, 1, 1), abs=1e-6)

@@ -48,7 +48,14 @@ def stage(
         shutil.copytree(root / name, target / name, ignore=NEVER_SHIPPED)
 
 
-def build(root: Path, python: Path, wheels: Sequence[Path], staging: Path, output: Path) -> None:
+def build(
+    root: Path,
+    python: Path,
+    wheels: Sequence[Path],
+    staging: Path,
+    output: Path,
+    website: str = "",
+) -> None:
     """Build and validate the zip.
 
     Blender's builder takes files in the order the disk returns them. Sorted again, with fixed
@@ -66,8 +73,13 @@ def build(root: Path, python: Path, wheels: Sequence[Path], staging: Path, outpu
         Folder to gather the files in; made anew.
     output
         The zip to write.
+    website
+        Of the project, for the manifest, which the extensions platform wants; empty leaves it as
+        it is.
     """
     stage(root, staging)
+    if website:
+        _name_website(staging / MANIFEST, website)
     (staging / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy2(wheel, staging / "wheels" / wheel.name)
@@ -78,6 +90,22 @@ def build(root: Path, python: Path, wheels: Sequence[Path], staging: Path, outpu
     archives.write(output, {name: files[name] for name in sorted(files)})
     built.unlink()
     _builder(python, "validate", str(output))
+
+
+def has_website(root: Path) -> bool:
+    """Return whether the manifest itself names the project's website."""
+    text = (root / MANIFEST).read_text(encoding="utf-8")
+    return re.search(r"^website = ", text, re.M) is not None
+
+
+def _name_website(manifest: Path, website: str) -> None:
+    if re.fullmatch(r"https?://[^\s\"\\]+", website) is None:
+        raise SetupError(f"{website!r} is no website: give an address such as https://example.org.")
+    text = manifest.read_text(encoding="utf-8")
+    text = re.sub(r"^website = .*\n", "", text, flags=re.M)
+    line = f'website = "{website}"'
+    text = re.sub(r"^maintainer = ", lambda found: f"{line}\n{found[0]}", text, count=1, flags=re.M)
+    manifest.write_text(text, encoding="utf-8")
 
 
 def builder(python: Path) -> Path:
