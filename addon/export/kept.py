@@ -5,7 +5,7 @@
 Both know a Principled BSDF without its diffuse roughness, so that Lambert's law is left below the
 gloss. glTF's finds nothing in a Diffuse BSDF, and white is what it then writes. USD's takes the
 first Principled or Diffuse BSDF among the nodes, in use or not; a preview surface knows no level of
-its gloss, and what has none comes back with the usual one. tests/addon/test_export_kept.py holds
+its gloss, and what has none comes back with the usual one. tests/addon/test_export.py holds
 it to what Blender 4.5 and 5.2 import again.
 """
 
