@@ -5,7 +5,7 @@
 Both know a Principled BSDF without its diffuse roughness, so that Lambert's law is left below the
 gloss. glTF's finds nothing in a Diffuse BSDF, and white is what it then writes. USD's takes the
 first Principled or Diffuse BSDF among the nodes, in use or not; a preview surface knows no level of
-its gloss, and what has none comes back with the usual one. tests/addon/test_export_kept.py holds
+its gloss, and what has none comes back with the usual one. tests/addon/test_export.py holds
 it to what Blender 4.5 and 5.2 import again.
 """
 
@@ -81,7 +81,7 @@ def losses(materials: Iterable[Any], exporters: Iterable[str] = ()) -> list[Loss
     One for each material and exporter that end farther apart than the material's own tolerance, at
     the instrument or in the mean.
     """
-    found = []
+    found: list[Loss] = []
     for material in dict.fromkeys(materials):
         if snapshot.has_spectrum(material):
             for exporter in tuple(exporters) or tuple(_EXPORTERS):
@@ -94,9 +94,10 @@ def _losses(material: Any, exporter: str) -> Iterator[Loss]:
         request = settled.of(material).request
     except RoughSpectraError:
         return  # what cannot be read has no target; other places say so
-    if shader_nodes.surface(material) is None:
+    node = shader_nodes.shader_node(material)
+    if node is None:
         return
-    back = _EXPORTERS[exporter](material)
+    back = _EXPORTERS[exporter](material, node)
     request = replace(request, scene=None, flat=False)
     at, mean = _apart(request, back)
     if max(at, mean) <= request.tolerance:
@@ -126,16 +127,14 @@ def _apart(request: solve.Request, back: _Imported) -> tuple[float, float]:
     return float(apart[-1]), float(apart[:-1].mean())
 
 
-def _by_gltf(material: Any) -> _Imported:
-    node = shader_nodes.shader_node(material)
+def _by_gltf(_material: Any, node: Any) -> _Imported:
     if node.bl_idname == _PRINCIPLED:
         gloss = shader_nodes.gloss_of(node)
         return _Imported(_color(node), gloss, "drops its diffuse roughness")
     return _Imported(np.ones(3), _WHITE_METAL, f"makes its {node.bl_label} white")
 
 
-def _by_usd(material: Any) -> _Imported:
-    used = shader_nodes.shader_node(material)
+def _by_usd(material: Any, used: Any) -> _Imported:
     kinds = (_PRINCIPLED, _DIFFUSE)
     node = next(each for each in material.node_tree.nodes if each.bl_idname in kinds)
     rough = node.inputs["Roughness"].default_value
@@ -158,4 +157,4 @@ def _color(node: Any) -> Array:
     return np.clip(np.array(color_socket(node).default_value[:3]), 0.0, 1.0)
 
 
-_EXPORTERS: dict[str, Callable[[Any], _Imported]] = {"glTF": _by_gltf, "USD": _by_usd}
+_EXPORTERS: dict[str, Callable[[Any, Any], _Imported]] = {"glTF": _by_gltf, "USD": _by_usd}

@@ -37,8 +37,16 @@ FROM_ACESCG = np.array(
         [-0.024003, -0.128969, 1.152972],
     ]
 )
-PATCHES = api.presets("colorchecker")[1::2]
+PATCHES = api.presets("colorchecker")[2::3]
 """With cyan, which linear Rec.709 does not have. All 24: tools/checks/check_exports.py."""
+
+
+CASES = {
+    "Bystander": ("diffuse", "none"),  # with the Principled BSDF that was there before
+    "Matte": ("principled", "none"),
+    "Glossy": ("principled", "keep"),
+    "Alone": ("auto", "none"),
+}
 
 
 @pytest.fixture(scope="module")
@@ -161,27 +169,84 @@ def test_a_rough_lobe_comes_closer_over_the_hemisphere_than_lambert(chart):
 
 
 @pytest.fixture
-def gltf_importer():
+def gltf_of_blender():
     addon_utils.enable("io_scene_gltf2")
     yield
     addon_utils.disable("io_scene_gltf2")
 
 
-def test_what_blender_imports_again_reads_right(chart, gltf_importer):
+def by_hand(name, shader, gloss):
+    made = bpy.data.materials.new(name)
+    if made.node_tree is None:
+        made.use_nodes = True
+    if shader == "auto":
+        made.node_tree.nodes.clear()
+    api.assign([(made, api.request(api.find("light skin"), radians(30)))], shader, gloss)
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0)], [], [(0, 1, 2)])
+    mesh.materials.append(made)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+    return made
+
+
+def test_what_blender_imports_again_reads_right(chart, tmp_path, gltf_of_blender):
+    """Of our own files; and what Blender's exporters make of materials is what was told of them."""
+    made = [by_hand(name, *how) for name, how in CASES.items()]
+    for each in made:
+        each.rough_spectra.tolerance = 0.05
+    told = {(loss.exporter, loss.material): loss for loss in api.export_losses(made)}
+    assert len(told) == 2 * len(CASES)
+    theirs = np.array([entry.predicted.lab for entry in api.bake(made, measure=False).entries])
     paths = {path.suffix: str(path) for path in chart.found.files}
+    gltf, usd = str(tmp_path / "theirs.gltf"), str(tmp_path / "theirs.usda")
+    bpy.ops.export_scene.gltf(filepath=gltf, export_format="GLTF_SEPARATE")
+    bpy.ops.wm.usd_export(filepath=usd)
+
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     chosen = [i for i in range(len(chart.goals)) if chart.inside[i]][::6]
     bpy.ops.import_scene.gltf(filepath=paths[".gltf"])
-    by_name = {material.name: material for material in bpy.data.materials}
-    of_gltf = [by_name[chart.found.of("gltf")[i].name] for i in chosen]
+    bpy.ops.import_scene.gltf(filepath=gltf)
+    of_gltf = [bpy.data.materials[chart.found.of("gltf")[i].name] for i in chosen]
+    back = [bpy.data.materials[name] for name in CASES]
+    for each in back:
+        each.name = f"glTF {each.name}"
     bpy.ops.wm.usd_import(filepath=paths[".usda"])
+    bpy.ops.wm.usd_import(filepath=usd)
     of_usd = [bpy.data.materials[chart.found.of("usd")[i].identifier] for i in chosen]
-    entries = api.bake([*of_gltf, *of_usd]).entries
-    read = np.array([entry.measured.lab for entry in entries])
-    assert delta_e(read, np.tile(chart.goals[chosen], (2, 1))).max() < 0.1
-    assert not any(api.state(material).kind != "none" for material in of_gltf + of_usd)
+    back += [bpy.data.materials[name] for name in CASES]
+    ours = of_gltf + of_usd
+    read = np.array([entry.measured.lab for entry in api.bake(ours + back).entries])
+
+    assert delta_e(read[: len(ours)], np.tile(chart.goals[chosen], (2, 1))).max() < 0.1
+    assert not any(api.state(material).kind != "none" for material in ours)
     kept = of_gltf[0]["rough-spectra"]
     assert list(kept["wavelengths"])[:2] == [380, 385]
     assert kept["sigma_degrees"] == of_usd[0]["rough_spectra:sigma_degrees"] == SIGMAS[0]
+
+    apart = delta_e(read[len(ours) :], np.tile(theirs, (2, 1)))
+    pairs = [(exporter, name) for exporter in ("glTF", "USD") for name in CASES]
+    for pair, measured in zip(pairs, apart, strict=True):
+        assert told[pair].delta_e_instrument == pytest.approx(measured, abs=0.03), pair
+    assert "makes its Diffuse BSDF white, which is ΔE00 30.2 at" in told[pairs[0]].sentence
+    assert "takes 'Principled BSDF', which is not in use" in told[pairs[4]].sentence
+
+
+def test_the_gltf_of_blender_warns(tmp_path, gltf_of_blender, capfd):
+    entry = bpy.context.preferences.addons.new()
+    entry.module = "rough_spectra"
+    made = [by_hand(name, *CASES[name]) for name in ("Bystander", "Matte")]
+    smooth = by_hand("Smooth", "principled", "none")
+    smooth.rough_spectra.sigma = 0
+    try:
+        bpy.ops.export_scene.gltf(
+            filepath=str(tmp_path / "out.gltf"), export_format="GLTF_SEPARATE"
+        )
+    finally:
+        bpy.context.preferences.addons.remove(entry)
+    said = [line for line in capfd.readouterr().out.splitlines() if "WARNING" in line]
+    assert len(said) == len(made)
+    assert "Material 'Bystander': Blender's glTF exporter makes its Diffuse BSDF white" in said[0]
+    assert "Material 'Matte': Blender's glTF exporter drops its diffuse roughness" in said[1]
 
 
 def test_names_are_such_that_every_renderer_takes_them():

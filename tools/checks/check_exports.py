@@ -169,9 +169,7 @@ def clean() -> dict[str, str]:
 
 def imported(found: api.Exported, folder: Path, angles: Array) -> dict[str, Array]:
     """Import glTF and USD again, and measure both in Cycles."""
-    import addon_utils  # it is there once bpy is
-
-    addon_utils.enable("io_scene_gltf2")
+    bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.ops.import_scene.gltf(filepath=str(folder / "chart.gltf"))
     of_gltf = [bpy.data.materials[entry.name] for entry in found.of("gltf")]

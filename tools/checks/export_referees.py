@@ -101,7 +101,7 @@ def materialx(path: Path, angles: Array) -> tuple[str, Array]:
     package.loadLibraries(package.getDefaultDataLibraryFolders(), where, library)
     document.importLibrary(library)
     _, wrong = document.validate()
-    lobe = own_lobe(Path(package.__file__).parent / _GLSL)
+    lobe = own_lobe(Path(str(package.__file__)).parent / _GLSL)
     light, view, azimuth = angles
     between = np.cos(light) * np.cos(view) + np.sin(light) * np.sin(view) * np.cos(azimuth)
     found = []
