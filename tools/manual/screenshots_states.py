@@ -32,6 +32,7 @@ LAMP = "wavelength,irradiance\n" + "\n".join(f"{nm},{nm / 10}" for nm in BANDS)
 TERRACOTTA = ROOT / "tests" / "fixtures" / "nix" / "terracotta.csv"
 
 KEY = "F19"
+PACKAGE = "bl_ext.user_default.rough_spectra"
 
 
 @dataclass(frozen=True)
@@ -335,8 +336,7 @@ def open_details(source: bool = False) -> list[Any]:
 
     `source` is whether the box Source is open, too.
     """
-    from bl_ext.user_default.rough_spectra.addon.interface.panels import panels
-
+    panels = importlib.import_module(f"{PACKAGE}.addon.interface.panels.panels")
     closed = bpy.types.ROUGHSPECTRA_PT_details
     kept = ("__doc__", "bl_label", "bl_options", "poll", "draw")
     content: dict[str, Any] = {"bl_options": set(), "bl_parent_id": closed.bl_parent_id}
@@ -446,7 +446,15 @@ def context_menu() -> None:
     _invoke(bpy.ops.wm.call_menu, name="MATERIAL_MT_context_menu")
 
 
-@picture("sidebar")
+def _is_pictured() -> bool:
+    """Whether the balls of tab and sidebar are made, which differ in size: a viewport is slow."""
+    icons = importlib.import_module(f"{PACKAGE}.addon.preview.icons")
+    material = bpy.context.view_layer.objects.active.active_material
+    balls = [wish for wish in icons._pictures if wish.figure == "ball"]
+    return sum(wish.material == material.session_uid for wish in balls) > 1
+
+
+@picture("sidebar", ready=_is_pictured)
 def shader_editor() -> None:
     """Show the panel in the shader editor's sidebar."""
     material = _assigned()
@@ -496,15 +504,6 @@ def shelf() -> None:
     _since["shelf"] = time.monotonic()
 
 
-def _is_pictured() -> bool:
-    """Whether the balls of tab and sidebar are made, which differ in size: a viewport is slow."""
-    from bl_ext.user_default.rough_spectra.addon.preview import icons
-
-    material = bpy.context.view_layer.objects.active.active_material
-    balls = [wish for wish in icons._pictures if wish.figure == "ball"]
-    return sum(wish.material == material.session_uid for wish in balls) > 1
-
-
 @picture("sidebar", ready=_is_pictured)
 def view() -> None:
     """Show the panel in the sidebar of the 3D view."""
@@ -520,4 +519,4 @@ def view() -> None:
 def preferences() -> None:
     """Show what new materials begin with."""
     _fresh()
-    bpy.ops.preferences.addon_show(module="bl_ext.user_default.rough_spectra")
+    bpy.ops.preferences.addon_show(module=PACKAGE)
