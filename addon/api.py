@@ -597,7 +597,9 @@ def assign(
         "diffuse" and "principled" ask for that node.
     gloss
         "keep" leaves a Principled BSDF the gloss that it has, and solves the color below it;
-        "none" removes it. A node that is made has none.
+        "none" removes it. A node that is made has none. "read" sets its level and roughness to what
+        a sample's set says of gloss (see `estimate_gloss`), in a Principled BSDF; where it says
+        nothing, it is as "keep".
 
     Returns
     -------
@@ -629,9 +631,9 @@ def assign(
         (_checked(material), request(what) if isinstance(what, Sample) else what)
         for material, what in pairs
     ]
-    if gloss not in ("keep", "none"):
-        raise DomainError(f"gloss is {gloss!r}; make it 'keep' or 'none'.")
-    return derive.assign(wanted, _node(shader), gloss == "keep")
+    if gloss not in ("keep", "none", "read"):
+        raise DomainError(f"gloss is {gloss!r}; make it 'keep', 'none' or 'read'.")
+    return derive.assign(wanted, _node(shader), gloss != "none", gloss == "read")
 
 
 def match_by_measuring(

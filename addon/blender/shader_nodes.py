@@ -46,6 +46,7 @@ __all__ = [
     "new_material",
     "remove_gloss",
     "roughness_socket",
+    "set_gloss",
     "shader_node",
     "surface",
     "unscale",
@@ -167,6 +168,15 @@ def new_material(name: str) -> Any:
     if node is not None:
         _without_gloss(node)
     return material
+
+
+def set_gloss(material: Any, name: str, gloss: Gloss) -> None:
+    """Set level and roughness of the gloss in the node of this name, a Principled BSDF."""
+    node = material.node_tree.nodes[name]
+    names = OF_NODE[node.bl_idname].gloss
+    _set_sockets(node, {names["level"]: (gloss.level,), names["roughness"]: (gloss.roughness,)})
+    material.node_tree.update_tag()
+    material.update_tag()
 
 
 def remove_gloss(place: SocketTarget) -> None:
