@@ -9,8 +9,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 _items: list[tuple[str, str, str]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
@@ -28,7 +27,7 @@ def preset_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     return _items
 
 
-class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_preset(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Make the material read like a preset sample, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_preset"
@@ -48,19 +47,18 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign to all materials in scope, or to none."""
         from ...samples import presets
 
-        try:
-            sample = presets.load(self.preset)
-            request = common.request_in_scope(context, self.scope, sample, self.sigma)
-            assigned = common.assign_in_scope(context, self.scope, request, self.shader)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_assigned(self, assigned, request.sample)
-        return {"FINISHED"}
+        sample = presets.load(self.preset)
+        scope, sigma, shader = self.scope, self.sigma, self.shader
+        return looking.assignment(
+            context,
+            scope,
+            lambda material: (common.request_in_scope(material, scope, sample, sigma), shader),
+            lambda assigned, _request: common.told_of(self, assigned, sample),
+        )
 
 
 classes = (ROUGHSPECTRA_OT_assign_preset,)

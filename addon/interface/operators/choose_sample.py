@@ -10,8 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 _items: list[tuple[str, str, str, int, int]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
@@ -53,7 +52,7 @@ def _about(entry: Any) -> str:
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
-class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
+class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, bpy.types.Operator):
     """Choose a measured sample for the material; σ and the other settings stay as they are"""
 
     bl_idname = "rough_spectra.choose_sample"
@@ -75,20 +74,18 @@ class ROUGHSPECTRA_OT_choose_sample(bpy.types.Operator):
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign to the active material; an object without one gets one."""
         from ...material import preferences
         from ...samples import library
 
-        try:
-            sample = library.load(self.sample, preferences.user_folder())
-            request, shader = common.replacing_request(common.active_material(context), sample)
-            assigned = common.assign_in_scope(context, "ACTIVE", request, shader)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_assigned(self, assigned, sample)
-        return {"FINISHED"}
+        sample = library.load(self.sample, preferences.user_folder())
+        return looking.assignment(
+            context,
+            "ACTIVE",
+            lambda material: common.replacing_request(material, sample),
+            lambda assigned, _request: common.told_of(self, assigned, sample),
+        )
 
 
 classes = (ROUGHSPECTRA_OT_choose_sample,)

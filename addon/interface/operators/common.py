@@ -197,7 +197,7 @@ def replacing_request(material: Any | None, sample: Sample) -> tuple[Request, st
         return new_request(sample, own), shader
 
 
-def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> Request:
+def request_in_scope(material: Any | None, scope: str, sample: Sample, sigma: float) -> Request:
     """Give the request for the materials in scope.
 
     The active material keeps its light, model and tolerance, as with `replacing_request`; several
@@ -205,7 +205,7 @@ def request_in_scope(context: Any, scope: str, sample: Sample, sigma: float) -> 
     """
     from ...material import snapshot
 
-    fresh, material = new_request(sample, sigma), active_material(context)
+    fresh = new_request(sample, sigma)
     if scope != "ACTIVE" or material is None or not snapshot.has_spectrum(material):
         return fresh
     request, _ = replacing_request(material, sample)
@@ -270,21 +270,15 @@ def assign_in_scope(
     return [(material, solutions[0])]
 
 
-def assign_from_library(
-    operator: Any, context: Any, name: str
-) -> tuple[Sample, list[tuple[Any, Solution]]]:
-    """Assign a sample of library or presets by an operator's `AssignOptions`.
+def of_library(operator: Any, name: str) -> tuple[Sample, float]:
+    """Give a sample of library or presets and its σ for an operator with `AssignOptions`.
 
     σ is the sample's unless the caller of the operator gave one.
-
-    Returns
-    -------
-    The sample, and what `assign_in_scope` gave.
 
     Raises
     ------
     RoughSpectraError
-        If there is no such sample, or it cannot be assigned; nothing was changed then.
+        If there is no such sample.
     """
     from ...material import preferences
     from ...samples import library
@@ -294,8 +288,7 @@ def assign_from_library(
     if not operator.properties.is_property_set("sigma"):
         sigma = radians(sample.sigma_degrees or 0.0)
         operator.sigma = sigma  # Blender holds it within the slider: what counts is the sample's
-    request = request_in_scope(context, operator.scope, sample, sigma)
-    return sample, assign_in_scope(context, operator.scope, request, operator.shader)
+    return sample, sigma
 
 
 def can_have_material(operator: Any, context: Any) -> bool:
@@ -331,16 +324,15 @@ def has_spectra(operator: Any) -> bool:
     return False
 
 
-def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> None:
-    """Report every warning of the solutions, and which materials got the sample."""
+def told_of(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> str:
+    """Report every warning of the solutions; gives the sentence on which got the sample."""
     from ...samples import stated_white
 
     report_warnings(operator, assigned)
     if remark := stated_white.remark(sample):
         operator.report({"INFO"}, remark)
     names = ", ".join(material.name for material, _ in assigned[:3])
-    sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
-    operator.report({"INFO"}, sentence)
+    return rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
 
 
 def draw_swatch(row: Any, item: Any, has_color: bool = True) -> None:

@@ -17,7 +17,7 @@ from bpy.props import (
 )
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 from .import_options import waiting
 
 _ROWS = 8
@@ -72,7 +72,7 @@ def _find(operator: Any, _context: Any = None) -> None:
     operator.index = min(operator.index, max(len(operator.matches) - 1, 0))
 
 
-class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Find the measured samples nearest to a color, and assign one to the material"""
 
     bl_idname = "rough_spectra.find_nearest"
@@ -137,25 +137,29 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
         layout.prop(self, "shader")
         layout.prop(self, "scope")
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign the match to all materials in scope, or to none."""
         if not self.matches:
             _find(self)
-        try:
-            if self.index >= len(self.matches):
-                msg = f"There are only {len(self.matches)} matches; choose one of them."
-                raise RoughSpectraError(msg)
-            match = self.matches[self.index]
-            sample, assigned = common.assign_from_library(self, context, match.sample)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_warnings(self, assigned)
-        sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
-        names = ", ".join(material.name for material, _ in assigned[:3])
-        sentence = sentence.format(materials=names, sample=sample.name, difference=match.difference)
-        self.report({"INFO"}, sentence)
-        return {"FINISHED"}
+        if self.index >= len(self.matches):
+            msg = f"There are only {len(self.matches)} matches; choose one of them."
+            raise RoughSpectraError(msg)
+        match = self.matches[self.index]
+        difference, scope, shader = match.difference, self.scope, self.shader
+        sample, sigma = common.of_library(self, match.sample)
+
+        def tell(assigned: Any, _request: Any) -> str:
+            common.report_warnings(self, assigned)
+            sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
+            names = ", ".join(material.name for material, _ in assigned[:3])
+            return sentence.format(materials=names, sample=sample.name, difference=difference)
+
+        return looking.assignment(
+            context,
+            scope,
+            lambda material: (common.request_in_scope(material, scope, sample, sigma), shader),
+            tell,
+        )
 
 
 classes = (RoughSpectraMatch, ROUGHSPECTRA_UL_matches, ROUGHSPECTRA_OT_find_nearest)
