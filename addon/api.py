@@ -725,7 +725,9 @@ def assign(
         "diffuse" and "principled" ask for that node. One for all, or a list with one a pair.
     gloss
         "keep" leaves a Principled BSDF the gloss that it has, and solves the color below it;
-        "none" removes it. A node that is made has none.
+        "none" removes it. A node that is made has none. "read" sets its level and roughness to what
+        a sample's set says of gloss (see `estimate_gloss`), in a Principled BSDF; where it says
+        nothing, it is as "keep".
 
     Returns
     -------
@@ -757,14 +759,15 @@ def assign(
         (_checked(material), request(what) if isinstance(what, Sample) else what)
         for material, what in pairs
     ]
-    if gloss not in ("keep", "none"):
-        raise DomainError(f"gloss is {gloss!r}; make it 'keep' or 'none'.")
+    if gloss not in ("keep", "none", "read"):
+        raise DomainError(f"gloss is {gloss!r}; make it 'keep', 'none' or 'read'.")
     shaders = [shader] * len(wanted) if isinstance(shader, str) else list(shader)
     if len(shaders) != len(wanted):
         raise DomainError(
             f"{len(shaders)} shaders stand beside {len(wanted)} pairs; give one each."
         )
-    return derive.assign(wanted, [_node(each) for each in shaders], gloss == "keep")
+    nodes = [_node(each) for each in shaders]
+    return derive.assign(wanted, nodes, gloss != "none", from_readings=gloss == "read")
 
 
 def match_by_measuring(

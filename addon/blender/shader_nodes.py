@@ -47,6 +47,7 @@ __all__ = [
     "put_gloss",
     "remove_gloss",
     "roughness_socket",
+    "set_gloss",
     "set_sockets",
     "shader_node",
     "surface",
@@ -197,6 +198,15 @@ def put_gloss(material: Any, gloss: Gloss) -> None:
             for field, value in fields.items()
         },
     )
+    material.node_tree.update_tag()
+    material.update_tag()
+
+
+def set_gloss(material: Any, name: str, gloss: Gloss) -> None:
+    """Set level and roughness of the gloss in the node of this name, a Principled BSDF."""
+    node = material.node_tree.nodes[name]
+    names = OF_NODE[node.bl_idname].gloss
+    set_sockets(node, {names["level"]: (gloss.level,), names["roughness"]: (gloss.roughness,)})
     material.node_tree.update_tag()
     material.update_tag()
 

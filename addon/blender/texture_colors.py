@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What colors a material's texture has, seen over a flat square in a second Blender.
+"""What colors a material's texture has, seen in a second Blender.
 
-Any nodes may be behind a color: images of any space, procedurals, mixes and ramps of them.
+Any nodes may be behind a color: images of any space, procedurals, mixes and ramps of them. What
+goes by UVs is looked at where the objects with the material show it; all else over a flat square.
 """
 
 from __future__ import annotations
@@ -13,31 +14,78 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from . import uv_coverage
 from .background_job import Job
+
+SIDE = 355
+"""Tiles of a side, each a place in the UV maps. Half as many as the square has places: a tile costs
+more, and places that follow no grid need fewer."""
 
 if TYPE_CHECKING:
     from ...core.numerics.arrays import Array
 
 
-class _Look(Job):
-    """A second Blender that looks at colors."""
-
-    doing = "looks at textures"
-    interrupted = "Looking at textures was interrupted; nothing was written."
-    smaller = "assign to fewer materials at once"
-
-
-def seen(sockets: Sequence[Any]) -> list[Array]:
-    """Give the scene-linear colors that reach sockets of materials' nodes, over a flat square.
+class Look(Job):
+    """A second Blender that looks at the colors that reach sockets of materials' nodes.
 
     Parameters
     ----------
     sockets
         Linked sockets of nodes in the node trees of local materials.
 
-    Returns
-    -------
-    Of each, shape (places, 3).
+    Raises
+    ------
+    OutputError
+        As in `Job`.
+    """
+
+    doing = "looks at textures"
+    interrupted = "Looking at textures was interrupted; nothing was written."
+    smaller = "assign to fewer materials at once"
+
+    def __init__(self, sockets: Sequence[Any]) -> None:
+        owners = {
+            material.node_tree: material
+            for material in bpy.data.materials
+            if material.library is None and material.node_tree is not None
+        }
+        asked = []
+        for socket in sockets:
+            index = next(i for i, each in enumerate(socket.node.inputs) if each == socket)
+            asked.append((owners[socket.id_data], socket.node.name, index))
+
+        def prepare(folder: Path) -> dict[str, Any]:
+            blend = folder / "materials.blend"
+            bpy.data.libraries.write(
+                *(str(blend), {material for material, _, _ in asked}),
+                fake_user=True,
+                path_remap="ABSOLUTE",
+                compress=False,
+            )
+            listed = [
+                (material.name, node, index, _leave_places(folder, number, material))
+                for number, (material, node, index) in enumerate(asked)
+            ]
+            return {"blend": blend.name, "materials": listed, "side": SIDE}
+
+        super().__init__(Path(__file__).with_name("texture_worker.py"), prepare)
+
+    def colors(self) -> list[Array]:
+        """Give the scene-linear colors of each socket, (places, 3), once `poll` says it has ended.
+
+        Raises
+        ------
+        OutputError
+            If the second Blender failed.
+        """
+        import numpy as np
+
+        with np.load(self.output("colors.npz")) as found:
+            return [colors.astype(np.float64) for colors in found.values()]
+
+
+def seen(sockets: Sequence[Any]) -> list[Array]:
+    """Look and wait; as `Look`.
 
     Raises
     ------
@@ -46,29 +94,20 @@ def seen(sockets: Sequence[Any]) -> list[Array]:
     CancelledError
         On an interrupt from the keyboard.
     """
-    import numpy as np
-
-    owners = {material.node_tree: material for material in bpy.data.materials
-              if material.library is None and material.node_tree is not None}  # fmt: skip
-    asked = []
-    for socket in sockets:
-        index = next(i for i, each in enumerate(socket.node.inputs) if each == socket)
-        asked.append((owners[socket.id_data], socket.node.name, index))
-
-    def prepare(folder: Path) -> dict[str, Any]:
-        blend = folder / "materials.blend"
-        bpy.data.libraries.write(
-            *(str(blend), {material for material, _, _ in asked}),
-            fake_user=True,
-            path_remap="ABSOLUTE",
-            compress=False,
-        )
-        listed = [(material.name, node, index) for material, node, index in asked]
-        return {"blend": blend.name, "materials": listed}
-
-    look = _Look(Path(__file__).with_name("texture_worker.py"), prepare)
+    look = Look(sockets)
     try:
         look.wait()
-        return list(np.load(look.output("colors.npy")).astype(np.float64))
+        return look.colors()
     finally:
         look.close()
+
+
+def _leave_places(folder: Path, number: int, material: Any) -> list[str]:
+    """Leave where to look for the second Blender; gives the UV maps' names, none for a square."""
+    import numpy as np
+
+    places = uv_coverage.places(material, SIDE**2)
+    if places is None:
+        return []
+    np.save(folder / f"places-{number}.npy", np.stack(list(places.values())).astype(np.float32))
+    return list(places)

@@ -13,11 +13,11 @@ from ...core.gloss import Gloss
 from ..blender import shader_nodes, working_space
 from ..blender.texture_scale import Palette
 from ..colorimetry.rgb_space import WorkingSpace
-from ..matching import shaders, solve
+from ..matching import other_readings, shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import snapshot, solid_color, storage, textures
+from . import read_gloss, snapshot, solid_color, storage, textures
 from .changes import Derived, Solved
 from .snapshot import Snapshot
 
@@ -27,6 +27,8 @@ def assign(
     shader: str | Sequence[str] = shaders.AUTO,
     keep_gloss: bool = True,
     glosses: Sequence[Gloss | None] = (),
+    from_readings: bool = False,
+    looked: textures.Looked | None = None,
 ) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
@@ -42,6 +44,11 @@ def assign(
     glosses
         For each material the gloss that its node is to have instead, or None; a node that can have
         none stays matte.
+    from_readings
+        Whether level and roughness of the gloss are set to what a sample's set says of them, in a
+        Principled BSDF; see `read_gloss.of_all`.
+    looked
+        As of `textures.scaled`.
 
     Returns
     -------
@@ -54,14 +61,18 @@ def assign(
     DomainError
         If a spectrum, a setting or the shader cannot be used; nothing was changed then.
     """
-    nodes = [shader] * len(pairs) if isinstance(shader, str) else shader
+    nodes = [shader] * len(pairs) if isinstance(shader, str) else list(shader)
+    read: list[tuple[Gloss | None, tuple[str, ...]]] = [(None, ())] * len(pairs)
+    if from_readings:
+        read = read_gloss.of_all([(m, request.sample) for m, request in pairs], nodes)
     work = [
         _under_gloss(
-            shader_nodes.find(material, node, keep_gloss),
+            shader_nodes.find(material, read_gloss.WITH_GLOSS if gloss else node, keep_gloss),
             storage.in_scene(material, request),
             keep_gloss,
+            gloss,
         )
-        for (material, request), node in zip(pairs, nodes, strict=True)
+        for (material, request), node, (gloss, _) in zip(pairs, nodes, read, strict=True)
     ]
     given = [
         gloss if gloss is not None and shader_nodes.can_shine(place) else None
@@ -72,12 +83,19 @@ def assign(
         for (place, request), gloss in zip(work, given, strict=True)
     ]
     space, solutions = _solve(work)
-    palettes, solutions, written = textures.scaled(work, solutions, space)
-    together = zip(work, written, palettes, nodes, given, strict=True)
-    for (place, request), solution, palette, shader, gloss in together:
+    solutions = [
+        replace(solution, warnings=(*told, *solution.warnings)) if told else solution
+        for solution, (_, told) in zip(solutions, read, strict=True)
+    ]
+    solutions = _told_of_sets(work, solutions, space)
+    palettes, solutions, written = textures.scaled(work, solutions, space, looked=looked)
+    together = zip(work, written, palettes, nodes, read, given, strict=True)
+    for (place, request), solution, palette, shader, (told_gloss, _), gloss in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
         node = _write(place, solution, palette)
+        if told_gloss is not None:
+            shader_nodes.set_gloss(place.material, node, told_gloss)
         if gloss is not None:
             shader_nodes.put_gloss(place.material, gloss)
         storage.store(place.material, request, shader)
@@ -100,8 +118,15 @@ def remove_gloss(materials: Iterable[Any]) -> list[Solution]:
     )
 
 
-def renew(materials: Iterable[Any]) -> list[Solution]:
+def renew(materials: Iterable[Any], looked: textures.Looked | None = None) -> list[Solution]:
     """Derive color and roughness again from what the materials store.
+
+    Parameters
+    ----------
+    materials
+        Each a `bpy.types.Material`.
+    looked
+        As of `textures.scaled`.
 
     Raises
     ------
@@ -110,7 +135,7 @@ def renew(materials: Iterable[Any]) -> list[Solution]:
     DomainError
         If a spectrum cannot be used; nothing was changed then.
     """
-    return _renew([(material, material) for material in materials])
+    return _renew([(material, material) for material in materials], looked=looked)
 
 
 def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
@@ -200,11 +225,16 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
 
 
 def _renew(
-    pairs: Sequence[tuple[Any, Any]], keep_gloss: bool = True, look_again: bool = True
+    pairs: Sequence[tuple[Any, Any]],
+    keep_gloss: bool = True,
+    look_again: bool = True,
+    looked: textures.Looked | None = None,
 ) -> list[Solution]:
     work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
     space, solutions = _solve(work)
-    palettes, solutions, written = textures.scaled(work, solutions, space, look_again)
+    if look_again:
+        solutions = _told_of_sets(work, solutions, space)
+    palettes, solutions, written = textures.scaled(work, solutions, space, look_again, looked)
     together = zip(work, written, palettes, pairs, strict=True)
     for (place, request), solution, palette, (_, source) in together:
         if not keep_gloss:
@@ -224,10 +254,10 @@ def _stored(
 
 
 def _under_gloss(
-    place: shader_nodes.SocketTarget, request: Request, keep: bool
+    place: shader_nodes.SocketTarget, request: Request, keep: bool, given: Gloss | None = None
 ) -> tuple[shader_nodes.SocketTarget, Request]:
-    """Put the gloss of the node that is to be set, which may be another than is shown."""
-    gloss = shader_nodes.gloss_at(place) if keep else None
+    """Put the gloss of the node that is to be set, or is given, which may be another than shown."""
+    gloss = given or (shader_nodes.gloss_at(place) if keep else None)
     return place, request if gloss == request.gloss else replace(request, gloss=gloss)
 
 
@@ -243,6 +273,22 @@ def _solve(
         seen.add(place.material)
     space = working_space.current()
     return space, solve.solve([request for _, request in work], space)
+
+
+def _told_of_sets(
+    work: Sequence[tuple[shader_nodes.SocketTarget, Request]],
+    solutions: Sequence[Solution],
+    space: WorkingSpace,
+) -> list[Solution]:
+    """Add what is to be said of the other readings of sets."""
+    told = [
+        other_readings.missed(request, solution, space) if request.sample.others else ""
+        for (_, request), solution in zip(work, solutions, strict=True)
+    ]
+    return [
+        replace(solution, warnings=(*solution.warnings, sentence)) if sentence else solution
+        for solution, sentence in zip(solutions, told, strict=True)
+    ]
 
 
 def _write(place: shader_nodes.SocketTarget, solution: Solution, palette: Palette | None) -> str:

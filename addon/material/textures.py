@@ -4,27 +4,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ...core.errors import MaterialError
-from ..blender import texture_scale
+from ...core.errors import MaterialError, RoughSpectraError
+from ..blender import shader_nodes, texture_scale
 from ..blender.shader_nodes import SocketTarget
 from ..blender.sockets import color_socket
 from ..blender.surface import shader_node
 from ..blender.texture_scale import Palette
 
 if TYPE_CHECKING:
+    from ...core.numerics.arrays import Array
     from ..colorimetry.rgb_space import WorkingSpace
     from ..matching.request import Request
     from ..matching.solution import Solution
 
 Work = Sequence[tuple[SocketTarget, "Request"]]
+Looked = Mapping[Any, "Array"]
+
+
+def to_look_at(materials: Iterable[Any], shader: str | None = None) -> list[tuple[Any, Any]]:
+    """Give the materials whose color is a texture, with the socket that it reaches.
+
+    Parameters
+    ----------
+    materials
+        Each a `bpy.types.Material`.
+    shader
+        That is asked for; None for the setting of each.
+
+    Where one of them cannot be written there are none: whoever writes says why.
+    """
+    found = []
+    try:
+        for material in materials:
+            place = shader_nodes.find(material, shader or material.rough_spectra.shader)
+            if place.texture is not None:
+                found.append((material, place.texture))
+    except RoughSpectraError:
+        return []
+    return found
 
 
 def scaled(
-    work: Work, solutions: list[Solution], space: WorkingSpace, look_again: bool = True
+    work: Work,
+    solutions: list[Solution],
+    space: WorkingSpace,
+    look_again: bool = True,
+    looked: Looked | None = None,
 ) -> tuple[list[Palette | None], list[Solution], list[Solution]]:
     """Find the scale of each material's texture; materials without one stay as they are.
 
@@ -37,6 +66,8 @@ def scaled(
     look_again
         Whether textures are looked at even where it is known what they were: that takes a second
         Blender, and a dragged slider has no time for it.
+    looked
+        Colors of textures that somebody has looked at just before, (places, 3), by material.
 
     Returns
     -------
@@ -63,7 +94,7 @@ def scaled(
     from ..matching import texture_scale as solving
 
     known = dict.fromkeys(textured) if look_again else {i: _kept(work[i][0]) for i in textured}
-    palettes = _seen(work, known)
+    palettes = _seen(work, known, looked or {})
     for i in textured:
         request, solution, palette = work[i][1], solutions[i], palettes[i] or known[i]
         assert palette is not None
@@ -92,7 +123,7 @@ def _kept(place: SocketTarget) -> Palette | None:
     return texture_scale.kept_palette(color_socket(shader_node(place.material)))
 
 
-def _seen(work: Work, known: dict[int, Palette | None]) -> list[Palette | None]:
+def _seen(work: Work, known: dict[int, Palette | None], looked: Looked) -> list[Palette | None]:
     """Look at the textures that are not known; gives their palettes."""
     palettes: list[Palette | None] = [None] * len(work)
     unknown = [i for i, palette in known.items() if palette is None]
@@ -101,12 +132,17 @@ def _seen(work: Work, known: dict[int, Palette | None]) -> list[Palette | None]:
     from ..blender import texture_colors
     from ..matching import texture_scale as solving
 
-    looked = texture_colors.seen([work[i][0].texture for i in unknown])
-    for i, colors in zip(unknown, looked, strict=True):
+    colors_of = {i: looked[work[i][0].material] for i in unknown if work[i][0].material in looked}
+    open_ones = [i for i in unknown if i not in colors_of]
+    if open_ones:
+        seen = texture_colors.seen([work[i][0].texture for i in open_ones])
+        colors_of |= dict(zip(open_ones, seen, strict=True))
+    for i in unknown:
+        colors = colors_of[i]
         if not colors.max() > 0:
             msg = (
-                f"Material {work[i][0].material.name!r}: its texture is black over a flat "
-                "square, as color attributes are there; unlink it, or link one that shows."
+                f"Material {work[i][0].material.name!r}: its texture is black wherever it was "
+                "looked at, as color attributes are; unlink it, or link one that shows."
             )
             raise MaterialError(msg)
         palettes[i] = Palette(*solving.palette(colors))

@@ -29,6 +29,17 @@ from .sample import Sample
 _LEAST_BANDS = 2
 
 
+_NEAR = 30.0
+"""Degrees from the mirror direction up to which an angle sees the lobe."""
+_MORE = 1.01
+"""How much more it has to read than all others: a matte surface sends more back to the light."""
+
+
+def tells(sample: Sample) -> bool:
+    """Return whether `estimate` has something to tell gloss from."""
+    return bool(of_sample(sample) or _angles(sample))
+
+
 def of_sample(sample: Sample) -> GlossReadings | None:
     """Return what the readings of a sample's surface say of gloss; None where nothing does.
 
@@ -49,7 +60,8 @@ def estimate(
     Parameters
     ----------
     sample
-        A set with SCI and SCE, or gloss units at 20, 60 or 85° beside any reading.
+        A set with SCI and SCE, with gloss units at 20, 60 or 85° beside any reading, or with angles
+        near the mirror direction that read more than the others.
     level, gloss
         As of `core.cycles.gloss_estimate.estimate`.
 
@@ -58,20 +70,20 @@ def estimate(
     DomainError
         If the set says nothing of gloss, or that there is none.
     """
-    spheres = _spheres(sample)
+    spheres, angles = _spheres(sample), _angles(sample)
     units = {int(angle): units for angle, units in sample.gloss if angle in METERS}
     try:
-        if spheres is None and not units:
+        if spheres is None and not (units or angles):
             others = ", ".join(f"{angle:g}°" for angle, _ in sample.gloss)
             msg = "There is nothing to tell gloss from; give SCI and SCE, or gloss units"
             raise DomainError(f"{msg} at 20, 60 or 85°{f' and not at {others}' if others else ''}.")
         if spheres is None:
             read = gloss_estimate.GlossReadings(
-                _luminance(sample), units=units, read_at=sample.instrument
+                _luminance(sample), None, units, sample.instrument, angles
             )
         else:
             sci, sce = map(_luminance, spheres)
-            read = gloss_estimate.GlossReadings(sci, sce, units)
+            read = gloss_estimate.GlossReadings(sci, sce, units, angles=angles)
         return gloss_estimate.estimate(read, level, gloss)
     except DomainError as error:
         msg = f"Sample {sample.name!r}: {error}"
@@ -101,6 +113,22 @@ def _smooth(told: Specular) -> str:
         return "more than any dielectric's."
     index = "" if math.isnan(told.index) else f", as of an index of {told.index:.3f}"
     return f"F0 is {told.f0:.4f} at least{index}."
+
+
+def _angles(sample: Sample) -> dict[str, float]:
+    """Give the luminance at the angles beside the first reading, if those near gloss read more."""
+    angles = {
+        each.instrument: _luminance(each)
+        for each in sample.readings
+        if REGISTRY[each.instrument].aspecular is not None
+        and sets.is_exact(each)
+        and not sets.is_smooth(each)
+    }
+    near = {name for name in angles if abs(REGISTRY[name].aspecular or 0.0) < _NEAR}
+    far = [value for name, value in angles.items() if name not in near]
+    if not near or not far or max(angles[name] for name in near) < _MORE * max(far):
+        return {}
+    return {name: value for name, value in angles.items() if name != sample.instrument}
 
 
 def _luminance(sample: Sample) -> float:

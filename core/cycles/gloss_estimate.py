@@ -4,20 +4,21 @@
 
 A sphere with and without its gloss trap differ by the part of the lobe that meets the trap, and a
 gloss meter reads the part that meets its window: both shrink with the level, and, since trap and
-windows have different sizes and angles, at different rates with the roughness.
+windows have different sizes and angles, at different rates with the roughness. Of a multi-angle
+instrument the angles near the mirror direction read more than the others, by the lobe.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..errors import DomainError
 from ..gloss import Gloss
-from ..instruments import find
+from ..instruments import REGISTRY, find
 from ..instruments import gloss as meters
 from ..numerics.arrays import Array
 from . import gloss_reading, gloss_sphere
@@ -33,6 +34,8 @@ _LEAST = 1e-4
 """Reading, and hundredth of a gloss unit, below which there is nothing to fit."""
 _RELATIVE = 0.01
 """How well lobe and readings are known, at best."""
+_BODY = 0.02
+"""The same of whole readings at angles: a rough body is no more even than that."""
 _ABSOLUTE = {"trap": 0.0003}
 """The same of white, of a difference of two readings."""
 _UNITS = 0.001
@@ -55,12 +58,15 @@ class GlossReadings:
     read_at
         Where `sci` was read, if no sphere did: another of `core.instruments.REGISTRY`. There is no
         `sce` then.
+    angles
+        Luminance factors at further instruments, such as ``"45as15"``.
     """
 
     sci: float
     sce: float | None = None
     units: Mapping[int, float] = field(default_factory=dict)
     read_at: str = "di:8"
+    angles: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -82,7 +88,9 @@ class GlossEstimate:
     level_is_known: bool
 
 
-def readings(gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,)) -> GlossReadings:
+def readings(
+    gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,), at: Sequence[str] = ()
+) -> GlossReadings:
     """Predict what sphere and gloss meters read of a gray body below gloss.
 
     Parameters
@@ -93,6 +101,8 @@ def readings(gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,)) -> G
         Reading of the body alone.
     angles
         Of gloss meters, degrees.
+    at
+        Further instruments.
 
     Examples
     --------
@@ -102,7 +112,8 @@ def readings(gloss: Gloss, diffuse: float, angles: tuple[int, ...] = (60,)) -> G
     """
     included, excluded = (gloss_sphere.layer(gloss, find(name)) for name in ("di:8", "de:8"))
     sci, sce = (float(each.over(np.full(3, diffuse)).mean()) for each in (included, excluded))
-    return GlossReadings(sci, sce, _units(gloss, diffuse, angles))
+    units, seen = _units(gloss, diffuse, angles), _seen(gloss, diffuse, at)
+    return GlossReadings(sci, sce, units, angles=seen)
 
 
 def _units(gloss: Gloss, diffuse: float, angles: tuple[int, ...]) -> dict[int, float]:
@@ -118,6 +129,12 @@ def _units(gloss: Gloss, diffuse: float, angles: tuple[int, ...]) -> dict[int, f
     return units
 
 
+def _seen(gloss: Gloss, diffuse: float, at: Sequence[str]) -> dict[str, float]:
+    """Predict what other instruments read."""
+    body = np.full(3, diffuse)
+    return {name: float(gloss_reading.at_instrument(gloss, name).over(body).mean()) for name in at}
+
+
 def estimate(
     read: GlossReadings, level: float | None = None, gloss: Gloss | None = None
 ) -> GlossEstimate:
@@ -126,8 +143,8 @@ def estimate(
     Parameters
     ----------
     read
-        What was read: besides SCI, of SCE and gloss units at least one; of both the level follows,
-        too.
+        What was read: besides SCI, of SCE, gloss units and angles at least one; of several the
+        level follows, too.
     level
         Specular IOR Level that is known. Without it, 0.5 is taken where it cannot be told.
     gloss
@@ -175,14 +192,15 @@ def _told(read: GlossReadings) -> dict[str, float]:
     found = {f"{angle}": units / 100 for angle, units in read.units.items()}
     if read.sce is not None:
         found["trap"] = read.sci - read.sce
-    return found
+    return found | dict(read.angles)
 
 
 def _best(
     gloss: Gloss, read: GlossReadings, wanted: Mapping[str, float], level: float | None
 ) -> tuple[float, float, float]:
     """Find the level that fits best at one roughness; gives cost, misfit and level."""
-    angles = tuple(int(name) for name in wanted if name != "trap")
+    angles = tuple(int(name) for name in wanted if name.isdigit())
+    at = [name for name in wanted if name in REGISTRY]
     nodes = _LEVELS if level is None else (level,)
     table = []
     for node in nodes:
@@ -190,16 +208,18 @@ def _best(
         whole = gloss_reading.at_instrument(tried, read.read_at)
         diffuse = float(np.maximum(whole.below(np.full(3, read.sci)), 0).mean())
         if "trap" in wanted:
-            found = _told(readings(tried, diffuse, angles))
+            found = _told(readings(tried, diffuse, angles, at))
         else:
-            found = _told(GlossReadings(read.sci, units=_units(tried, diffuse, angles)))
+            units, seen = _units(tried, diffuse, angles), _seen(tried, diffuse, at)
+            found = _told(GlossReadings(read.sci, units=units, angles=seen))
         table.append([found[name] for name in wanted])
     goal = np.array(list(wanted.values()))
     levels = np.array(nodes) if level is not None else np.linspace(nodes[0], nodes[-1], _FINE)
     rows = np.stack([np.interp(levels, nodes, column) for column in np.array(table).T], axis=-1)
     apart = np.log(np.maximum(rows, 1e-9) / goal)
     known = np.array([_ABSOLUTE.get(name, _UNITS) for name in wanted]) / goal
-    cost = ((apart / np.hypot(_RELATIVE, known)) ** 2).sum(axis=-1)
+    relative = [_BODY if name in at else _RELATIVE for name in wanted]
+    cost = ((apart / np.hypot(relative, known)) ** 2).sum(axis=-1)
     cost = cost + (np.log(levels / _USUAL) / _SPREAD) ** 2 if level is None else cost
     at = int(np.argmin(cost))
     return float(cost[at]), float(np.abs(apart[at]).max()), float(levels[at])

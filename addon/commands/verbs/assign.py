@@ -99,10 +99,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--gloss",
-        choices=("keep", "none"),
+        choices=("keep", "none", "read"),
         default="keep",
-        help="whether a Principled BSDF keeps its gloss, under which the color is then solved, or "
-        "loses it",
+        help="whether a Principled BSDF keeps its gloss, under which the color is then solved, "
+        "loses it, or gets that which a sample's SCI and SCE or gloss units tell",
     )
     parser.add_argument(
         "--create", action="store_true", help="make the materials that are not there"

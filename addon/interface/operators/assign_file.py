@@ -11,7 +11,7 @@ from bpy.props import EnumProperty, StringProperty
 
 from ....core.errors import InputError, RoughSpectraError
 from ...material.properties import KIND_ITEMS
-from . import common
+from . import common, looking
 
 _KIND_ITEMS = (
     (common.AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
@@ -26,7 +26,9 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     return _items
 
 
-class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_file(
+    looking.LooksFirst, common.WhiteOptions, common.AssignOptions, bpy.types.Operator
+):
     """Make the material read like a sample of a measurement file, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_file"
@@ -58,39 +60,37 @@ class ROUGHSPECTRA_OT_assign_file(common.WhiteOptions, common.AssignOptions, bpy
         common.draw_in_browser(self, ("sample", "kind", "sigma", "shader", "scope"))
 
     def execute(self, context: Any) -> set[str]:
-        """Assign to all materials in scope, or to none; ask which sample if there are several."""
-        from ...samples import readers, sets, stated_white
+        """Ask which sample if there are several, or go on."""
+        from ...samples import readers
 
         try:
-            samples = readers.read(bpy.path.abspath(self.filepath))
-            if len(samples) > 1 and not self.sample and not bpy.app.background:
-                return self._ask(samples)
-            sample = choose(samples, self.sample, self.filepath)
-            if self.kind != common.AS_FILE:
-                sample = sample.taken_as(self.kind)
-            sample = stated_white.given(sample, *common.stated_white(self))
-            assigned = common.assign_sample(self, context, sample)
+            self._samples = readers.read(bpy.path.abspath(self.filepath))
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
-        for note in (*sample.notes, *sets.sentences(sample)):
-            self.report({"WARNING"}, f"{sample.name}: {note}")
-        common.report_assigned(self, assigned, sample)
-        return {"FINISHED"}
+        if len(self._samples) > 1 and not self.sample and not bpy.app.background:
+            return self._ask(self._samples)
+        return super().execute(context)
+
+    def work(self, context: Any) -> looking.Work:
+        """Assign to all materials in scope, or to none."""
+        from ...samples import sets, stated_white
+
+        sample = choose(self._samples, self.sample, self.filepath)
+        if self.kind != common.AS_FILE:
+            sample = sample.taken_as(self.kind)
+        sample = stated_white.given(sample, *common.stated_white(self))
+
+        def tell(assigned: Any) -> str:
+            for note in (*sample.notes, *sets.sentences(sample)):
+                self.report({"WARNING"}, f"{sample.name}: {note}")
+            return common.told_of(self, assigned, sample)
+
+        return looking.assignment(self, context, sample, tell)
 
     def _ask(self, samples: list[Any]) -> set[str]:
         _items[:] = [(s.name, s.name, f"{s.position} of the file") for s in samples]
-        bpy.ops.rough_spectra.assign_file_sample(
-            "INVOKE_DEFAULT",
-            filepath=self.filepath,
-            kind=self.kind,
-            sigma=self.sigma,
-            white=self.white,
-            plaque=self.plaque,
-            white_factor=self.white_factor,
-            shader=self.shader,
-            scope=self.scope,
-        )
+        bpy.ops.rough_spectra.assign_file_sample("INVOKE_DEFAULT", **_options(self))
         return {"CANCELLED"}
 
 
@@ -118,22 +118,19 @@ class ROUGHSPECTRA_OT_assign_file_sample(
     def execute(self, _context: Any) -> set[str]:
         """Hand the choice to the operator that reads the file."""
         try:
-            return set(
-                bpy.ops.rough_spectra.assign_file(
-                    filepath=self.filepath,
-                    sample=self.sample,
-                    kind=self.kind,
-                    sigma=self.sigma,
-                    white=self.white,
-                    plaque=self.plaque,
-                    white_factor=self.white_factor,
-                    shader=self.shader,
-                    scope=self.scope,
-                )
-            )
+            done = set(bpy.ops.rough_spectra.assign_file(sample=self.sample, **_options(self)))
+            # That one goes on by itself, in the background; here nothing was done yet.
+            return {"CANCELLED"} if done == {"RUNNING_MODAL"} else done
         except RuntimeError as error:
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
+
+
+def _options(operator: Any) -> dict[str, Any]:
+    """Give what an operator was told, to tell it another: of the rest each material decides."""
+    names = ("kind", "sigma", "white", "plaque", "white_factor", "shader", "scope")
+    told = operator.properties.is_property_set
+    return {"filepath": operator.filepath} | {n: getattr(operator, n) for n in names if told(n)}
 
 
 def choose(samples: list[Any], name: str, path: str) -> Any:

@@ -9,8 +9,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 _items: list[tuple[str, str, str]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
@@ -28,7 +27,7 @@ def preset_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     return _items
 
 
-class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_preset(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Make the material read like a preset sample, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_preset"
@@ -49,18 +48,11 @@ class ROUGHSPECTRA_OT_assign_preset(common.AssignOptions, bpy.types.Operator):
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign to all materials in scope, or to none."""
         from ...samples import presets
 
-        try:
-            sample = presets.load(self.preset)
-            assigned = common.assign_sample(self, context, sample)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_assigned(self, assigned, sample)
-        return {"FINISHED"}
+        return looking.assignment(self, context, presets.load(self.preset))
 
 
 classes = (ROUGHSPECTRA_OT_assign_preset,)

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import EnumProperty
 
-from ....core.errors import RoughSpectraError
-from . import ahead, common
+from . import ahead, common, looking
 
 if TYPE_CHECKING:
     from ...samples.entry import Entry
@@ -78,7 +77,7 @@ def _about(entry: Any) -> str:
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
-class ROUGHSPECTRA_OT_choose_sample(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Choose a measured sample for the materials of the selected objects; what you set stays"""
 
     bl_idname = "rough_spectra.choose_sample"
@@ -102,15 +101,9 @@ class ROUGHSPECTRA_OT_choose_sample(common.AssignOptions, bpy.types.Operator):
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign to all materials in scope, or to none; an object without one gets one."""
-        try:
-            sample, assigned = common.assign_from_library(self, context, self.sample)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_assigned(self, assigned, sample)
-        return {"FINISHED"}
+        return looking.assignment(self, context, common.of_library(self.sample))
 
 
 classes = (ROUGHSPECTRA_OT_choose_sample,)

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import radians
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ....core.gloss import Gloss
     from ...matching.solution import Solution
     from ...matching.solve import Request
+    from ...material.textures import Looked
     from ...samples.sample import Sample
 
 SCOPE_ITEMS = (
@@ -275,19 +276,56 @@ def is_material_tree(context: Any) -> bool:
     )
 
 
+class Aim(NamedTuple):
+    """What an assignment means: all of it, or nothing.
+
+    Parameters
+    ----------
+    materials
+        That of the active object first.
+    bare
+        Objects without one, which get the first, or a new one.
+    makes
+        Whether a new one is made, called as the sample.
+    """
+
+    materials: list[Any]
+    bare: list[Any]
+    makes: bool
+
+
+def aim(context: Any, scope: str) -> Aim:
+    """Find what a scope of `AssignOptions` means.
+
+    Raises
+    ------
+    RoughSpectraError
+        If that is nothing, or an object without a material cannot be given one.
+    """
+    materials, bare = _in_scope(context, scope)
+    for thing in bare:
+        if not (thing.is_editable and thing.data.is_editable):
+            msg = f"Object {thing.name!r} is linked; make it local first, to give it one."
+            raise RoughSpectraError(msg)
+    makes = bool(bare) and not (materials and active_object(context) not in bare)
+    return Aim(materials, bare, makes)
+
+
 def assign_in_scope(
     context: Any, scope: str, request: Request, shader: str
 ) -> list[tuple[Any, Solution]]:
     """Assign one request to all materials in scope, or to none; see `assign_sample`."""
-    return _assign(context, scope, lambda _material: (request, shader), request.sample)
+    return _assign(aim(context, scope), lambda _material: (request, shader), request.sample)
 
 
-def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any, Solution]]:
-    """Assign a sample by an operator's `AssignOptions` to all materials in scope, or to none.
+def assign_sample(
+    operator: Any, aimed: Aim, sample: Sample, looked: Looked | None = None
+) -> list[tuple[Any, Solution]]:
+    """Assign a sample by an operator's `AssignOptions`, to all that is meant or to nothing.
 
     Each material keeps its light, model, tolerance, shader and gloss, unless the operator was told
     otherwise, and its roughness if the user set it. An object without a material gets one that is
-    called as the sample; several share it.
+    called as the sample; several share it. `looked` is as of `derive.assign`.
 
     Returns
     -------
@@ -305,7 +343,7 @@ def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any
         request, shader = replacing_request(material, sample, sigma)
         return request, operator.shader if told("shader") else shader
 
-    assigned = _assign(context, operator.scope, wanted, sample)
+    assigned = _assign(aimed, wanted, sample, looked)
     given = {material.rough_spectra.sigma for material, _ in assigned}
     if sigma is None and len(given) == 1:
         [operator.sigma] = given  # to be seen, and changed, afterwards
@@ -313,29 +351,24 @@ def assign_sample(operator: Any, context: Any, sample: Sample) -> list[tuple[Any
 
 
 def _assign(
-    context: Any, scope: str, wanted: Callable[[Any], tuple[Request, str]], sample: Sample
+    aimed: Aim,
+    wanted: Callable[[Any], tuple[Request, str]],
+    sample: Sample,
+    looked: Looked | None = None,
 ) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
     from ...material import derive, storage
 
-    materials, bare = _in_scope(context, scope)
-    made = None
-    if bare:
-        for thing in bare:
-            if not (thing.is_editable and thing.data.is_editable):
-                msg = f"Object {thing.name!r} is linked; make it local first, to give it one."
-                raise RoughSpectraError(msg)
-        active = active_object(context)
-        if not (materials and active not in bare):
-            made = shader_nodes.new_material(sample.name)
-            materials = [made, *materials]
+    made = shader_nodes.new_material(sample.name) if aimed.makes else None
+    materials = aimed.materials if made is None else [made, *aimed.materials]
     try:
         found = [wanted(None if material == made else material) for material in materials]
         pairs = [
             (material, request) for material, (request, _) in zip(materials, found, strict=True)
         ]
         glosses = _glosses(materials, sample)
-        solutions = derive.assign(pairs, [shader for _, shader in found], glosses=glosses)
+        shaders = [shader for _, shader in found]
+        solutions = derive.assign(pairs, shaders, glosses=glosses, looked=looked)
     except RoughSpectraError:
         if made is not None:
             bpy.data.materials.remove(made)
@@ -343,7 +376,7 @@ def _assign(
     for material, gloss in zip(materials, glosses, strict=True):
         if gloss is not None:
             storage.note_own_gloss(material, storage.shown_gloss(material))
-    for thing in bare:
+    for thing in aimed.bare:
         if thing.active_material is None:  # one of the same mesh may have been given it
             thing.active_material = materials[0]
     return list(zip(materials, solutions, strict=True))
@@ -393,25 +426,18 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     return list(found), [thing for thing in things if thing.active_material is None]
 
 
-def assign_from_library(
-    operator: Any, context: Any, name: str
-) -> tuple[Sample, list[tuple[Any, Solution]]]:
-    """Assign a sample of library or presets by an operator's `AssignOptions`.
-
-    Returns
-    -------
-    The sample, and what `assign_sample` gave.
+def of_library(name: str) -> Sample:
+    """Give a sample of library or presets.
 
     Raises
     ------
     RoughSpectraError
-        If there is no such sample, or it cannot be assigned; nothing was changed then.
+        If there is no such sample.
     """
     from ...material import preferences
     from ...samples import library
 
-    sample = library.load(name, preferences.user_folder())
-    return sample, assign_sample(operator, context, sample)
+    return library.load(name, preferences.user_folder())
 
 
 def can_have_material(operator: Any, context: Any) -> bool:
@@ -475,16 +501,15 @@ def has_spectra(operator: Any) -> bool:
     return False
 
 
-def report_assigned(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> None:
-    """Report every warning of the solutions, and which materials got the sample."""
+def told_of(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) -> str:
+    """Report every warning of the solutions; gives the sentence on which got the sample."""
     from ...samples import stated_white
 
     report_warnings(operator, assigned)
     if remark := stated_white.remark(sample):
         operator.report({"INFO"}, remark)
     names = ", ".join(material.name for material, _ in assigned[:3])
-    sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
-    operator.report({"INFO"}, sentence)
+    return rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
 
 
 def draw_swatch(row: Any, item: Any, has_color: bool = True) -> None:

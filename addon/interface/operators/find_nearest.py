@@ -22,7 +22,7 @@ from bpy.props import (
 
 from ....core.errors import InputError, RoughSpectraError
 from ...material.properties import ILLUMINANT_ITEMS
-from . import ahead, common
+from . import ahead, common, looking
 from .import_options import waiting
 
 if TYPE_CHECKING:
@@ -213,7 +213,7 @@ _MOST_LIGHTS = 3
 """Beside the main one; a line holds no more."""
 
 
-class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Find the measured samples nearest to a color, and assign one to the material"""
 
     bl_idname = "rough_spectra.find_nearest"
@@ -354,27 +354,25 @@ class ROUGHSPECTRA_OT_find_nearest(common.AssignOptions, bpy.types.Operator):
         layout.prop(self, "shader")
         layout.prop(self, "scope")
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign the match to all materials in scope, or to none."""
         if not self.matches:
             _find(self, context)
-        try:
-            if self.fault:
-                raise RoughSpectraError(self.fault)
-            if self.index >= len(self.matches):
-                msg = f"There are only {len(self.matches)} matches; choose one of them."
-                raise RoughSpectraError(msg)
-            match = self.matches[self.index]
-            sample, assigned = common.assign_from_library(self, context, match.sample)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_warnings(self, assigned)
-        sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
-        names = ", ".join(material.name for material, _ in assigned[:3])
-        sentence = sentence.format(materials=names, sample=sample.name, difference=match.difference)
-        self.report({"INFO"}, sentence)
-        return {"FINISHED"}
+        if self.fault:
+            raise RoughSpectraError(self.fault)
+        if self.index >= len(self.matches):
+            msg = f"There are only {len(self.matches)} matches; choose one of them."
+            raise RoughSpectraError(msg)
+        match = self.matches[self.index]
+        sample, difference = common.of_library(match.sample), match.difference
+
+        def tell(assigned: Any) -> str:
+            common.report_warnings(self, assigned)
+            sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
+            names = ", ".join(material.name for material, _ in assigned[:3])
+            return sentence.format(materials=names, sample=sample.name, difference=difference)
+
+        return looking.assignment(self, context, sample, tell)
 
 
 classes = (RoughSpectraMatch, ROUGHSPECTRA_UL_matches, ROUGHSPECTRA_OT_find_nearest)

@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 
 def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
@@ -34,7 +34,7 @@ def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str,
             yield entry.id, entry.title
 
 
-class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_sample(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
     """Make the material read like a sample of the library or a preset, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_sample"
@@ -58,15 +58,9 @@ class ROUGHSPECTRA_OT_assign_sample(common.AssignOptions, bpy.types.Operator):
             return self.execute(context)
         return context.window_manager.invoke_props_dialog(self, width=400)
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Assign to all materials in scope, or to none; σ is the sample's unless it is given."""
-        try:
-            sample, assigned = common.assign_from_library(self, context, self.sample)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        common.report_assigned(self, assigned, sample)
-        return {"FINISHED"}
+        return looking.assignment(self, context, common.of_library(self.sample))
 
 
 class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import bpy
@@ -11,13 +12,13 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 _NAMED = 3
 """Materials named in a report; of more only the number is told."""
 
 
-class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
+class ROUGHSPECTRA_OT_renew(looking.LooksFirst, bpy.types.Operator):
     """Derive color and roughness again from the stored spectrum and the settings shown"""
 
     bl_idname = "rough_spectra.renew"
@@ -45,26 +46,25 @@ class ROUGHSPECTRA_OT_renew(bpy.types.Operator):
         """Need a material with a spectrum."""
         return common.has_spectra(cls)
 
-    def execute(self, context: Any) -> set[str]:
+    def work(self, context: Any) -> looking.Work:
         """Renew the active material, or all in scope that can be."""
         from ...material import derive
 
-        try:
-            materials = self._materials(context)
-            left: list[str] = []
-            if self.scope != "ACTIVE":
-                materials, left = self._without_edited(materials)
-                materials, refused = derive.renewable(materials)
-                left += refused
-            solutions = derive.renew(materials)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"CANCELLED"}
-        for sentence in left:
-            self.report({"WARNING"}, sentence)
-        common.report_warnings(self, zip(materials, solutions, strict=True))
-        self.report({"INFO"}, rpt_("{} renewed").format(_names(materials)))
-        return {"FINISHED"} if materials else {"CANCELLED"}
+        materials = self._materials(context)
+        left: list[str] = []
+        if self.scope != "ACTIVE":
+            materials, left = self._without_edited(materials)
+            materials, refused = derive.renewable(materials)
+            left += refused
+
+        def act(materials: Sequence[Any], looked: Mapping[Any, Any]) -> str:
+            solutions = derive.renew(materials, looked)
+            for sentence in left:
+                self.report({"WARNING"}, sentence)
+            common.report_warnings(self, zip(materials, solutions, strict=True))
+            return rpt_("{} renewed").format(_names(list(materials)))
+
+        return looking.Work(materials, None, act, does=bool(materials))
 
     def _materials(self, context: Any) -> list[Any]:
         from ...material import selection, snapshot, state
