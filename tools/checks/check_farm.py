@@ -58,7 +58,7 @@ def make_scene(path: Path, count: int, seed: int) -> None:
     """Save a file with materials of smooth random spectra."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     random = np.random.default_rng(seed)
-    bands = np.arange(400.0, 701.0, 10.0)
+    bands = np.arange(400.0, 701.0, 10.0, dtype=np.float64)
     knots = np.linspace(400, 700, 5)
     pairs = []
     for number in range(count):
