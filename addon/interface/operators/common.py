@@ -312,6 +312,7 @@ def _assign(
     context: Any, scope: str, wanted: Callable[[Any], tuple[Request, str]], sample: Sample
 ) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
+    from ...matching import own_gloss
     from ...material import derive, storage
 
     materials, bare = _in_scope(context, scope)
@@ -323,7 +324,8 @@ def _assign(
                 raise RoughSpectraError(msg)
         active = active_object(context)
         if not (materials and active not in bare):
-            made = shader_nodes.new_material(sample.name)
+            shines = own_gloss.of_sample(sample) is not None
+            made = shader_nodes.new_material(sample.name, shines)
             materials = [made, *materials]
     try:
         found = [wanted(None if material == made else material) for material in materials]
