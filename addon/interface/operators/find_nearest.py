@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 _ROWS = 8
 _PICTURE = 7.0
 """Height and width of the highlighted match's picture, in heights of a button."""
-_CHARACTERS, _CHARACTERS_BESIDE = 75, 40
+_CHARACTERS, _CHARACTERS_BESIDE = 75, 52
 """Of a sentence in a line of the dialog, and beside the names of properties."""
 _LABELS = 0.4
 """Share of the width that these have."""
