@@ -36,8 +36,9 @@ def pytest_collection_modifyitems(items):
 def session(tmp_path_factory):
     """What was found in each scene, and everything that Blender printed."""
     folder = tmp_path_factory.mktemp("desktop")
-    (folder / "tmp").mkdir()
-    (folder / "user").mkdir()  # Blender does not enable what it installs into a folder to be made
+    # A Blender that had to make its user folder itself may not find what it installs there.
+    for name in ("tmp", "user"):
+        (folder / name).mkdir()
     build = [sys.executable, str(ROOT / "dev.py"), "build"]
     subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
     [package] = (ROOT / "build").glob("rough_spectra-*.zip")

@@ -31,6 +31,7 @@ MOST_SECONDS = 120.0
 PREVIEW_SECONDS = 15.0  # Eevee's take minutes on a virtual screen, and may be changed
 CONTRAST = 8  # of 255: what differs more within a row of pixels is not background
 STATUS_PIXELS = 900  # at UI scale 1
+VIEW_PIXELS = 520  # of the 3D view's height, from below
 
 
 def start() -> None:
@@ -137,6 +138,8 @@ def _cut(path: Path, part: str, window: Any) -> None:
     elif part == "status":
         below = min(area.y for area in window.screen.areas)
         pixels = pixels[window.height - below :, : round(STATUS_PIXELS * float(SCALE))]
+    elif part == "view":
+        pixels = _within(pixels, wide, window)[-round(VIEW_PIXELS * float(SCALE)) :]
     elif part == "preferences":
         other = bpy.context.window_manager.windows[-1]
         top = window.height - other.y - other.height

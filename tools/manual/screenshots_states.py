@@ -4,13 +4,16 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 import tempfile
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import bmesh
 import bpy
 
 from tools.run.run_command_line import ROOT
@@ -40,7 +43,7 @@ class Picture:
     show
         Puts the window into the state.
     part
-        "panel", "sidebar", "dialog", "status", "preferences" or "window": what is saved.
+        "panel", "sidebar", "dialog", "status", "preferences", "view" or "window": what is saved.
     ready
         Whether what takes its time is there.
     """
@@ -408,6 +411,38 @@ def _choose_tab() -> None:
     [region] = [region for region in _wide_area().regions if region.type == "UI"]
     region.active_panel_category = "Rough Spectra"
     region.tag_redraw()
+
+
+SHELF_SECONDS = 12.0
+_since: dict[str, float] = {}
+
+
+def _shelf_is_there() -> bool:
+    _wide_area().tag_redraw()  # pictures are asked for where they are drawn
+    return time.monotonic() > _since["shelf"] + SHELF_SECONDS
+
+
+@picture("view", _shelf_is_there)
+def shelf() -> None:
+    """Show the asset shelf below a cube of bricks' color; its pictures arrive by and by."""
+    thing = _fresh()
+    cube = bmesh.new()
+    bmesh.ops.create_cube(cube, size=2)
+    cube.to_mesh(thing.data)
+    cube.free()
+    ours = importlib.import_module("bl_ext.user_default.rough_spectra.addon.assets.shelf")
+    path = str(ours.folder() / ours.BLEND)
+    with bpy.data.libraries.load(path) as (_, wanted):
+        wanted.materials = ["Brick"]  # as a drag does
+    thing.active_material = wanted.materials[0]
+    thing.active_material.asset_clear()  # or it would be on the shelf itself
+    area = _wide_area()
+    area.type = "VIEW_3D"
+    space = area.spaces.active
+    space.shading.type, space.shading.color_type = "SOLID", "MATERIAL"
+    space.region_3d.view_location = (0, 0, 5.2)  # the cube in the lower half, which is shown
+    space.region_3d.view_distance = 12
+    _since["shelf"] = time.monotonic()
 
 
 @picture("preferences")
