@@ -5,7 +5,7 @@
     python3 dev.py screenshots --blender BLENDER [--scale 1|2] [--theme dark|light] [NAME ...]
 
 BLENDER is the executable of a desktop Blender; a screen (or a virtual one) has to be there, as
-large as the window: 1600 × 1500 pixels, times the scale. The extension's zip is installed into a
+large as the window: 1600 × 1700 pixels, times the scale. The extension's zip is installed into a
 new, empty user folder: nothing of yours is touched.
 """
 
@@ -31,7 +31,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--scale", type=float, default=1.0, help="UI scale")
     parser.add_argument("--width", type=int, default=440, help="of the panel, pixels at scale 1")
     parser.add_argument("--theme", choices=("dark", "light"), default="dark")
-    parser.add_argument("--size", default="1600x1500", help="of the window, pixels at scale 1")
+    parser.add_argument("--size", default="1600x1700", help="of the window, pixels at scale 1")
     parser.add_argument(
         "--grab",
         default="",

@@ -131,8 +131,8 @@ def _cut(path: Path, part: str, window: Any) -> None:
         pixels = _panel(_within(pixels, tab, window), 48, CONTRAST)
     elif part == "sidebar":
         [region] = [region for region in wide.regions if region.type == "UI"]
-        # Beside the sidebar's panels nodes show through, and below them a grid.
-        pixels = _panel(_within(pixels, region, window), 110, 3 * CONTRAST)
+        # Below the sidebar's panels a grid shows through.
+        pixels = _panel(_within(pixels, region, window), 24, 3 * CONTRAST)
     elif part == "dialog":
         pixels = _dialog(_within(pixels, wide, window))
     elif part == "status":

@@ -96,7 +96,8 @@ def show_material_tab() -> None:
 
 
 def _fresh() -> Any:
-    """Leave one plane, without a material, and no light."""
+    """Leave one plane, without a material, and no light; Details is closed."""
+    close_details()
     if _wide_area().type != "TEXT_EDITOR":
         _wide_area().type = "TEXT_EDITOR"
     bpy.ops.wm.set_working_color_space(convert_colors=True, working_space="Linear Rec.709")
@@ -117,7 +118,7 @@ def _wide_area() -> Any:
     return min(bpy.context.window_manager.windows[0].screen.areas, key=lambda area: area.x)
 
 
-def _assigned(preset: str = "colorchecker/14-green", degrees: float = 30.0) -> Any:
+def _assigned(preset: str = "everyday/brick", degrees: float = 20.0) -> Any:
     thing = _fresh()
     bpy.ops.rough_spectra.assign_preset("EXEC_DEFAULT", preset=preset, sigma=math.radians(degrees))
     return thing.active_material
@@ -188,8 +189,28 @@ def without_spectrum() -> None:
 
 @picture("panel")
 def assigned() -> None:
-    """Show a preset at 30°."""
+    """Show a preset as everybody sees it."""
     _assigned()
+
+
+@picture("panel")
+def details() -> None:
+    """Show all that Details holds."""
+    _assigned()
+    open_details()
+
+
+@picture("panel")
+def stale_details() -> None:
+    """Show what Details says of a color that was edited by hand."""
+    edited()
+    open_details()
+
+
+@picture("panel")
+def glossy() -> None:
+    """Show a preset with gloss."""
+    _assigned().rough_spectra.gloss = 0.4
 
 
 @picture("panel")
@@ -218,6 +239,7 @@ def infeasible() -> None:
     path = _write("chalk.csv", "wavelength,Chalk\n" + "\n".join(f"{nm},0.94" for nm in BANDS))
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(60))
     thing.active_material.rough_spectra.model = "two-bounce"
+    open_details()
 
 
 @picture("panel")
@@ -283,6 +305,7 @@ def lit_by_several() -> None:
     _assigned("colorchecker/09-moderate-red")
     _lights(("AREA", (1.5, -1.0, 2.0), 150.0, 2856.0), ("SUN", (-2.0, 2.0, 3.0), 1.0, 6500.0))
     bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT")
+    open_details()
 
 
 def _lights(*lights: tuple[str, tuple[float, float, float], float, float]) -> None:
@@ -304,21 +327,46 @@ def source() -> None:
     _fresh()
     path = _write("terracotta.csv", TERRACOTTA.read_text(encoding="utf-8"))
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sigma=math.radians(15))
-    open_source()
-    bpy.app.timers.register(_close_source, first_interval=4.0)
+    open_details(source=True)
 
 
-def open_source() -> None:
-    """Show the Source panel open, which a script cannot do: a twin that is so by default."""
-    closed = bpy.types.ROUGHSPECTRA_PT_source
-    options = {"bl_options": set(), "bl_parent_id": closed.bl_parent_id, "bl_label": "Source"}
-    bpy.utils.register_class(type("ROUGHSPECTRA_PT_source_open", closed.__bases__, options))
+def open_details(source: bool = False) -> list[Any]:
+    """Show Details open, which a script cannot do: by twins that are so by default, which it gives.
+
+    `source` is whether the box Source is open, too.
+    """
+    from bl_ext.user_default.rough_spectra.addon.interface.panels import panels
+
+    closed = bpy.types.ROUGHSPECTRA_PT_details
+    kept = ("__doc__", "bl_label", "bl_options", "poll", "draw")
+    content: dict[str, Any] = {"bl_options": set(), "bl_parent_id": closed.bl_parent_id}
+    twins = [type(f"{closed.__name__}_open", closed.__bases__, content)]
+    for cls in panels.classes:
+        if getattr(cls, "bl_parent_id", "") != closed.__name__:
+            continue
+        content = {name: vars(cls)[name] for name in kept if name in vars(cls)}
+        content["bl_parent_id"] = twins[0].__name__
+        if source:
+            content["bl_options"] = set()
+        name = f"{cls.__name__}_{'all' if source else 'some'}"
+        twins.append(type(name, cls.__bases__, content))
+    for twin in twins:
+        bpy.utils.register_class(twin)
+    _twins.extend(twins)
     closed.poll = classmethod(lambda _cls, _context: False)
+    return twins
 
 
-def _close_source() -> None:
-    bpy.utils.unregister_class(bpy.types.ROUGHSPECTRA_PT_source_open)
-    del bpy.types.ROUGHSPECTRA_PT_source.poll
+def close_details() -> None:
+    """Undo `open_details`."""
+    for twin in reversed(_twins):
+        bpy.utils.unregister_class(twin)
+    if _twins:
+        del bpy.types.ROUGHSPECTRA_PT_details.poll
+    _twins.clear()
+
+
+_twins: list[Any] = []
 
 
 # Measuring ---------------------------------------------------------------------------------------
@@ -340,6 +388,7 @@ def measuring() -> None:
 def measured() -> None:
     """Show a measurement beside the prediction."""
     _assigned()
+    open_details()
     _press("rough_spectra.measure", scope="ACTIVE")
 
 
@@ -349,7 +398,7 @@ def measured_before() -> None:
     if not _is_measured_here():
         return
     material = bpy.context.view_layer.objects.active.active_material
-    material.rough_spectra.sigma = math.radians(20)
+    material.rough_spectra.sigma = math.radians(30)
 
 
 def _is_measured_here() -> bool:
@@ -400,7 +449,9 @@ def context_menu() -> None:
 @picture("sidebar")
 def shader_editor() -> None:
     """Show the panel in the shader editor's sidebar."""
-    _assigned()
+    material = _assigned()
+    for node in material.node_tree.nodes:
+        node.location.x -= 2000  # it would show through
     area = _wide_area()
     area.ui_type = "ShaderNodeTree"
     area.spaces.active.show_region_ui = True
@@ -443,6 +494,26 @@ def shelf() -> None:
     space.region_3d.view_location = (0, 0, 5.2)  # the cube in the lower half, which is shown
     space.region_3d.view_distance = 12
     _since["shelf"] = time.monotonic()
+
+
+def _is_pictured() -> bool:
+    """Whether the balls of tab and sidebar are made, which differ in size: a viewport is slow."""
+    from bl_ext.user_default.rough_spectra.addon.preview import icons
+
+    material = bpy.context.view_layer.objects.active.active_material
+    balls = [wish for wish in icons._pictures if wish.figure == "ball"]
+    return sum(wish.material == material.session_uid for wish in balls) > 1
+
+
+@picture("sidebar", ready=_is_pictured)
+def view() -> None:
+    """Show the panel in the sidebar of the 3D view."""
+    _assigned()
+    area = _wide_area()
+    area.ui_type = "VIEW_3D"
+    area.spaces.active.overlay.show_overlays = False
+    area.spaces.active.show_region_ui = True
+    bpy.app.timers.register(_choose_tab, first_interval=0.5)
 
 
 @picture("preferences")

@@ -106,14 +106,16 @@ def _beside_picture(
 
 def _draw_sample(layout: Any, here: redraw.Redraw, name: str | None, inset: float) -> None:
     """Name the sample on the button that chooses another, beside other ways to find one."""
-    beside = here.format.width(inset + _BUTTONS) >= _NAME
+    form, label = here.format, iface_("Choose Sample") if name is None else name
+    beside, icon = form.width(inset + _BUTTONS) >= _NAME, icon_value("COLOR")
     row = layout.row(align=True) if beside else layout.column(align=True)
-    label = iface_("Choose Sample") if name is None else name
-    told = here.format.shortened(label, inset + _BUTTONS * beside)
-    color = icon_value("COLOR")
-    row.operator("rough_spectra.choose_sample", text=told, icon_value=color, translate=False)
+    if not beside and not form.fits(label, inset):
+        icon, inset = 0, inset - _BUTTON  # a name tells more than an icon
+    told = form.shortened(label, inset + _BUTTONS * beside)
+    row.operator("rough_spectra.choose_sample", text=told, icon_value=icon, translate=False)
     if not beside:
         row = row.row(align=True)
+        row.scale_x = max(form.room(inset) / (2 * _BUTTON), 1.0)
     row.operator("rough_spectra.assign_file", text="", icon_value=icon_value("FILE_FOLDER"))
     row.operator("rough_spectra.find_nearest", text="", icon_value=icon_value("EYEDROPPER"))
 
