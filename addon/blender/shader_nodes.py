@@ -160,12 +160,15 @@ def gloss_at(place: SocketTarget) -> Gloss | None:
     return gloss_of(place.material.node_tree.nodes[place.node_name])
 
 
-def new_material(name: str) -> Any:
+def new_material(name: str, shines: bool = False) -> Any:
     """Make a material, without the gloss that Blender gives to a new one.
 
-    Gloss is kept because somebody set it; of what we make nobody did.
+    Gloss is kept because somebody set it; of what we make nobody did. What is to shine gets a node
+    that can, which Blender 4.5 does not make by itself.
     """
     material = bpy.data.materials.new(name)
+    if shines and not uses_nodes(material):
+        material.use_nodes = True
     node = shader_node(material)
     if node is not None:
         _without_gloss(node)

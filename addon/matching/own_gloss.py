@@ -65,7 +65,11 @@ def _found(
 ) -> Gloss | None:
     key = key_of(included, excluded, units)
     known = preset_index.glosses()
-    return gloss.from_numbers(known[key]) if key in known else estimated(included, excluded, units)
+    return (
+        gloss.from_numbers(tuple(known[key]))
+        if key in known
+        else estimated(included, excluded, units)
+    )
 
 
 def estimated(

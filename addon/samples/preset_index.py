@@ -76,7 +76,9 @@ def text(found: tuple[Entry, ...], glosses: dict[str, tuple[str, Sequence[float]
 
 
 def _entry(name: str, row: dict[str, Any]) -> Entry:
-    known = {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
+    known: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in row.items()
+    }
     del known["bytes"], known["gloss"]
     collection = name.partition("/")[0]
     path = FOLDER / f"{name}.json"

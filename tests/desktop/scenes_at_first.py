@@ -37,9 +37,13 @@ class _Watch:
         self._last = now
         return _STEP if self._on else None
 
+    def is_quiet(self):
+        """Whether the window has come around often."""
+        return len(self.gaps) > 25
+
     def longest(self):
         """Give the longest since the last question, in seconds of the manual's machine."""
-        found = max(self.gaps)
+        found = max(self.gaps, default=0.0)
         self.gaps.clear()
         return pace.there(found)
 
@@ -55,15 +59,16 @@ def first_list(found):
     yield 1.0
     pace.unit()
     with _Watch() as watch:
-        yield 0.5
+        yield watch.is_quiet
         watch.longest()
         yield from click(panel.x + panel.width // 2, y)
-        yield 1.0
+        yield watch.is_quiet
         found["opened"] = watch.longest()
         yield from write("foliage")
-        yield 0.5
+        yield watch.is_quiet
         found["typed"] = watch.longest()
         yield from press("RET")
-        yield 2.0
+        yield 1.0
+        yield watch.is_quiet
         found["assigned"] = watch.longest()
     found["chosen"] = state()["sample"]

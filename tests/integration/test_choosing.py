@@ -214,7 +214,7 @@ def test_gloss_of_an_asset_is_its_samples():
     from rough_spectra.addon.samples import presets
 
     sample = presets.load("everyday/tarp-blue")
-    wall = shader_nodes.new_material("Wall")
+    wall = shader_nodes.new_material("Wall", shines=True)
     shader_nodes.put_gloss(wall, own_gloss.of_sample(sample))
     derive.assign([(wall, Request(sample, 0.1))])
     assert not storage.is_gloss_set(wall)

@@ -61,6 +61,8 @@ STEPS = (
     "addon.preview.icons",
     "addon.preview.figures.compose",
     "addon.preview.data",
+    "addon.preview.sample_ball",
+    "addon.matching.metamerism",
 )
 """Modules, each after those that it imports itself: no step brings more than 50 kB of source,
 but for the table of surfaces. With the last of them a sample is assigned and pictured."""

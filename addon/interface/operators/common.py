@@ -357,9 +357,11 @@ def _assign(
     looked: Looked | None = None,
 ) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
+    from ...matching import own_gloss
     from ...material import derive, storage
 
-    made = shader_nodes.new_material(sample.name) if aimed.makes else None
+    shines = own_gloss.of_sample(sample) is not None
+    made = shader_nodes.new_material(sample.name, shines) if aimed.makes else None
     materials = aimed.materials if made is None else [made, *aimed.materials]
     try:
         found = [wanted(None if material == made else material) for material in materials]

@@ -30,7 +30,9 @@ if TYPE_CHECKING:
     from ...samples.sample import Sample
 
 _ROWS = 8
-_CHARACTERS, _CHARACTERS_BESIDE = 75, 40
+_PICTURE = 7.0
+"""Height and width of the highlighted match's picture, in heights of a button."""
+_CHARACTERS, _CHARACTERS_BESIDE = 75, 52
 """Of a sentence in a line of the dialog, and beside the names of properties."""
 _LABELS = 0.4
 """Share of the width that these have."""
@@ -90,7 +92,7 @@ def _find(operator: Any, context: Any) -> None:
         item.name, item.sample, item.difference = entry.title, entry.id, difference
         item.swatch = entry.swatch
     operator.index = min(operator.index, max(len(operator.matches) - 1, 0))
-    _compare(operator, context)
+    _highlight(operator, context)
 
 
 def _wanted(operator: Any) -> Row:
@@ -126,29 +128,40 @@ def palette_rows(operator: Any, _context: Any, text: str) -> list[str]:
     return [row.name for row in rows if text.casefold() in row.name.casefold()]
 
 
-def _compare(operator: Any, context: Any) -> None:
-    """Say how far the highlighted match and what is looked for are apart in other lights."""
-    from ...matching import metamerism
+def _highlight(operator: Any, context: Any) -> None:
+    """Picture the highlighted match, and say how far it is from what is looked for elsewhere."""
     from ...material import preferences
+    from ...preview import sample_ball
     from ...samples import library
 
-    operator.apart = ""
+    operator.apart, operator.picture = "", 0
     if operator.index >= len(operator.matches):
         return
     material = common.active_material(context)
     try:
-        sample = _spectrum(operator, material)
-        if sample is None:
-            return
         match = library.load(operator.matches[operator.index].sample, preferences.user_folder())
-        requests = [common.new_request(each, _own_sigma(each)) for each in (sample, match)]
-        reference, *others = _lights(material)
-        found = metamerism.compare(*requests, others[:_MOST_LIGHTS], reference)
+        if not bpy.app.background:
+            # Of an operator its properties are asked; an update is handed just these.
+            told = getattr(operator, "properties", operator).is_property_set("sigma")
+            sigma = operator.sigma if told else _own_sigma(match)
+            operator.picture = sample_ball.icon_id(match, sigma, _PICTURE)
+        operator.apart = _apart(operator, material, match)
     except RoughSpectraError:
-        return  # without a color there is nothing to compare
+        return  # it has no color, and is refused when it is assigned
+
+
+def _apart(operator: Any, material: Any, match: Sample) -> str:
+    """Give the metamerism index for each light in words; empty where there is no spectrum."""
+    from ...matching import metamerism
+
+    sample = _spectrum(operator, material)
+    if sample is None:
+        return ""
+    requests = [common.new_request(each, _own_sigma(each)) for each in (sample, match)]
+    reference, *others = _lights(material)
+    found = metamerism.compare(*requests, others[:_MOST_LIGHTS], reference)
     told = ", ".join(f"{each.light} {each.index:.1f}" for each in found[1:])
-    words = rpt_("{told}, if alike in {light}")
-    operator.apart = words.format(told=told, light=found[0].light)
+    return rpt_("{told}, if alike in {light}").format(told=told, light=found[0].light)
 
 
 def _own_sigma(sample: Sample) -> float:
@@ -278,7 +291,7 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
         description="Which of them to assign; 0 is the nearest",
         min=0,
         options={"SKIP_SAVE", "HIDDEN"},
-        update=_compare,
+        update=_highlight,
     )
     began: FloatVectorProperty(
         name="First Color",
@@ -288,6 +301,11 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
     )
     fault: StringProperty(
         name="Fault", description="Why nothing is found", options={"SKIP_SAVE", "HIDDEN"}
+    )
+    picture: IntProperty(
+        name="Picture",
+        description="Icon of the highlighted match",
+        options={"SKIP_SAVE", "HIDDEN"},
     )
     apart: StringProperty(
         name="Metamerism Index",
@@ -313,7 +331,7 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
             self.began = self.color
         with waiting(context):
             _find(self, context)
-        return context.window_manager.invoke_props_dialog(self, width=480, confirm_text="Assign")
+        return context.window_manager.invoke_props_dialog(self, width=560, confirm_text="Assign")
 
     def draw(self, _context: Any) -> None:
         """Draw color, matches and how to assign."""
@@ -335,11 +353,14 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
             column.alert = True
             for line in textwrap.wrap(self.fault, _CHARACTERS):
                 column.label(text=line, translate=False)
-        layout.template_list(
+        row = layout.row()
+        row.template_list(
             *("ROUGHSPECTRA_UL_matches", "", self, "matches", self, "index"),
             rows=_ROWS,
             maxrows=_ROWS,
         )
+        if self.picture:
+            row.template_icon(self.picture, scale=_PICTURE)
         for number, line in enumerate(textwrap.wrap(self.apart, _CHARACTERS_BESIDE)):
             split = layout.split(factor=_LABELS)
             label = split.row()
