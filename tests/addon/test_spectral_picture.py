@@ -15,7 +15,7 @@ from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
-from rough_spectra.addon.picture import colors, passes, render
+from rough_spectra.addon.picture import colors, light_spectra, passes, render
 from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.cycles import gloss_reading, instrument_lobe
@@ -442,7 +442,7 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     light.use_temperature = False
     light.color = (1.0, 0.5, 0.2)
     args = bpy.context.evaluated_depsgraph_get(), scene, working_space.current()
-    found = colors.find(*args, {"Sun": "F11"})
+    found = colors.find(*args, {"Sun": light_spectra.find("F11")})
     [shining] = found.shining
     sd = illuminant_spectra.cie("F11")
     assert shining.spectrum == pytest.approx(sd)
@@ -450,7 +450,23 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert shining.strength == pytest.approx([luminance] * 3)
     assert found.told["Light 'Sun'"] == ["CIE F11"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
-        colors.find(*args, {"Moon": "F11"})
+        colors.find(*args, {"Moon": light_spectra.find("F11")})
+
+
+def test_a_table_of_a_lamp_loses_none_of_its_lines(tmp_path):
+    """A line of 0.5 nm between two nodes: its color is that of monochromatic light."""
+    path = tmp_path / "sodium.csv"
+    path.write_text("nm,power\n588.7,0\n589.2,40\n589.7,0\n", encoding="utf-8")
+    spectrum, words = light_spectra.find(str(path))
+    assert words == "measured: sodium.csv"
+    xyz = illuminant_spectra.to_xyz(spectrum)
+    line = functions()[int(589 - NM[0])] * 0.8 + functions()[int(590 - NM[0])] * 0.2
+    assert xyz == pytest.approx(line / line[1], rel=5e-3, abs=1e-3)
+    with pytest.raises(api.DomainError, match="neither a file nor an illuminant"):
+        light_spectra.find("F99")
+    path.write_text("nm,power\n1000,1\n1100,1\n", encoding="utf-8")
+    with pytest.raises(api.InputError, match="nothing of this light is seen"):
+        light_spectra.find(str(path))
 
 
 @pytest.mark.parametrize(
@@ -478,7 +494,6 @@ def test_what_cannot_be_rendered_is_told_before(change, words):
         {"tolerance": 0.0},
         {"observer": 5},
         {"samples": 0},
-        {"lights": {"Sun": "F99"}},
     ],
 )
 def test_what_is_no_number_of_anything_is_refused(wanted):
