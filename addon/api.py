@@ -1461,8 +1461,9 @@ def spectral_picture(
     samples, percentage
         Of the renders, instead of the scene's own.
     lights
-        By the names of lamps, worlds and materials that emit one color, the CIE illuminant whose
-        spectrum it has, such as "F11"; its luminance stays.
+        By the names of lamps, worlds and materials that emit one color, the spectrum that it has:
+        a CIE illuminant such as "F11", or the path of a table of wavelengths and power on any
+        scale. Its luminance stays that of its color.
     progress
         Called with renders done and renders in all.
 
@@ -1480,6 +1481,8 @@ def spectral_picture(
         The scene has another render engine, no camera, no light, or none that `lights` names.
     DomainError
         An argument is none of these.
+    InputError
+        A table of `lights` cannot be read.
     OutputError
         The second Blender failed.
     CancelledError

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A spectral picture of the scene by ordinary renders of three bands each, in a second Blender.
 
-colors      where colors stand in materials, lamps and world, and what spectra they stand for
-passes      the renders: which bands, and what each color is in them
-worker      the script of the second Blender, which sets colors and renders
-render      asks for it, and puts the renders together
-picture     the picture that comes of it, beside the ordinary one
-files       the picture as a file and as Blender's image
+colors         where colors stand in materials, lamps and world, and what spectra they stand for
+light_spectra  what a lamp sends, where that is known
+passes         the renders: which bands, and what each color is in them
+worker         the script of the second Blender, which sets colors and renders
+render         asks for it, and puts the renders together
+picture        the picture that comes of it, beside the ordinary one
+files          the picture as a file and as Blender's image
 """

@@ -27,6 +27,8 @@ from ..matching import surface_spectra
 from ..material import settled, state, storage
 from ..scene import emission
 
+KnownLight = tuple[Array, str]
+"""A spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is."""
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
 _GLOWS = {
     ("ShaderNodeEmission", "Color"): "Strength",
@@ -149,7 +151,7 @@ class Colors:
 
 
 def find(
-    depsgraph: Any, scene: Any, space: WorkingSpace, known: Mapping[str, str] | None = None
+    depsgraph: Any, scene: Any, space: WorkingSpace, known: Mapping[str, KnownLight] | None = None
 ) -> Colors:
     """Find all colors of what a scene shows.
 
@@ -162,8 +164,8 @@ def find(
     space
         The working space.
     known
-        By the names of lamps, worlds and materials, the CIE's illuminant whose spectrum their light
-        has, at the luminance of their color.
+        By the names of lamps, worlds and materials, the spectrum that their light has, and what
+        that is; its luminance stays that of their color.
 
     Raises
     ------
@@ -182,7 +184,7 @@ def find(
 
 
 class _Search:
-    def __init__(self, space: WorkingSpace, known: Mapping[str, str]) -> None:
+    def __init__(self, space: WorkingSpace, known: Mapping[str, KnownLight]) -> None:
         self._space = space
         self._known = known
         self.unused = set(known)
@@ -354,12 +356,10 @@ class _Search:
         xyz = np.linalg.solve(self._space.from_xyz, np.maximum(rgb, 0))
         if not xyz[1] > 0:
             return
-        illuminant = self._known.get(self._called[name])
-        if illuminant is None:
-            spectrum, words = illuminant_spectra.like(xyz / xyz[1], kelvin)
-        else:
-            spectrum, words = illuminant_spectra.cie(illuminant), f"CIE {illuminant}"
+        known = self._known.get(self._called[name])
+        if known is not None:
             self.unused.discard(self._called[name])
+        spectrum, words = known or illuminant_spectra.like(xyz / xyz[1], kelvin)
         self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
         self._found.tell(name, words)
 

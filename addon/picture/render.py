@@ -28,7 +28,7 @@ from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import astm_e308, illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
-from . import colors, passes
+from . import colors, light_spectra, passes
 from .colors import Colors
 from .passes import Lamps, Pass
 from .picture import SpectralPicture, compare
@@ -56,7 +56,8 @@ class Wanted:
     samples, percentage
         Of the renders, instead of the scene's; or None.
     lights
-        By the names of lamps, worlds and materials that emit, the CIE illuminant that they are.
+        By the names of lamps, worlds and materials that emit, the CIE illuminant that they are, or
+        the path of a table; see `light_spectra.find`.
 
     Raises
     ------
@@ -84,11 +85,6 @@ class Wanted:
         if self.observer not in astm_e308.OBSERVERS:
             msg = f"Observer {self.observer!r} is not known; choose 2 or 10 degrees."
             raise DomainError(msg)
-        for illuminant in self.lights.values():
-            if illuminant not in astm_e308.ILLUMINANTS:
-                choices = ", ".join(astm_e308.ILLUMINANTS)
-                msg = f"Illuminant {illuminant!r} is not known; choose one of {choices}."
-                raise DomainError(msg)
         for name, value, most in (("samples", self.samples, 1 << 24),
                                   ("percentage", self.percentage, 32767)):  # fmt: skip
             if value is not None and not 1 <= value <= most:
@@ -110,6 +106,8 @@ class Rendering(Job):
     ------
     MaterialError
         If the scene has no camera, no light, or another render engine than Cycles.
+    DomainError, InputError
+        If a light is none that is known.
     OutputError
         If the temporary folder cannot be written or the second Blender not be started.
     """
@@ -120,11 +118,12 @@ class Rendering(Job):
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
         _check(scene, wanted)
+        known = {name: light_spectra.find(light) for name, light in wanted.lights.items()}
         layer = _layer(scene)
         self._wanted = wanted
         self._space = working_space.current()
         depsgraph = _evaluated(scene, layer)
-        self._found = colors.find(depsgraph, scene, self._space, wanted.lights)
+        self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
         self._chosen = _choose(self._found, self._lamps, self._space, wanted)
         self._passes = passes.of_bands(self._chosen)

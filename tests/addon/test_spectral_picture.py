@@ -13,9 +13,13 @@ import numpy as np
 import pytest
 from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
-from rough_spectra.addon.colorimetry import illuminant_spectra
-from rough_spectra.addon.picture import colors, passes, render
+from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
+from rough_spectra.addon.matching import surface_spectra
+from rough_spectra.addon.picture import colors, light_spectra, passes, render
+from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
+from rough_spectra.core.cycles import gloss_reading, instrument_lobe
+from rough_spectra.core.gloss import Gloss
 from rough_spectra.core.numerics import wavelength_grid
 
 pytestmark = pytest.mark.usefixtures("empty_file")
@@ -163,6 +167,62 @@ def test_direct_light_is_exact_with_three_bands(lit):
         )
         found = apart(picture.xyz[0, column], values @ lamp, lamp.sum(axis=0))
         assert found < 0.05, sample.name
+
+
+def test_a_rough_surface_is_matched_at_every_band(lit):
+    """Cycles' formula for the lobe, with the color that reads right at each wavelength.
+
+    The formula is held to renders elsewhere.
+    """
+    samples, picture, *_ = lit
+    material = bpy.data.materials.new("Same")
+    [solution] = api.assign([(material, api.request(samples[1], radians(30)))], gloss="none")
+    request = api.settle(material).request
+    [read], _ = surface_spectra.readings_and_albedos([request])
+    values = wavelength_grid.resample(read, request.sample.wavelengths, NM, ends="hold")
+    gray = np.repeat(values[:, np.newaxis], 3, axis=1)
+    color = cycles.color_for_reading(gray, solution.roughness)
+    shown = cycles.reflectance(color, solution.roughness, 0.0, 0.0, 0.0)[:, 0]
+    lamp = planck()[:, np.newaxis] * functions()
+    assert solution.roughness > 0.2
+    assert apart(picture.xyz[0, 1], shown @ lamp, lamp.sum(axis=0)) < 0.05
+
+
+def test_gloss_stays_over_a_color_of_any_band():
+    """What the instrument reads of color and gloss in a band is what was measured there."""
+    gloss = Gloss(level=0.6, roughness=0.4, tint=(1.0, 0.6, 0.3), coat=0.2)
+    nm = illuminant_spectra.GRID
+    place = colors.Place(("materials", "Any", ""), "Node", 0)
+    reading = 0.2 + 0.5 * (nm - 360) / 420
+    measured = colors.Measured(place, reading, 0.3, "45a:0", gloss)
+    taken = (nm[:, np.newaxis] == [450.0, 550.0, 650.0]).astype(float)
+    one = passes.Pass(taken, np.ones((1, 3)), np.eye(3))
+    space = working_space.current()
+    found = colors.Colors(measured=[measured])
+    [edit] = passes.edits(found, passes.Lamps(np.ones((1, nm.size)), ()), [one], space)
+    [color] = edit["colors"]
+    by_rgb = rgb_spectra.reflectances(space)
+    there = gloss._replace(tint=tuple(np.array(gloss.tint) @ by_rgb @ taken))
+    diffuse = instrument_lobe.reflectance(np.array(color), 0.3, "45a:0")
+    assert gloss_reading.reading(diffuse, there, "45a:0") == pytest.approx(reading @ taken)
+
+
+def test_a_lamp_with_nodes_has_both_its_colors():
+    scene = from_above(4)
+    light = sun(scene)
+    light.use_temperature = False
+    light.color = (0.5, 1.0, 1.0)
+    if light.node_tree is None:
+        light.use_nodes = True
+    emission = next(node for node in light.node_tree.nodes if node.type == "EMISSION")
+    emission.inputs["Color"].default_value = (1.0, 0.5, 0.25, 1)
+    found = find()
+    [shining] = found.shining
+    assert shining.place.node == emission.name
+    xyz = np.linalg.solve(working_space.current().from_xyz, (0.5, 0.5, 0.25))
+    assert shining.strength == pytest.approx([xyz[1]] * 3)
+    assert illuminant_spectra.to_xyz(shining.spectrum) * xyz[1] == pytest.approx(xyz, rel=1e-4)
+    assert [(place.attribute, value) for place, value in found.reset] == [("color", (1, 1, 1))]
 
 
 def test_a_color_that_is_linked_has_the_same_spectrum(lit):
@@ -382,7 +442,7 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     light.use_temperature = False
     light.color = (1.0, 0.5, 0.2)
     args = bpy.context.evaluated_depsgraph_get(), scene, working_space.current()
-    found = colors.find(*args, {"Sun": "F11"})
+    found = colors.find(*args, {"Sun": light_spectra.find("F11")})
     [shining] = found.shining
     sd = illuminant_spectra.cie("F11")
     assert shining.spectrum == pytest.approx(sd)
@@ -390,7 +450,23 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert shining.strength == pytest.approx([luminance] * 3)
     assert found.told["Light 'Sun'"] == ["CIE F11"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
-        colors.find(*args, {"Moon": "F11"})
+        colors.find(*args, {"Moon": light_spectra.find("F11")})
+
+
+def test_a_table_of_a_lamp_loses_none_of_its_lines(tmp_path):
+    """A line of 0.5 nm between two nodes: its color is that of monochromatic light."""
+    path = tmp_path / "sodium.csv"
+    path.write_text("nm,power\n588.7,0\n589.2,40\n589.7,0\n", encoding="utf-8")
+    spectrum, words = light_spectra.find(str(path))
+    assert words == "measured: sodium.csv"
+    xyz = illuminant_spectra.to_xyz(spectrum)
+    line = functions()[int(589 - NM[0])] * 0.8 + functions()[int(590 - NM[0])] * 0.2
+    assert xyz == pytest.approx(line / line[1], rel=5e-3, abs=1e-3)
+    with pytest.raises(api.DomainError, match="neither a file nor an illuminant"):
+        light_spectra.find("F99")
+    path.write_text("nm,power\n1000,1\n1100,1\n", encoding="utf-8")
+    with pytest.raises(api.InputError, match="nothing of this light is seen"):
+        light_spectra.find(str(path))
 
 
 @pytest.mark.parametrize(
@@ -418,7 +494,6 @@ def test_what_cannot_be_rendered_is_told_before(change, words):
         {"tolerance": 0.0},
         {"observer": 5},
         {"samples": 0},
-        {"lights": {"Sun": "F99"}},
     ],
 )
 def test_what_is_no_number_of_anything_is_refused(wanted):

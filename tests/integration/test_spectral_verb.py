@@ -61,7 +61,7 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
     [
         (("--bands", "4"), "give 3, 6, 9"),
         (("--light", "Moon=F11"), "called 'Moon' shines"),
-        (("--light", "World=F99"), "'F99' is not known"),
+        (("--light", "World=F99"), "'F99' is neither a file nor"),
         (("--scene", "Nowhere"), "There is no scene 'Nowhere'"),
         (("-o", "room.png"), "is no EXR by its name"),
     ],

@@ -116,8 +116,13 @@ def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) ->
     """Two pictures of other seeds, and the first's RGB picture: blocks of XYZ, top down."""
     from rough_spectra.addon import api
     from rough_spectra.addon.blender import working_space
+    from rough_spectra.addon.colorimetry import illuminant_spectra
 
-    found, plain, predicted = [], None, None
+    # The RGB picture has at least the lamp's color.
+    xyz = illuminant_spectra.to_xyz(illuminant_spectra.cie(light))
+    color = bpy.data.materials["Lamp"].node_tree.nodes["Emission"].inputs["Color"]
+    color.default_value = (*np.maximum(working_space.current().from_xyz @ xyz, 0), 1)
+    found, plain = [], None
     for seed in (1, 2):
         scene.cycles.seed = seed
         picture = api.spectral_picture(
@@ -132,8 +137,7 @@ def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) ->
         if picture.comparison is not None:
             to_xyz = np.linalg.inv(working_space.current().from_xyz)
             plain = blocks(picture.comparison.plain[::-1, :, :3] @ to_xyz.T)
-            predicted = picture.predicted
-    return found, plain, predicted
+    return found, plain
 
 
 def by_mitsuba(python: str, light: str, samples: int) -> Any:
@@ -196,7 +200,7 @@ def main() -> None:
     scene = build()
     for light in options.light or LIGHTS:
         white = illuminant_spectra.to_xyz(illuminant_spectra.cie(light))
-        cycles, plain, _ = by_cycles(scene, light, options.samples, options.bands, options.direct)
+        cycles, plain = by_cycles(scene, light, options.samples, options.bands, options.direct)
         mitsuba = by_mitsuba(options.mitsuba, light, options.samples)
         seen = mitsuba[0][..., 1] < 2.0  # without the lamp itself and its edge
         ours, theirs = (np.mean(each, axis=0) for each in (cycles, mitsuba))

@@ -53,9 +53,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_light,
         action="append",
         default=[],
-        metavar="NAME=CIE",
-        help="a lamp, world or emitting material, and the CIE illuminant whose spectrum it has, "
-        "such as Lamp=F11; repeatable",
+        metavar="NAME=LIGHT",
+        help="a lamp, world or emitting material, and the spectrum that it has: a CIE illuminant, "
+        "such as Lamp=F11, or a table of wavelengths and power; repeatable",
     )
     parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
     parser.add_argument(
@@ -112,8 +112,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _light(text: str) -> tuple[str, str]:
-    name, _, illuminant = text.rpartition("=")
-    if not name:
-        msg = f"{text!r} is no lamp and illuminant; write Lamp=F11"
+    name, _, light = text.partition("=")
+    if not (name and light):
+        msg = f"{text!r} is no lamp and its light; write Lamp=F11"
         raise argparse.ArgumentTypeError(msg)
-    return name, illuminant
+    return name, light

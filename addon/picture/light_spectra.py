@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a lamp sends, where that is known: an illuminant of the CIE, or a measured table.
+
+No Blender data here.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...core.errors import DomainError, InputError
+from ...core.numerics.arrays import Array
+from ..colorimetry import astm_e308, illuminant_spectra
+from ..samples import filter_response
+
+_FINE = 0.25
+"""Nanometers at which a table is read: a line of a lamp is narrower than a step of `GRID`."""
+
+
+def find(name: str) -> tuple[Array, str]:
+    """Give a spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is.
+
+    Parameters
+    ----------
+    name
+        A CIE illuminant, or the path of a table of wavelengths and of power on any scale, as
+        `filter_response.read` takes it; nothing shines outside of it.
+
+    Raises
+    ------
+    DomainError
+        If it is neither, or nothing of it is seen.
+    InputError
+        If the table cannot be read.
+    """
+    if name in astm_e308.ILLUMINANTS:
+        return illuminant_spectra.cie(name), f"CIE {name}"
+    path = Path(name)
+    if not path.exists():
+        choices = ", ".join(astm_e308.ILLUMINANTS)
+        msg = f"{name!r} is neither a file nor an illuminant that is known: {choices}."
+        raise DomainError(msg)
+    table = filter_response.read(path)
+    grid, step = illuminant_spectra.GRID, illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
+    fine = np.arange(grid[0] - step, grid[-1] + step, _FINE)
+    power = np.interp(fine, np.asarray(table.wavelengths), np.asarray(table.response), 0, 0)
+    # As much as around each node, by its distance: no power is lost between them.
+    near = np.maximum(1 - np.abs(fine[:, np.newaxis] - grid) / step, 0)
+    spectrum = power @ near * _FINE / step
+    luminance = illuminant_spectra.to_xyz(spectrum)[1]
+    if not luminance > 0:
+        raise InputError(f"{path}: nothing of this light is seen; give wavelengths in nanometers.")
+    return spectrum / luminance, f"measured: {path.name}"
