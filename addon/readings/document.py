@@ -71,6 +71,28 @@ class CyclesReading:
 
 
 @dataclass(frozen=True)
+class SpotRead:
+    """Where and how an instrument stood on a surface of the scene.
+
+    `diameter` is of the spot, in millimeters. `point`, `normal` and `azimuth` are its middle, the
+    side that it stood on, and where its azimuth is 0, in the scene. `is_alone` says whether other
+    objects were hidden, and `covered` which share of the spot the object filled: nothing else
+    counts. `spread_mean` and `spread_95` are ΔE00 from the reading over the spot, mean and 95th
+    percentile, and `noise` is the reading's; None where nothing was measured.
+    """
+
+    diameter: float
+    point: Triple
+    normal: Triple
+    azimuth: Triple
+    is_alone: bool
+    covered: float
+    spread_mean: float | None
+    spread_95: float | None
+    noise: float | None
+
+
+@dataclass(frozen=True)
 class Reading:
     """All that is known of one material's reading.
 
@@ -80,7 +102,7 @@ class Reading:
     why a prediction or a measurement that was asked for is missing; else it is empty.
     `instrument` is the virtual one, a name in `core.instruments.REGISTRY`, of both prediction and
     measurement. `gloss` has the gloss units at 20°, 60° and 85°; empty where they were not asked
-    for.
+    for. `spot` tells where on an object it was read; None of a flat sample.
     """
 
     material: str
@@ -95,6 +117,7 @@ class Reading:
     fault: str = ""
     instrument: str = instruments.DEFAULT
     gloss: tuple[float, ...] = ()
+    spot: SpotRead | None = None
 
 
 @dataclass(frozen=True)
@@ -125,7 +148,11 @@ class Readings:
     def aperture(self) -> str:
         """Say what the instruments light and look through."""
         wide = any(map(instruments.has_apertures, self.instruments))
-        return APERTURES if wide else APERTURE
+        said = APERTURES if wide else APERTURE
+        sizes = sorted({entry.spot.diameter for entry in self.entries if entry.spot is not None})
+        if not sizes:
+            return said
+        return f"{said}; on objects a spot of {', '.join(f'{size:g}' for size in sizes)} mm"
 
     @property
     def largest_delta_e(self) -> float | None:
@@ -200,6 +227,7 @@ def to_json(readings: Readings) -> bytes:
             "xyz": "Y = 100 for the perfect diffuser",
             "measured": "CIE 1931 2° observer",
             "gloss": "GU at 20°, 60° and 85°, ISO 2813",
+            "spot": "mm; point in units of the scene",
         },
         "shard": readings.shard,
         "shards": readings.shards,
@@ -250,7 +278,7 @@ def from_json(path: Path) -> Readings:
 
 
 _ALBEDOS = ("albedo_lowest", "albedo_highest")
-_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview"}
+_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview", "point", "normal", "azimuth"}
 
 
 def _entry(data: dict[str, Any]) -> Reading:
@@ -271,6 +299,7 @@ def _entry(data: dict[str, Any]) -> Reading:
     known = dict(data)
     known["predicted"] = whole(Predicted, data["predicted"])
     known["measured"] = whole(CyclesReading, data["measured"])
+    known["spot"] = whole(SpotRead, data.get("spot"))
     known["warnings"] = tuple(data["warnings"])
     known["gloss"] = tuple(map(float, data.get("gloss", ())))
     if len(known["gloss"]) not in (0, len(GLOSS)):

@@ -38,6 +38,7 @@ SIGNATURES = {
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
+    "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
@@ -68,7 +69,9 @@ FIELDS = {
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
-    "warnings fault instrument gloss",
+    "warnings fault instrument gloss spot",
+    "Spot": "thing carrier material point normal toward diameter is_alone",
+    "SpotRead": "diameter point normal azimuth is_alone covered spread_mean spread_95 noise",
     "RoughSample": "kind mesh length asked seed",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "Measured": "albedos reflectance noise spread spot_noise spot",

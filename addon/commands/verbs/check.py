@@ -13,6 +13,7 @@ from .bake import (
     add_surface_arguments,
     measure,
     tell_faults,
+    wanted,
 )
 
 NAME = "check"
@@ -50,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(msg)
     if options.output is not None:
         writers.check(options.output)
-    result = measure(options)
+    result = measure(options, wanted(options))
     compared = [entry for entry in result.entries if entry.delta_e_00 is not None]
     if not compared and not result.faults:
         names = ", ".join(entry.material for entry in result.entries[:5])
