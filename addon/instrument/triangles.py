@@ -106,12 +106,11 @@ class Triangles:
         one, two, start = b - a, c - a, origin - a
         across = np.cross(direction, two)
         size = np.einsum("ij,ij->i", one, across)
+        size[size == 0] = np.nan  # the line runs along them
         turned = np.cross(start, one)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            u = np.einsum("ij,ij->i", start, across) / size
-            v = turned @ direction / size
-            far = np.einsum("ij,ij->i", two, turned) / size
+        u = np.einsum("ij,ij->i", start, across) / size
+        v = turned @ direction / size
+        far = np.einsum("ij,ij->i", two, turned) / size
         slack = 1e-9
-        is_met = (size != 0) & (u >= -slack) & (v >= -slack) & (u + v <= 1 + slack)
-        numbers = np.flatnonzero(is_met & np.isfinite(far))
+        numbers = np.flatnonzero((u >= -slack) & (v >= -slack) & (u + v <= 1 + slack))
         return numbers, np.asarray(far[numbers])

@@ -31,6 +31,7 @@ def draw(layout: Any, context: Any) -> None:
     row, render = layout.row(align=True), icon_value("RENDER_STILL")
     row.operator("rough_spectra.measure", text="Measure", icon_value=render).scope = "ACTIVE"
     row.operator("rough_spectra.measure", text="Measure All").scope = "ALL"
+    layout.operator("rough_spectra.measure_here", icon_value=icon_value("EYEDROPPER"))
     here = redraw.current(context)
     if here.shown is not None:
         _draw_measured(layout, context, here, here.shown)
@@ -50,7 +51,5 @@ def _draw_measured(
     predicted = found.predicted
     if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
         predicted = of_now[0]
-    told = sentences.measurement(
-        predicted, found.delta_e, found.current, found.instrument, here.style
-    )
+    told = sentences.measurement(predicted, found, here.style)
     text.draw(layout.column(align=True), told)
