@@ -15,6 +15,7 @@ import scenes_files  # noqa: F401
 import scenes_panel  # noqa: F401
 import scenes_quitting  # noqa: F401
 import scenes_rough  # noqa: F401
+import scenes_spots  # noqa: F401
 
 ZIP, FOLDER, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 
