@@ -45,9 +45,9 @@ from ..core.models import TARGET
 from ..core.numerics.arrays import Array
 from .blender import colors, working_space
 from .instrument import adjustment
-from .instrument import bake as instrument_bake
 from .instrument import gloss as instrument_gloss
 from .instrument import spot as instrument_spot
+from .instrument import surfaces as instrument_surfaces
 from .instrument.adjustment import Adjusted
 from .instrument.spot import Spot
 from .laboratory import experiment, kinds
@@ -941,7 +941,7 @@ def bake(
             name, material = surface if isinstance(surface, tuple) else ("", surface)
             found.append((name, _checked(material)))
     at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
-    return instrument_bake.bake(found, measure, progress, at, with_gloss)
+    return instrument_surfaces.read(found, measure, progress, at, with_gloss)
 
 
 def gloss(

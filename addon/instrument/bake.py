@@ -40,8 +40,7 @@ from ..readings.document import (
     Triple,
 )
 from ..samples import stated_white
-from . import arrangement, gloss, measure, rendered, spot_measure
-from .spot import Spot
+from . import arrangement, gloss, measure, rendered
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -168,7 +167,7 @@ def compare(prepared: Sequence[Prepared], measured: Array | None, each: int = 1)
     """
     space = working_space.current()
     entries = [
-        _reading(item, None if measured is None else measured[i], space)
+        reading(item, None if measured is None else measured[i], space)
         for i, item in enumerate(prepared)
     ]
     return document_of(entries, each)
@@ -181,7 +180,7 @@ def document_of(entries: Sequence[Reading], each: int = 1) -> Readings:
 
 
 def bake(
-    surfaces: Sequence[tuple[str, Any] | Spot],
+    surfaces: Sequence[tuple[str, Any]],
     with_measurement: bool = True,
     progress: Callable[[int, int], None] | None = None,
     read_at: Sequence[str] = (),
@@ -192,8 +191,7 @@ def bake(
     Parameters
     ----------
     surfaces
-        As in `prepare`; one material on many surfaces is rendered once, as a flat sample. A `Spot`
-        is measured where it lies.
+        As in `prepare`; one material on many surfaces is rendered once, as a flat sample.
     with_measurement
         Whether to render; predictions alone need no second Blender.
     progress
@@ -212,107 +210,20 @@ def bake(
     """
     read_at = tuple(dict.fromkeys(read_at))
     each = max(1, len(read_at))
-    if not with_measurement:
-        return compare(prepare(pairs(surfaces), read_at), None, each)
-    spots = [surface for surface in surfaces if isinstance(surface, Spot)]
-    flat = [surface for surface in surfaces if not isinstance(surface, Spot)]
-    on_spots = iter(_on_spots(spots, read_at, with_gloss, progress))
-    on_flat = iter(_on_flat(flat, read_at, each, with_gloss, progress))
-    entries = [
-        next(on_spots if isinstance(surface, Spot) else on_flat)
-        for surface in surfaces
-        for _ in range(each)
-    ]
-    return document_of(entries, each)
-
-
-def pairs(surfaces: Sequence[tuple[str, Any] | Spot]) -> list[tuple[str, Any]]:
-    """Give the name of each surface's object, or an empty string, and its material."""
-    return [each.surface if isinstance(each, Spot) else each for each in surfaces]
-
-
-def _on_flat(
-    surfaces: Sequence[tuple[str, Any]],
-    read_at: Sequence[str],
-    each: int,
-    with_gloss: bool,
-    progress: Callable[[int, int], None] | None,
-) -> tuple[Reading, ...]:
-    if not surfaces:
-        return ()
     prepared = prepare(surfaces, read_at)
+    if not with_measurement:
+        return compare(prepared, None, each)
     wanted = plan(surfaces, prepared)
-    found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each).entries
+    found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
     if not with_gloss:
         return found
     materials, _ = wanted.work
     units = gloss.measured(materials, working_space.current(), progress=progress)
-    return tuple(
-        replace(entry, gloss=_rounded(units[place]))
-        for entry, place in zip(found, wanted.rows[1], strict=True)
+    entries = tuple(
+        replace(entry, gloss=gloss.told(units[place]))
+        for entry, place in zip(found.entries, wanted.rows[1], strict=True)
     )
-
-
-def _on_spots(
-    spots: Sequence[Spot],
-    read_at: Sequence[str],
-    with_gloss: bool,
-    progress: Callable[[int, int], None] | None,
-) -> list[Reading]:
-    if not spots:
-        return []
-    prepared = prepare(pairs(spots), read_at)
-    wanted = spot_arrangements(spots, prepared, with_gloss)
-    return compare_spots(prepared, spot_measure.measure(spots, wanted, progress))
-
-
-def spot_arrangements(
-    spots: Sequence[Spot], prepared: Sequence[Prepared], with_gloss: bool = False
-) -> list[list[arrangement.Arrangement]]:
-    """Give the renders of each spot's instruments; `prepared` are of these spots."""
-    each = len(prepared) // max(1, len(spots))
-    meters = [gloss.arrangement(angle) for angle in gloss.ANGLES] if with_gloss else []
-    return [
-        [arrangement.of(item.read_at) for item in prepared[row : row + each]] + meters
-        for row in range(0, len(prepared), each)
-    ]
-
-
-def compare_spots(
-    prepared: Sequence[Prepared], results: Sequence[spot_measure.SpotResult]
-) -> list[Reading]:
-    """Predict readings and put beside them what was read of spots.
-
-    Parameters
-    ----------
-    prepared
-        Of the spots, as `prepare` gave them.
-    results
-        One a spot, measured with what `spot_arrangements` gave.
-    """
-    each, space, found = len(prepared) // max(1, len(results)), working_space.current(), []
-    for row, item in enumerate(prepared):
-        result, number = results[row // each], row % each
-        entry = _reading(item, result.values(number), space, result.fault)
-        to_lab = _lab(space, *_light(item.request))
-        meters = range(each, len(result.seen))
-        units = [
-            float(gloss.units(result.values(at)[0], angle, space))
-            for at, angle in zip(meters, gloss.ANGLES, strict=False)
-        ]
-        found.append(
-            replace(
-                entry,
-                warnings=(*entry.warnings, *result.warnings(number, to_lab)),
-                gloss=() if result.fault else _rounded(np.array(units)),
-                spot=result.read(number, to_lab),
-            )
-        )
-    return found
-
-
-def _rounded(units: Array) -> tuple[float, ...]:
-    return tuple(round(value, 2) + 0.0 for value in units.tolist())
+    return replace(found, entries=entries)
 
 
 @dataclass(frozen=True)
@@ -355,7 +266,7 @@ def plan(surfaces: Sequence[tuple[str, Any]], prepared: Sequence[Prepared]) -> P
 
 
 def digest(
-    surfaces: Sequence[tuple[str, Any] | Spot],
+    surfaces: Sequence[tuple[str, Any]],
     with_measurement: bool,
     read_at: Sequence[str] = (),
     with_gloss: bool = False,
@@ -366,17 +277,19 @@ def digest(
             *(surface, material.name, derivation.inputs_digest(material.rough_spectra)),
             *(material.rough_spectra.stamp, rendered.digest(material)),
         )
-        for surface, material in pairs(surfaces)
+        for surface, material in surfaces
     ]
-    told += [surface.told() for surface in surfaces if isinstance(surface, Spot)]
     whole = (told, with_measurement, tuple(read_at), with_gloss)
     return hashlib.sha256(repr(whole).encode()).hexdigest()[:16]
 
 
-def _reading(
+def reading(
     item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace, unread: str = ""
 ) -> Reading:
-    """Put what was measured beside the prediction; `unread` says why nothing could be."""
+    """Put what was measured, shape (2, 3), beside the prediction.
+
+    `unread` says why nothing could be measured.
+    """
     request = item.request
     illuminant, scene = _light(request)
     seen, fault, warnings = None, " ".join(filter(None, (item.fault, unread))), item.warnings
@@ -410,8 +323,12 @@ def _reading(
     )
 
 
+def to_lab(item: Prepared, space: rgb_space.WorkingSpace) -> Callable[[Array], Array]:
+    """Give what turns scene-linear RGB into Lab under the light that a reading is told under."""
+    return _lab(space, *_light(item.request))
+
+
 def _light(request: solve.Request | None) -> tuple[str, SceneView | None]:
-    """Give the illuminant that a reading is told under, and the scene if there is one."""
     if request is None:
         return "D65", None
     return request.illuminant, request.scene
@@ -493,7 +410,6 @@ def _measured(
 def _lab(
     space: rgb_space.WorkingSpace, illuminant: str, scene: SceneView | None
 ) -> Callable[[Array], Array]:
-    """Give what turns scene-linear RGB into Lab: under an illuminant, or a scene's main light."""
     if scene is None:
         return lambda rgb: space.to_lab(rgb, illuminant)
     light = scene.lights[0]

@@ -254,8 +254,8 @@ def surface(
             raise MaterialError(f"Object {thing.name!r} has no face to measure; choose another.")
         places = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", places)
-        corners = np.empty(3 * count, np.int32)
-        mesh.loop_triangles.foreach_get("vertices", corners)
+        flat_corners = np.empty(3 * count, np.int32)
+        mesh.loop_triangles.foreach_get("vertices", flat_corners)
         slots = np.empty(count, np.int32)
         mesh.loop_triangles.foreach_get("material_index", slots)
         weights = np.ones(len(mesh.vertices))
@@ -264,7 +264,7 @@ def surface(
     finally:
         evaluated.to_mesh_clear()
     points = places.reshape(-1, 3) @ to_scene[:3, :3].T + to_scene[:3, 3]
-    corners = corners.reshape(-1, 3)
+    corners = flat_corners.reshape(-1, 3)
     is_mirrored = bool(np.linalg.det(to_scene[:3, :3]) < 0)
     return Triangles(points[corners], slots, weights[corners], is_mirrored), materials
 

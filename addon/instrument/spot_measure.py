@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,12 @@ TOLD = 0.1
 """ΔE00 from which on curvature and noise are told."""
 RAISED = 0.5
 """Diameters by which the surface may lie off the place that was asked for."""
+
+_BY_CAMERA = {
+    "ShaderNodeCameraData": ("View Vector", "View Z Depth", "View Distance"),
+    "ShaderNodeTexCoord": ("Camera", "Window"),
+}
+"""Nodes whose outputs follow the camera."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +116,7 @@ class SpotMeasurement(Job):
         self, spots: Sequence[Spot], arrangements: Sequence[Sequence[Arrangement]]
     ) -> None:
         self._spots = list(spots)
-        self._unsaved = [_unsaved(spot.thing) for spot in spots]
+        self._unseen = [differently_seen(spot.thing) for spot in spots]
         self._counts = [len(each) for each in arrangements]
         scene, view_layer = bpy.context.scene, bpy.context.view_layer
 
@@ -152,7 +158,7 @@ class SpotMeasurement(Job):
                     else None
                     for place in range(self._counts[number])
                 ]
-                found.append(SpotResult(spot, each, seen, self._unsaved[number]))
+                found.append(SpotResult(spot, each, seen, self._unseen[number]))
         return found
 
 
@@ -168,14 +174,14 @@ class SpotResult:
         What `spot_worker.put_down` tells.
     seen
         By each instrument; None where too little of the object is there.
-    unsaved
-        Names of images of the object whose pixels are not saved.
+    unseen
+        What of its materials cannot be read right, as sentences.
     """
 
     spot: Spot
     found: dict[str, Any]
     seen: list[Seen | None]
-    unsaved: tuple[str, ...] = ()
+    unseen: tuple[str, ...] = ()
 
     @property
     def fault(self) -> str:
@@ -255,10 +261,7 @@ class SpotResult:
             told.append(f"noise of light between surfaces is ΔE00 {noise:.1f}")
         if not rgb.any():
             told.append("nothing came back: it is black, or shut off from the instrument's light")
-        told += [
-            f"image {name!r} has changes that are not saved, nor read" for name in self.unsaved
-        ]
-        return tuple(told)
+        return (*told, *self.unseen)
 
 
 def measure(
@@ -316,13 +319,33 @@ def _object(of: Key) -> Any:
     raise MaterialError(f"There is no object {of[0]!r} any more; choose the place again.")
 
 
-def _unsaved(of: Key) -> tuple[str, ...]:
-    """Name the images of an object's materials that were painted on since they were saved."""
-    materials = [slot.material for slot in _object(of).material_slots if slot.material is not None]
+def differently_seen(of: Key) -> tuple[str, ...]:
+    """Say what of an object's materials the second Blender sees otherwise than this one."""
     found: dict[str, None] = {}
-    for tree in (material.node_tree for material in materials):
-        for node in () if tree is None else tree.nodes:
+    for material in (slot.material for slot in _object(of).material_slots):
+        for node in () if material is None else _nodes(material.node_tree, set()):
             image = getattr(node, "image", None)
             if image is not None and image.is_dirty:
-                found[image.name] = None
+                found[f"image {image.name!r} has changes that are not saved, and are not read"] = (
+                    None
+                )
+            outputs = _BY_CAMERA.get(node.bl_idname, ())
+            if any(output.is_linked and output.name in outputs for output in node.outputs):
+                found[
+                    f"material {material.name!r} follows the camera ({node.name}), and the "
+                    "instrument's is another"
+                ] = None
+            if node.bl_idname == "ShaderNodeScript":
+                found[f"material {material.name!r} has a script, which is not run"] = None
     return tuple(found)
+
+
+def _nodes(tree: Any, seen: set[Any]) -> Iterator[Any]:
+    """Give the nodes of a tree and of the groups in it."""
+    if tree is None or tree in seen:
+        return
+    seen.add(tree)
+    for node in tree.nodes:
+        yield node
+        if node.type == "GROUP":
+            yield from _nodes(node.node_tree, seen)

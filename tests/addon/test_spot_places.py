@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.instrument import bake, spot
+from rough_spectra.addon.instrument import spot, spot_measure, surfaces
 from rough_spectra.addon.instrument.triangles import Triangles
 from rough_spectra.core.errors import DomainError, MaterialError
 
@@ -131,9 +131,9 @@ def test_a_curve_has_a_surface_and_a_thing_being_edited_the_edited_one(paint):
 
 def test_shards_with_other_spots_do_not_belong_together(paint):
     thing = spot_scene.square("Square", paint)
-    digests = {bake.digest(spot.on_materials(thing, diameter=size), True) for size in (4, 8)} | {
-        bake.digest([("Square", paint)], True)
-    }
+    digests = {
+        surfaces.digest(spot.on_materials(thing, diameter=size), True) for size in (4, 8)
+    } | {surfaces.digest([("Square", paint)], True)}
     assert len(digests) == 3
 
 
@@ -149,3 +149,23 @@ def test_the_nearest_place_is_that_of_a_search_among_many_places():
         assert np.linalg.norm(found - point) <= distances.min() + 1e-9
         assert np.linalg.norm(found - point) == pytest.approx(distances.min(), abs=0.02)
         assert distances[number].min() == pytest.approx(distances.min(), abs=0.02)
+
+
+def test_what_the_second_blender_sees_otherwise_is_told(paint):
+    thing = spot_scene.square("Square", paint)
+    tree = paint.node_tree
+    group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+    tree.nodes.new("ShaderNodeGroup").node_tree = group
+    seen = group.nodes.new("ShaderNodeCameraData")
+    group.links.new(seen.outputs["View Distance"], group.nodes.new("ShaderNodeMath").inputs[0])
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image = bpy.data.images.new("Painted", 2, 2)
+    texture.image.pixels[0] = 0.5
+    tree.nodes.new("ShaderNodeScript")
+    [place] = spot.on_materials(thing)
+    told = " ".join(spot_measure.differently_seen(place.thing))
+    assert "image 'Painted' has changes that are not saved" in told
+    assert "'Paint' follows the camera (Camera Data)" in told
+    assert "'Paint' has a script, which is not run" in told
+    texture.image.pack()
+    assert "Painted" not in " ".join(spot_measure.differently_seen(place.thing))

@@ -120,7 +120,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0, or 2 where a material could not be predicted or measured."""
     from ... import api
-    from ...instrument import bake
+    from ...instrument import surfaces as instrument_surfaces
     from ...readings import document, writers
     from ...support import atomic_files
     from ..progress import counted
@@ -135,7 +135,9 @@ def run(options: argparse.Namespace) -> int:
     surfaces = wanted(options, not options.predicted_only)
     result = measure(options, surfaces, not options.predicted_only)
     if count > 1:
-        whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
+        whole = instrument_surfaces.digest(
+            surfaces, not options.predicted_only, options.read_at, options.gloss
+        )
         part = replace(result, shard=index, shards=count, whole=whole)
         with atomic_files.publication() as files:
             files.write(target, document.to_json(part))
@@ -193,11 +195,11 @@ def measure(
     """Take the readings that the options ask for, with a progress line."""
     from ....core.errors import MaterialError
     from ... import api
-    from ...instrument import bake
+    from ...instrument import surfaces as instrument_surfaces
     from ...material import storage
     from ..progress import ProgressLine
 
-    faults = [storage.fault(material) for _, material in bake.pairs(surfaces)]
+    faults = [storage.fault(material) for _, material in instrument_surfaces.pairs(surfaces)]
     if all(faults):
         raise MaterialError(faults[0])  # nothing is left to do for any of them
     index, count = getattr(options, "shard", (1, 1))

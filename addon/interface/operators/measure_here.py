@@ -79,7 +79,9 @@ class ROUGHSPECTRA_OT_measure_here(background.InBackground, bpy.types.Operator):
         layout.prop(self, "leave_mark")
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
-        """Let the user choose a place in a 3D viewport."""
+        """Let the user choose a place in a 3D viewport, unless the caller has chosen one."""
+        if any(self.direction):
+            return self.execute(context)
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             common.report_error(self, rpt_("Open a 3D viewport beside, to click in."))
             return {"CANCELLED"}
@@ -117,7 +119,7 @@ class ROUGHSPECTRA_OT_measure_here(background.InBackground, bpy.types.Operator):
 
     def start(self, context: Any) -> SpotMeasurement:
         """Put the instrument down, and start."""
-        from ...instrument import bake, spot, spot_measure
+        from ...instrument import bake, spot, spot_measure, surfaces
         from ...material import last_measurement
 
         if not any(self.direction):
@@ -132,7 +134,7 @@ class ROUGHSPECTRA_OT_measure_here(background.InBackground, bpy.types.Operator):
         # Pointers to materials and objects do not survive an undo while the measurement runs.
         self._uid, self._state = material.session_uid, last_measurement.fingerprint(material)
         self._carrier, self._units, self._scene = place.carrier, place.units, context.scene.name
-        wanted = bake.spot_arrangements([place], self._prepared)
+        wanted = surfaces.arrangements([place], self._prepared)
         return spot_measure.SpotMeasurement([place], wanted)
 
     def state(self, done: int, total: int) -> str:
@@ -141,9 +143,9 @@ class ROUGHSPECTRA_OT_measure_here(background.InBackground, bpy.types.Operator):
 
     def finish(self, job: SpotMeasurement) -> str:
         """Keep the reading with the material, mark the place, and tell both."""
-        from ...instrument import bake, mark
+        from ...instrument import mark, surfaces
 
-        [entry] = bake.compare_spots(self._prepared, job.result())
+        [entry] = surfaces.compare(self._prepared, job.result())
         if entry.measured is None:
             raise MaterialError(entry.fault)
         for sentence in filter(None, (*entry.warnings, entry.fault)):
