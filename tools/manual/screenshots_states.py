@@ -362,7 +362,12 @@ def measured_here() -> None:
     _press("rough_spectra.measure_here", **above)
 
 
-@picture("status")
+def _is_choosing() -> bool:
+    [window] = bpy.context.window_manager.windows
+    return any("measure_here" in operator.bl_idname for operator in window.modal_operators)
+
+
+@picture("status", ready=_is_choosing)
 def measure_here() -> None:
     """Show what the keys do while a place is chosen."""
     _assigned()
