@@ -253,8 +253,8 @@ class SpotResult:
         if abs(found["height"]) > RAISED * spot.units:
             off = found["height"] / spot.units * spot.diameter
             told.append(
-                f"what is seen lies {off:.1f} mm off the place asked for: by displacement, or "
-                "because it is covered"
+                f"what is seen lies {off:.1f} mm off the place asked for: by displacement, by what "
+                "a modifier does in renders alone, or because it is covered"
             )
         *_, noise = seen.spread(to_lab)
         if noise >= TOLD:

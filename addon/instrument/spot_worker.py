@@ -246,7 +246,7 @@ def put_down(stage: Stage, spot: dict[str, Any]) -> tuple[Frame, dict[str, Any]]
         level, *slope = fit(stage, frame, picture, 3)
         raised = frame.point + level * frame.normal
         upright = frame.normal - slope[0] * frame.toward - slope[1] * frame.aside
-        frame, turns = Frame.of(raised, upright, asked.toward), turns + 1
+        frame, turns = Frame.of(raised, upright, spot["toward"]), turns + 1
         picture = look(stage, frame, REACH)
         covered = share(picture.seen)
         if math.atan(math.hypot(*slope)) < SETTLED:

@@ -98,6 +98,18 @@ def displaced(name, color, height):
     return made
 
 
+def raised(name, color, height):
+    """Moved away by the material, all of it by as much."""
+    made = colored(name, color)
+    moved = made.node_tree.nodes.new("ShaderNodeDisplacement")
+    moved.inputs["Height"].default_value, moved.inputs["Scale"].default_value = height, 1.0
+    moved.inputs["Midlevel"].default_value = 0.0
+    output = made.node_tree.nodes["Material Output"]
+    made.node_tree.links.new(moved.outputs[0], output.inputs["Displacement"])
+    made.displacement_method = "DISPLACEMENT"
+    return made
+
+
 def leaning(name):
     """Matte, its normals leaning along U."""
     made = colored(name, (0.5, 0.5, 0.5))
@@ -182,6 +194,7 @@ def build():
         "displaced": waves(
             "Displaced", displaced("Displaced", (DARK,) * 3, height), 0.0, location=(4, 10, 0)
         ),
+        "raised": square("Raised", raised("Raised", (0.4, 0.25, 0.1), 0.3), location=(6, 10, 0)),
         "attribute": attribute,
         "tile": tiled,
         "named": two_uv,
@@ -236,6 +249,7 @@ def spots(things):
         "waves": ray(0, 10, diameter=800),
         "white waves": ray(2, 10, diameter=800),
         "displaced": ray(4, 10, diameter=800),
+        "raised": ray(6.1, 10),
         "attribute": ray(6, 30, diameter=100),
         "tile": ray(3.1, 30),
         "named": ray(0.1, 30),
@@ -243,7 +257,5 @@ def spots(things):
         "beside": ray(0, 20, is_alone=False),
         "room": spot.at_ray(context, tuple(room.location), (1, 0.1, 0.1)),
         "instance": ray(0.1, -20),
-        "edge": ray(9.0 - 0.5 + 0.0108, 30, diameter=40),
-        "corner": ray(9.0 - 0.499, 29.501, diameter=40),
-        "two": ray(9, 30, diameter=100),
+        "edge": ray(9, 29.5 + 0.0108, diameter=40),
     }

@@ -107,6 +107,12 @@ def test_waves_read_the_mean_of_their_slopes(found, name):
     assert found[0][name].values(0)[1].min() > 1e-4
 
 
+def test_a_surface_that_displacement_moves_far_away_is_found_and_told(found):
+    assert read(found, "raised") == pytest.approx(flat(found, "matte"), rel=1e-5)
+    assert "what is seen lies 300.0 mm off the place asked for" in said(found, "raised")
+    assert found[0]["raised"].read(0, to_lab).point == pytest.approx((6.1, 10, 0.3), abs=1e-4)
+
+
 def test_light_between_slopes_counts(found):
     """White waves read more of their color than dark ones."""
     dark = read(found, "waves") / flat(found, "dark")
@@ -148,18 +154,16 @@ def test_an_instance_is_measured_where_it_stands(found):
     assert read(found, "instance") == pytest.approx(flat(found, "paint"), rel=1e-5)
 
 
-def test_what_hangs_over_an_edge_is_told_or_refused(found):
-    assert read(found, "edge") == pytest.approx(flat(found, "paint"), rel=1e-5)
+def test_what_hangs_over_an_edge_and_other_materials_are_told(found):
+    """At the edge of a square that is half paint and half dark."""
+    expected = (flat(found, "paint") + flat(found, "dark")) / 2
+    assert read(found, "edge") == pytest.approx(expected, rel=1e-3)
     covered = found[0]["edge"].read(0, to_lab).covered
     apart = 0.54  # of the edge from the middle, in radii
     beyond = (np.arccos(apart) - apart * np.sqrt(1 - apart**2)) / np.pi
     assert covered == pytest.approx(1 - beyond, abs=0.02)
-    assert said(found, "edge") == f"fills {covered:.0%} of the spot; the rest is not counted"
-    result = found[0]["corner"]
-    assert "fills 2" in result.fault
-    assert "half is the least" in result.fault
-    assert np.isnan(result.values(0)).all()
-
-
-def test_other_materials_in_the_spot_are_told(found):
-    assert "other materials fill 50% of what is read" in said(found, "two")
+    told = found[0]["edge"].warnings(0, to_lab)
+    assert told == (
+        f"fills {covered:.0%} of the spot; the rest is not counted",
+        "other materials fill 50% of what is read",
+    )

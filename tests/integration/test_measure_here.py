@@ -52,12 +52,6 @@ def test_a_spot_is_kept_with_the_material_and_marked(wall):
     assert again.spot.point == pytest.approx((x, y, z + 1), abs=1e-4)
 
 
-def test_without_a_mark_nothing_is_added(wall):
-    before = len(bpy.data.objects)
-    assert OPS.measure_here("EXEC_DEFAULT", leave_mark=False, **DOWN) == {"FINISHED"}
-    assert len(bpy.data.objects) == before
-
-
 def test_no_place_no_surface_and_no_material_are_refused(wall):
     assert "click on a surface" in refusal(OPS.measure_here)
     beside = {"origin": (9.0, 9.0, 9.0), "direction": (0.0, 0.0, 1.0)}
@@ -65,6 +59,4 @@ def test_no_place_no_surface_and_no_material_are_refused(wall):
     rgb_material("Another")
     wall.active_material = None
     assert "'Wall' has no material there" in refusal(OPS.measure_here, **DOWN)
-    wall.active_material = bpy.data.materials["Another"]
-    assert "half is the least" in refusal(OPS.measure_here, diameter=1e5, **DOWN)
     assert "Rough Spectra Spots" not in bpy.data.collections
