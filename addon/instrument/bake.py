@@ -40,7 +40,7 @@ from ..readings.document import (
     Triple,
 )
 from ..samples import stated_white
-from . import arrangement, gloss, measure, rendered
+from . import arrangement, gloss, measure, rendered, unseen
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -109,6 +109,17 @@ def prepare(surfaces: Sequence[tuple[str, Any]], read_at: Sequence[str] = ()) ->
                 fault = Prepared(surface, material.name, None, *reasons, None, str(error), at)
                 prepared.append(fault)
     return prepared
+
+
+def as_flat_samples(
+    surfaces: Sequence[tuple[str, Any]], prepared: Sequence[Prepared]
+) -> list[Prepared]:
+    """Add what flat samples of these materials lack; `prepared` are of these surfaces."""
+    each = len(prepared) // max(1, len(surfaces))
+    return [
+        replace(item, warnings=(*item.warnings, *unseen.on_flat_samples(surfaces[i // each][1])))
+        for i, item in enumerate(prepared)
+    ]
 
 
 def _prepared(surface: str, material: Any, space: str, read_at: str) -> Prepared:
@@ -213,6 +224,7 @@ def bake(
     prepared = prepare(surfaces, read_at)
     if not with_measurement:
         return compare(prepared, None, each)
+    prepared = as_flat_samples(surfaces, prepared)
     wanted = plan(surfaces, prepared)
     found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
     if not with_gloss:

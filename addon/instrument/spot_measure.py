@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from ...core.numerics.arrays import Array
 from ..blender.background_job import Job
 from ..matching import scene_match
 from ..readings.document import SpotRead
+from . import unseen
 from .arrangement import Arrangement, told
 from .spot import Key, Spot, key
 
@@ -35,12 +36,6 @@ TOLD = 0.1
 """ΔE00 from which on curvature and noise are told."""
 RAISED = 0.5
 """Diameters by which the surface may lie off the place that was asked for."""
-
-_BY_CAMERA = {
-    "ShaderNodeCameraData": ("View Vector", "View Z Depth", "View Distance"),
-    "ShaderNodeTexCoord": ("Camera", "Window"),
-}
-"""Nodes whose outputs follow the camera."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +111,7 @@ class SpotMeasurement(Job):
         self, spots: Sequence[Spot], arrangements: Sequence[Sequence[Arrangement]]
     ) -> None:
         self._spots = list(spots)
-        self._unseen = [differently_seen(spot.thing) for spot in spots]
+        self._unseen = [_unseen(spot.thing) for spot in spots]
         self._counts = [len(each) for each in arrangements]
         scene, view_layer = bpy.context.scene, bpy.context.view_layer
 
@@ -319,33 +314,8 @@ def _object(of: Key) -> Any:
     raise MaterialError(f"There is no object {of[0]!r} any more; choose the place again.")
 
 
-def differently_seen(of: Key) -> tuple[str, ...]:
-    """Say what of an object's materials the second Blender sees otherwise than this one."""
-    found: dict[str, None] = {}
-    for material in (slot.material for slot in _object(of).material_slots):
-        for node in () if material is None else _nodes(material.node_tree, set()):
-            image = getattr(node, "image", None)
-            if image is not None and image.is_dirty:
-                found[f"image {image.name!r} has changes that are not saved, and are not read"] = (
-                    None
-                )
-            outputs = _BY_CAMERA.get(node.bl_idname, ())
-            if any(output.is_linked and output.name in outputs for output in node.outputs):
-                found[
-                    f"material {material.name!r} follows the camera ({node.name}), and the "
-                    "instrument's is another"
-                ] = None
-            if node.bl_idname == "ShaderNodeScript":
-                found[f"material {material.name!r} has a script, which is not run"] = None
-    return tuple(found)
-
-
-def _nodes(tree: Any, seen: set[Any]) -> Iterator[Any]:
-    """Give the nodes of a tree and of the groups in it."""
-    if tree is None or tree in seen:
-        return
-    seen.add(tree)
-    for node in tree.nodes:
-        yield node
-        if node.type == "GROUP":
-            yield from _nodes(node.node_tree, seen)
+def _unseen(of: Key) -> tuple[str, ...]:
+    """Say what of an object's materials is not read right."""
+    materials = [slot.material for slot in _object(of).material_slots if slot.material is not None]
+    told = [sentence for each in materials for sentence in unseen.on_objects(each)]
+    return tuple(dict.fromkeys(told))

@@ -128,7 +128,8 @@ def main(job_path: Path) -> None:
     shared.end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     total = sum(len(shots) for spot in job["spots"] for shots in spot["geometries"])
-    done, told, pictures = 0, [], {}
+    done, told = 0, []
+    pictures: dict[str, Any] = {}
     for number, spot in enumerate(job["spots"]):
         stage = build(job, spot, folder)
         frame, found = put_down(stage, spot)

@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.instrument import spot, spot_measure, surfaces
+from rough_spectra.addon.instrument import bake, spot, surfaces, unseen
 from rough_spectra.addon.instrument.triangles import Triangles
 from rough_spectra.core.errors import DomainError, MaterialError
 
@@ -152,7 +152,6 @@ def test_the_nearest_place_is_that_of_a_search_among_many_places():
 
 
 def test_what_the_second_blender_sees_otherwise_is_told(paint):
-    thing = spot_scene.square("Square", paint)
     tree = paint.node_tree
     group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
     tree.nodes.new("ShaderNodeGroup").node_tree = group
@@ -162,10 +161,32 @@ def test_what_the_second_blender_sees_otherwise_is_told(paint):
     texture.image = bpy.data.images.new("Painted", 2, 2)
     texture.image.pixels[0] = 0.5
     tree.nodes.new("ShaderNodeScript")
-    [place] = spot.on_materials(thing)
-    told = " ".join(spot_measure.differently_seen(place.thing))
+    told = " ".join(unseen.on_objects(paint))
     assert "image 'Painted' has changes that are not saved" in told
     assert "'Paint' follows the camera (Camera Data)" in told
     assert "'Paint' has a script, which is not run" in told
     texture.image.pack()
-    assert "Painted" not in " ".join(spot_measure.differently_seen(place.thing))
+    assert "Painted" not in " ".join(unseen.on_objects(paint))
+
+
+def test_what_a_flat_sample_lacks_is_told(tmp_path):
+    """It read as black, or as flat, without a word."""
+    image = spot_scene.udim(tmp_path)
+    cases = {
+        "has no 'Paint' (Color Attribute)": spot_scene.by_attribute("By attribute"),
+        "has no 'Second' (UV Map)": spot_scene.by_image("By map", image, "Second"),
+        "shows one tile of ": spot_scene.by_image("By tile", image, "UVMap"),
+        "is not displaced": spot_scene.displaced("Displaced", (0.1, 0.1, 0.1), 0.1),
+    }
+    for said, material in cases.items():
+        told = unseen.on_flat_samples(material)
+        assert any(said in sentence for sentence in told), said
+        assert all(sentence.endswith("; measure it on its object") for sentence in told)
+    assert len(unseen.on_flat_samples(cases["shows one tile of "])) == 1
+    assert unseen.on_flat_samples(spot_scene.colored("Even", (0.1, 0.1, 0.1))) == []
+
+
+def test_a_reading_of_a_flat_sample_carries_what_it_lacks():
+    [entry] = bake.bake([("", spot_scene.by_attribute("By attribute"))]).entries
+    assert entry.measured.rgb == (0, 0, 0)
+    assert "has no 'Paint'" in entry.warnings[0]
