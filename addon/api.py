@@ -44,7 +44,7 @@ from ..core.estimate import RELATIVE, Estimate
 from ..core.gloss import Gloss
 from ..core.gloss_readings import GlossReadings
 from ..core.instruments import DEFAULT
-from ..core.limits import TOLERANCE
+from ..core.limits import SPOT_DIAMETER, TOLERANCE
 from ..core.models import TARGET
 from ..core.numerics.arrays import Array
 from .blender import colors, working_space
@@ -55,9 +55,11 @@ from .export.entry import Entry
 from .export.kept import Loss
 from .export.write import Exported
 from .instrument import adjustment
-from .instrument import bake as instrument_bake
 from .instrument import gloss as instrument_gloss
+from .instrument import spot as instrument_spot
+from .instrument import surfaces as instrument_surfaces
 from .instrument.adjustment import Adjusted
+from .instrument.spot import Spot
 from .laboratory import experiment, kinds
 from .laboratory.experiment import Measured
 from .laboratory.kinds import RoughSample
@@ -79,7 +81,7 @@ from .picture import render as picture_render
 from .picture.picture import SpectralPicture
 from .preview import emission_files
 from .readings import writers
-from .readings.document import Reading, Readings
+from .readings.document import Reading, Readings, SpotRead
 from .readings.emission import Emissivity, InBand
 from .samples import filter_response, gloss_of_set, library, readers, stated_white
 from .samples import palette as palette_files
@@ -125,6 +127,8 @@ __all__ = [
     "Settled",
     "Solution",
     "SpectralPicture",
+    "Spot",
+    "SpotRead",
     "State",
     "assign",
     "bake",
@@ -156,6 +160,7 @@ __all__ = [
     "rough_sample",
     "settle",
     "spectral_picture",
+    "spots",
     "state",
     "texture_material",
     "write",
@@ -986,8 +991,73 @@ def differences(material: bpy.types.Material) -> Differences:
     return settled.differences(_checked(material), working_space.current())
 
 
+def spots(
+    thing: bpy.types.Object,
+    *,
+    at: bpy.types.Object | None = None,
+    vertex_group: str | None = None,
+    diameter: float = SPOT_DIAMETER,
+    keep_neighbors: bool = False,
+) -> list[Spot]:
+    """Say where on an object a virtual instrument is put down, for `bake`.
+
+    Parameters
+    ----------
+    thing
+        A mesh, or what Blender makes a mesh of, in the open scene.
+    at
+        An empty, or any object, whose z axis meets the surface at the spot and points to the
+        instrument; azimuths count from its x axis.
+    vertex_group
+        The spot is in the middle of it. Without either there is one spot in the middle of each of
+        the object's materials.
+    diameter
+        Of the spot, millimeters.
+    keep_neighbors
+        Whether other objects shade and light the spot; else they are hidden.
+
+    Returns
+    -------
+    Each has, among others, its `material`, and `point` and `normal` in the scene.
+
+    Raises
+    ------
+    MaterialError
+        There is no such place, or it has no material; or the object's surface cannot be measured.
+    DomainError
+        The diameter is no length, or there are two places.
+
+    Examples
+    --------
+    >>> import bmesh
+    >>> shape, mesh = bmesh.new(), bpy.data.meshes.new("Ball")
+    >>> _ = bmesh.ops.create_uvsphere(shape, u_segments=64, v_segments=32, radius=1)
+    >>> shape.to_mesh(mesh)
+    >>> ball, wall = bpy.data.objects.new("Ball", mesh), bpy.data.materials.new("Wall")
+    >>> bpy.context.scene.collection.objects.link(ball)
+    >>> mesh.materials.append(wall)
+    >>> _ = assign([(wall, find("neutral 6.5"))], gloss="none")
+    >>> [entry] = bake(spots(ball, diameter=4)).entries
+    >>> [round(value, 2) for value in entry.measured.rgb], entry.delta_e_00 < 0.1
+    ([0.36, 0.36, 0.36], True)
+    >>> entry.spot.diameter, entry.spot.covered
+    (4, 1.0)
+    """
+    _check_enabled()
+    if not isinstance(thing, bpy.types.Object):
+        raise MaterialError(f"{thing!r} is no object; give one of bpy.data.objects.")
+    if at is not None and vertex_group is not None:
+        raise DomainError("A spot has one place; give `at` or `vertex_group`, not both.")
+    how = {"diameter": diameter, "is_alone": not keep_neighbors}
+    if at is not None:
+        return [instrument_spot.at_empty(thing, at, **how)]
+    if vertex_group is not None:
+        return [instrument_spot.at_group(thing, vertex_group, **how)]
+    return instrument_spot.on_materials(thing, **how)
+
+
 def bake(
-    surfaces: Iterable[bpy.types.Material | tuple[str, bpy.types.Material]],
+    surfaces: Iterable[bpy.types.Material | tuple[str, bpy.types.Material] | Spot],
     measure: bool = True,
     progress: Callable[[int, int], None] | None = None,
     read_at: str | Iterable[str] | None = None,
@@ -1000,8 +1070,9 @@ def bake(
     Parameters
     ----------
     surfaces
-        Materials; or pairs of a name to tell them by, such as that of an object, and a material.
-        One without a spectrum is measured and not predicted.
+        Materials; or pairs of a name to tell them by, such as that of an object, and a material:
+        they are measured as flat samples. Or what `spots` gave, measured on the object itself. What
+        has no spectrum is measured and not predicted.
     measure
         Whether to measure; predictions alone need no second Blender.
     progress
@@ -1017,6 +1088,8 @@ def bake(
     `instrument`: `predicted.values`, one a
     band; `measured.rgb`; `delta_e_00` between the two; `warnings`; and `fault`, why a prediction
     or a measurement is missing, which does not stop the others. `largest_delta_e` is the largest.
+    A spot's reading has a `spot`: among others `spread_mean` and `spread_95`, ΔE00 from the reading
+    over the spot, and `covered`, the share of the spot that the object fills.
 
     Raises
     ------
@@ -1039,10 +1112,15 @@ def bake(
     >>> entry.delta_e_00 < 0.01
     True
     """
-    named = [surface if isinstance(surface, tuple) else ("", surface) for surface in surfaces]
-    found = [(name, _checked(material)) for name, material in named]
+    found: list[tuple[str, Any] | Spot] = []
+    for surface in surfaces:
+        if isinstance(surface, Spot):
+            found.append(surface)
+        else:
+            name, material = surface if isinstance(surface, tuple) else ("", surface)
+            found.append((name, _checked(material)))
     at = (read_at,) if isinstance(read_at, str) else tuple(read_at or ())
-    return instrument_bake.bake(found, measure, progress, at, with_gloss)
+    return instrument_surfaces.read(found, measure, progress, at, with_gloss)
 
 
 def gloss(

@@ -32,6 +32,10 @@ REPEATABILITY = 0.001
 """Standard deviation of repeated readings, as a share of the reading, unless the user sets another:
 makers of spectrophotometers promise some 0.1 % for a white tile."""
 
+SPOT_DIAMETER = 8.0
+"""Millimeters that an instrument sees of a surface unless told otherwise: the medium aperture of
+common spectrophotometers."""
+
 E308_NM = (360.0, 780.0)
 """First and last wavelength of the weights of ASTM E308."""
 

@@ -40,7 +40,7 @@ from ..readings.document import (
 )
 from ..readings.origin import Derivation, Node, Triple
 from ..samples import stated_white
-from . import arrangement, gloss, measure, rendered, stored
+from . import arrangement, gloss, measure, rendered, stored, unseen
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -115,6 +115,17 @@ def prepare(surfaces: Sequence[tuple[str, Any]], read_at: Sequence[str] = ()) ->
     return prepared
 
 
+def as_flat_samples(
+    surfaces: Sequence[tuple[str, Any]], prepared: Sequence[Prepared]
+) -> list[Prepared]:
+    """Add what flat samples of these materials lack; `prepared` are of these surfaces."""
+    each = len(prepared) // max(1, len(surfaces))
+    return [
+        replace(item, warnings=(*item.warnings, *unseen.on_flat_samples(surfaces[i // each][1])))
+        for i, item in enumerate(prepared)
+    ]
+
+
 def _prepared(surface: str, material: Any, space: str, read_at: str) -> Prepared:
     request, warnings, model_reason, shader_reason = None, [], "", ""
     if snapshot.has_spectrum(material):
@@ -171,10 +182,16 @@ def compare(prepared: Sequence[Prepared], measured: Array | None, each: int = 1)
     """
     space = working_space.current()
     entries = [
-        _reading(item, None if measured is None else measured[i], space)
+        reading(item, None if measured is None else measured[i], space)
         for i, item in enumerate(prepared)
     ]
-    return Readings(space.name, bpy.app.version_string, tuple(entries), each=each)
+    return document_of(entries, each)
+
+
+def document_of(entries: Sequence[Reading], each: int = 1) -> Readings:
+    """Put readings together, `each` of a surface at as many instruments."""
+    space = working_space.current().name
+    return Readings(space, bpy.app.version_string, tuple(entries), each=each)
 
 
 def bake(
@@ -189,7 +206,7 @@ def bake(
     Parameters
     ----------
     surfaces
-        As in `prepare`; one material on many surfaces is rendered once.
+        As in `prepare`; one material on many surfaces is rendered once, as a flat sample.
     with_measurement
         Whether to render; predictions alone need no second Blender.
     progress
@@ -211,6 +228,7 @@ def bake(
     prepared = prepare(surfaces, read_at)
     if not with_measurement:
         return compare(prepared, None, each)
+    prepared = as_flat_samples(surfaces, prepared)
     wanted = plan(surfaces, prepared)
     found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
     if not with_gloss:
@@ -218,7 +236,7 @@ def bake(
     materials, _ = wanted.work
     units = gloss.measured(materials, working_space.current(), progress=progress)
     entries = tuple(
-        replace(entry, gloss=tuple(round(value, 2) + 0.0 for value in units[place].tolist()))
+        replace(entry, gloss=gloss.told(units[place]))
         for entry, place in zip(found.entries, wanted.rows[1], strict=True)
     )
     return replace(found, entries=entries)
@@ -281,14 +299,19 @@ def digest(
     return hashlib.sha256(repr(whole).encode()).hexdigest()[:16]
 
 
-def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace) -> Reading:
+def reading(
+    item: Prepared, measured: Array | None, space: rgb_space.WorkingSpace, unread: str = ""
+) -> Reading:
+    """Put what was measured, shape (2, 3), beside the prediction.
+
+    `unread` says why nothing could be measured.
+    """
     request = item.request
-    illuminant = "D65" if request is None else request.illuminant
-    scene = None if request is None else request.scene
-    seen, fault, warnings = None, item.fault, item.warnings
+    illuminant, scene = _light(request)
+    seen, fault, warnings = None, " ".join(filter(None, (item.fault, unread))), item.warnings
     if measured is not None and np.isfinite(measured).all():
         seen = _measured(measured, space, illuminant, scene)
-    elif measured is not None:
+    elif measured is not None and not unread:
         no_number = f"Material {item.material!r}: {_NO_NUMBER}"
         fault, warnings = " ".join(filter(None, (fault, no_number))), (*warnings, no_number)
     promised, difference = item.promised, None
@@ -316,6 +339,17 @@ def _reading(item: Prepared, measured: Array | None, space: rgb_space.WorkingSpa
         node=item.node,
         derivation=item.derivation,
     )
+
+
+def to_lab(item: Prepared, space: rgb_space.WorkingSpace) -> Callable[[Array], Array]:
+    """Give what turns scene-linear RGB into Lab under the light that a reading is told under."""
+    return _lab(space, *_light(item.request))
+
+
+def _light(request: solve.Request | None) -> tuple[str, SceneView | None]:
+    if request is None:
+        return "D65", None
+    return request.illuminant, request.scene
 
 
 def from_spectrum(item: Prepared, entry: Reading) -> float | None:
@@ -382,24 +416,28 @@ def _measured(
     scene: SceneView | None = None,
 ) -> CyclesReading:
     mean, spread = values
-    if scene is not None:
-        light = scene.lights[0]
-        return CyclesReading(
-            rgb=_triple(mean, 6),
-            spread=_triple(spread, 6),
-            illuminant=f"scene: {light.name}",
-            xyz=_triple(100 * scene_match.to_xyz(mean, light, space), 4),
-            lab=_triple(scene_match.to_lab(mean, light, space), 4),
-            colors=standard_spaces.of_rgb(mean, space),
-        )
+    if scene is None:
+        xyz = space.to_xyz(mean, illuminant)
+    else:
+        illuminant = f"scene: {scene.lights[0].name}"
+        xyz = scene_match.to_xyz(mean, scene.lights[0], space)
     return CyclesReading(
         rgb=_triple(mean, 6),
         spread=_triple(spread, 6),
         illuminant=illuminant,
-        xyz=_triple(100 * space.to_xyz(mean, illuminant), 4),
-        lab=_triple(space.to_lab(mean, illuminant), 4),
+        xyz=_triple(100 * xyz, 4),
+        lab=_triple(_lab(space, illuminant, scene)(mean), 4),
         colors=standard_spaces.of_rgb(mean, space),
     )
+
+
+def _lab(
+    space: rgb_space.WorkingSpace, illuminant: str, scene: SceneView | None
+) -> Callable[[Array], Array]:
+    if scene is None:
+        return lambda rgb: space.to_lab(rgb, illuminant)
+    light = scene.lights[0]
+    return lambda rgb: scene_match.to_lab(rgb, light, space)
 
 
 def _triple(values: Array, digits: int) -> Triple:

@@ -73,6 +73,11 @@ def units(rgb: Array, angle: float, space: WorkingSpace) -> Array:
     return np.asarray(100 * luminance / gloss.black_glass(gloss.find(angle)))
 
 
+def told(units: Array) -> tuple[float, ...]:
+    """Give gloss units as a reading has them."""
+    return tuple(round(value, 2) + 0.0 for value in units.tolist())
+
+
 def measured(
     materials: Sequence[Any],
     space: WorkingSpace,

@@ -326,6 +326,8 @@ def light(scene: Any, sun: Any, shot: dict[str, Any]) -> None:
 def glow(scene: Any, what: dict[str, Any]) -> None:
     """Make a world whose upper half glows, but for a trap, or in a window alone.
 
+    Up is +z unless `what` says otherwise; its axes are those of the scene.
+
     An even one is best met by rays that go where the material sends most. To a small window they
     are sent on purpose as well. The world stays where it is the same as before: Cycles then has
     nothing to look at again.
@@ -340,7 +342,7 @@ def glow(scene: Any, what: dict[str, Any]) -> None:
     tree = world.node_tree
     tree.nodes.clear()
     toward = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
-    shines = above(tree, dot(tree, toward, [0, 0, 1]), 0.0)
+    shines = above(tree, dot(tree, toward, what.get("up", [0, 0, 1])), 0.0)
     for name in ("window", "trap"):
         if what[name] is not None:
             within = inside(tree, toward, what[name])

@@ -37,6 +37,10 @@ class LastMeasurement:
         is no prediction, and in older files.
     instrument
         The virtual one that read it.
+    place
+        The object and the size of the spot, as in "Ball, 8 mm"; empty of a flat sample.
+    spread
+        ΔE00 from the reading below which 95 % of the spot lie; None of a flat sample.
     """
 
     rgb: tuple[float, float, float]
@@ -44,6 +48,8 @@ class LastMeasurement:
     current: bool
     predicted: float | None = None
     instrument: str = DEFAULT
+    place: str = ""
+    spread: float | None = None
 
 
 def fingerprint(material: Any) -> str:
@@ -81,6 +87,8 @@ def note(
     delta_e: float | None,
     predicted: float | None = None,
     instrument: str = DEFAULT,
+    place: str = "",
+    spread: float | None = None,
 ) -> None:
     """Keep a measurement with its material.
 
@@ -90,7 +98,7 @@ def note(
         A `bpy.types.Material` that is not linked.
     of
         Its `fingerprint` when the measurement began.
-    rgb, delta_e, predicted, instrument
+    rgb, delta_e, predicted, instrument, place, spread
         As in `LastMeasurement`.
     """
     told: dict[str, Any] = {
@@ -101,6 +109,8 @@ def note(
     }
     if instrument != DEFAULT:
         told["instrument"] = instrument
+    if place:
+        told["place"], told["spread"] = place, spread
     material.rough_spectra.measured = json.dumps(told)
 
 
@@ -112,13 +122,14 @@ def get(material: Any, known: Snapshot | None = None) -> LastMeasurement | None:
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
-    of, rgb, delta_e, predicted, instrument = found
+    of, rgb, delta_e, predicted, instrument, place, spread = found
     current = of == _fingerprint(known or snapshot.of(material))
-    return LastMeasurement(rgb, delta_e, current, predicted, instrument)
+    return LastMeasurement(rgb, delta_e, current, predicted, instrument, place, spread)
 
 
-_Note = tuple[str, tuple[float, float, float], float | None, float | None, str]
-"""Fingerprint, RGB, both ΔE00 and the instrument."""
+_RGB = tuple[float, float, float]
+_Note = tuple[str, _RGB, float | None, float | None, str, str, float | None]
+"""Fingerprint, RGB, both ΔE00, the instrument, place and spread."""
 
 
 @memoized(maxsize=64)
@@ -126,15 +137,15 @@ def _parsed(text: str) -> _Note | None:
     try:
         data = json.loads(text)
         red, green, blue = map(float, data["rgb"])
-        delta_e, predicted = (
-            None if value is None else float(value)
-            for value in (data["delta_e_00"], data.get("predicted_delta_e_00"))
-        )
-        if not all(map(math.isfinite, (red, green, blue, delta_e or 0.0, predicted or 0.0))):
+        keys = (data["delta_e_00"], data.get("predicted_delta_e_00"), data.get("spread"))
+        delta_e, predicted, spread = (None if value is None else float(value) for value in keys)
+        numbers = (red, green, blue, *(value or 0.0 for value in (delta_e, predicted, spread)))
+        if not all(map(math.isfinite, numbers)):
             return None
         instrument = str(data.get("instrument", DEFAULT))
         if instrument not in REGISTRY:
             return None
-        return str(data["of"]), (red, green, blue), delta_e, predicted, instrument
+        place = str(data.get("place", ""))
+        return str(data["of"]), (red, green, blue), delta_e, predicted, instrument, place, spread
     except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         return None

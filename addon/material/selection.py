@@ -72,6 +72,21 @@ def named(name: str) -> list[Any]:
     return [known[each] for each in found]
 
 
+def object_by_name(name: str) -> Any:
+    """Give the object of that name, a local one before linked ones.
+
+    Raises
+    ------
+    MaterialError
+        If there is none.
+    """
+    thing = bpy.data.objects.get((name, None)) or bpy.data.objects.get(name)
+    if thing is None:
+        msg = f"There is no object {name!r} in {_file()}; check the name."
+        raise MaterialError(msg)
+    return thing
+
+
 def every() -> dict[str, Any]:
     """Give all materials of the file by their names, a local one before linked ones.
 
@@ -121,10 +136,7 @@ def surfaces(materials: Sequence[str], objects: Sequence[str]) -> list[tuple[str
     """
     found = [("", each) for each in dict.fromkeys(m for name in materials for m in named(name))]
     for name in objects:
-        thing = bpy.data.objects.get(name)
-        if thing is None:
-            msg = f"There is no object {name!r} in {_file()}; check the name."
-            raise MaterialError(msg)
+        thing = object_by_name(name)
         slots = [slot.material for slot in thing.material_slots if slot.material is not None]
         if not slots:
             msg = f"Object {name!r} has no material; give it one first."

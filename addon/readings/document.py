@@ -74,6 +74,28 @@ class CyclesReading:
 
 
 @dataclass(frozen=True)
+class SpotRead:
+    """Where and how an instrument stood on a surface of the scene.
+
+    `diameter` is of the spot, in millimeters. `point`, `normal` and `azimuth` are its middle, the
+    side that it stood on, and where its azimuth is 0, in the scene. `is_alone` says whether other
+    objects were hidden, and `covered` which share of the spot the object filled: nothing else
+    counts. `spread_mean` and `spread_95` are ΔE00 from the reading over the spot, mean and 95th
+    percentile, and `noise` is the reading's; None where nothing was measured.
+    """
+
+    diameter: float
+    point: Triple
+    normal: Triple
+    azimuth: Triple
+    is_alone: bool
+    covered: float
+    spread_mean: float | None
+    spread_95: float | None
+    noise: float | None
+
+
+@dataclass(frozen=True)
 class Reading:
     """All that is known of one material's reading.
 
@@ -84,7 +106,8 @@ class Reading:
     `instrument` is the virtual one, a name in `core.instruments.REGISTRY`, of both prediction and
     measurement. `gloss` has the gloss units at 20°, 60° and 85°; empty where they were not asked
     for. `node` is the shader node that was read, None where the surface has no target shader's, and
-    `derivation` how its color came about, None where none was derived.
+    `derivation` how its color came about, None where none was derived. `spot` tells where on an
+    object it was read; None of a flat sample.
     """
 
     material: str
@@ -101,6 +124,7 @@ class Reading:
     gloss: tuple[float, ...] = ()
     node: Node | None = None
     derivation: Derivation | None = None
+    spot: SpotRead | None = None
 
 
 @dataclass(frozen=True)
@@ -132,7 +156,11 @@ class Readings:
     def aperture(self) -> str:
         """Say what the instruments light and look through."""
         wide = any(map(instruments.has_apertures, self.instruments))
-        return APERTURES if wide else APERTURE
+        said = APERTURES if wide else APERTURE
+        sizes = sorted({entry.spot.diameter for entry in self.entries if entry.spot is not None})
+        if not sizes:
+            return said
+        return f"{said}; on objects a spot of {', '.join(f'{size:g}' for size in sizes)} mm"
 
     @property
     def largest_delta_e(self) -> float | None:

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ..support import user_files
-from .document import GLOSS, CyclesReading, Predicted, Reading, Readings
+from .document import GLOSS, CyclesReading, Predicted, Reading, Readings, SpotRead
 from .origin import Derivation, Node
 
 FORMAT = "rough-spectra-readings"
@@ -43,6 +43,7 @@ def to_json(readings: Readings) -> bytes:
             "xyz": "Y = 100 for the perfect diffuser",
             "measured": "CIE 1931 2° observer",
             "gloss": "GU at 20°, 60° and 85°, ISO 2813",
+            "spot": "mm; point in units of the scene",
         },
         "shard": readings.shard,
         "shards": readings.shards,
@@ -94,7 +95,7 @@ def from_json(path: Path) -> Readings:
 
 
 _ALBEDOS = ("albedo_lowest", "albedo_highest", "albedo")
-_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview", "color"}
+_TRIPLES = {"rgb", "spread", "xyz", "lab", "preview", "color", "point", "normal", "azimuth"}
 _SENTENCES = {"linked", "in_use", "reasons"}
 _TABLES: dict[str, Callable[[Any], Any]] = {
     "colors": lambda value: _numbers(value, 3),
@@ -110,6 +111,7 @@ def _entry(data: dict[str, Any]) -> Reading:
     known["measured"] = _whole(CyclesReading, data["measured"])
     known["node"] = _node(data.get("node"))
     known["derivation"] = _whole(Derivation, data.get("derivation"))
+    known["spot"] = _whole(SpotRead, data.get("spot"))
     known["warnings"] = tuple(data["warnings"])
     known["gloss"] = tuple(map(float, data.get("gloss", ())))
     if len(known["gloss"]) not in (0, len(GLOSS)):

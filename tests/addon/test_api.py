@@ -48,6 +48,7 @@ SIGNATURES = {
     "settle": "(material)",
     "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
     "compare=True, samples=None, percentage=None, lights=None, progress=None)",
+    "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
@@ -86,7 +87,9 @@ FIELDS = {
     "Settled": "request model_reason",
     "Readings": "working_space blender entries shard shards whole version each",
     "Reading": "material surface sample source predicted measured delta_e_00 shader_reason "
-    "warnings fault instrument gloss node derivation",
+    "warnings fault instrument gloss node derivation spot",
+    "Spot": "thing carrier material point normal toward diameter is_alone",
+    "SpotRead": "diameter point normal azimuth is_alone covered spread_mean spread_95 noise",
     "RoughSample": "kind mesh length asked seed",
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",

@@ -138,7 +138,8 @@ def _measurement():
     """The line that the panel draws of a measurement, in the language of now."""
     sentences, text = ours("addon.interface.panels.sentences"), ours("addon.interface.panels.text")
     style = sentences.style(text.Format(600, False, 1.0, 11.0))
-    _, ((line, _),) = sentences.measurement(0.0, 0.1, True, "45a:0", style)
+    read = ours("addon.material.last_measurement").LastMeasurement((0.1, 0.1, 0.1), 0.1, True)
+    _, ((line, _),) = sentences.measurement(0.0, read, style)
     return line
 
 

@@ -258,3 +258,17 @@ def test_sidebar_of_the_3d_view(scene):
 
 def test_grease_pencil(scene):
     assert scene == {"shown": False}
+
+
+def test_measuring_a_spot(scene):
+    assert scene["choosing"] == scene["running"] == ["ROUGH_SPECTRA_OT_measure_here"]
+    delta_e, spread, place = scene["read"]
+    assert delta_e < 0.02
+    assert spread < 0.01
+    assert place == "Wall, 11 mm"
+    [mark] = scene["marks"]
+    assert mark.startswith("Wall, 11 mm: ΔE00 0.0")
+    assert scene["place"] == pytest.approx([0.3, 0.2, 0.0], abs=0.02)
+    assert scene["after"] == []
+    assert scene["undone"] == [None, []]
+    assert scene["left"] == [[], None, [], 0]

@@ -124,12 +124,15 @@ def scene_file(tmp_path_factory, extension):
     derive.assign(pairs)
     rgb_material("Plain", (0.2, 0.4, 0.6))
     checkered_and_glowing("Patterned")
-    for name, slots in (("Panel", ["Alpha", "Plain", "Patterned"]), ("Bare", [])):
+    for name, slots in (("Panel", ["Alpha", "Plain"]), ("Bare", [])):
         mesh = bpy.data.meshes.new(name)
-        mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
-        for slot in slots:
+        mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2), (0, 2, 3)])
+        for number, slot in enumerate(slots):
             mesh.materials.append(bpy.data.materials[slot])
-        bpy.context.collection.objects.link(bpy.data.objects.new(name, mesh))
+            mesh.polygons[number].material_index = number
+        thing = bpy.data.objects.new(name, mesh)
+        thing.location.x = 0 if slots else -5
+        bpy.context.collection.objects.link(thing)
     path = folder / "scene.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -147,7 +150,7 @@ def baked(scene_file, environment, tmp_path_factory, extension):
     """All spectra of the scene and the surface of an object, baked by a process of its own."""
     base = tmp_path_factory.mktemp("baked") / "chart"
     words = ["bake", "--blend", str(scene_file), "--output", str(base), "--object", "Panel"]
-    for name in ("Alpha", "Beta", ODD_NAME, "Delta"):
+    for name in ("Alpha", "Beta", ODD_NAME, "Delta", "Patterned"):
         words += ["--material", name]
     done = subprocess.run(
         [*COMMAND, *words],

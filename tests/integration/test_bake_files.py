@@ -241,7 +241,7 @@ def test_lab_of_another_illuminant_and_observer_is_said_to_be_such(baked):
 
 def test_surface_of_an_object_is_measured_without_a_spectrum(baked):
     found = {entry["material"]: entry for entry in baked.document["readings"] if entry["surface"]}
-    assert set(found) == {"Alpha", "Plain", "Patterned"}
+    assert set(found) == {"Alpha", "Plain"}
     assert {entry["surface"] for entry in found.values()} == {"Panel"}
     plain = found["Plain"]
     assert plain["predicted"] is None
@@ -249,7 +249,17 @@ def test_surface_of_an_object_is_measured_without_a_spectrum(baked):
     # A Diffuse BSDF without roughness is Lambertian: it reads its own color.
     assert plain["measured"]["rgb"] == pytest.approx([0.2, 0.4, 0.6], abs=2e-6)
     assert plain["measured"]["spread"] == pytest.approx([0, 0, 0], abs=1e-6)
-    assert found["Alpha"]["measured"] == by_material(baked)["Alpha"]["measured"]
+    [flat] = [
+        e for e in baked.document["readings"] if (e["material"], e["surface"]) == ("Alpha", "")
+    ]
+    assert flat["spot"] is None
+    rgb = found["Alpha"]["measured"]["rgb"]
+    assert rgb == pytest.approx(flat["measured"]["rgb"], abs=2e-6)
+    spot = found["Alpha"]["spot"]
+    assert (spot["diameter"], spot["covered"], spot["is_alone"]) == (8, 1, True)
+    assert spot["point"] == pytest.approx([2 / 3, 1 / 3, 0], abs=1e-5)
+    assert spot["normal"] == pytest.approx([0, 0, 1], abs=1e-5)
+    assert spot["spread_95"] < 0.01
 
 
 def test_pattern_and_glow_of_a_hand_made_material_are_measured(baked):
@@ -538,7 +548,8 @@ def test_without_a_measurement_there_are_no_measured_files(scene_file, main, tmp
 @pytest.mark.parametrize("shards", [2, 3])
 def test_merged_parts_equal_the_whole_byte_for_byte(shards, scene_file, main, tmp_path, baked):
     """Seven surfaces, and two materials among three shards, so that one part is empty."""
-    names = ["Alpha", ODD_NAME] if shards == 3 else ["Alpha", "Beta", ODD_NAME, "Delta"]
+    names = ["Alpha", "Beta", ODD_NAME, "Delta", "Patterned"]
+    names = names if shards == 2 else names[:3:2]
     words = [word for name in names for word in ("--material", name)]
     words += ["--object", "Panel"] if shards == 2 else []
     common = ("bake", "--blend", scene_file, *words, "--output")
@@ -632,3 +643,43 @@ def test_reading_does_not_depend_on_the_neighbors(main, tmp_path):
         assert main(*words, *more).status == 0
         found.append(json.loads((tmp_path / "x.json").read_bytes())["readings"][0])
     assert found[0]["measured"] == found[1]["measured"]
+
+
+def test_a_spot_is_where_the_options_say(scene, main, tmp_path):
+    bpy.ops.wm.open_mainfile(filepath=str(scene))
+    empty = bpy.data.objects.new("Here", None)
+    empty.location, empty.rotation_euler = (0.2, 0.7, -0.1), (0, 0.1, 0)
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.ops.wm.save_mainfile()
+    words = ("--blend", scene, "--object", "Panel", "--read-at", "45a:0", "--read-at", "di:8")
+    common = (*words, "--spot-diameter", "40", "--output", tmp_path / "x")
+    assert main("bake", *common, "--at", "Here", "--keep-neighbors").status == 0
+    document = json.loads((tmp_path / "x.json").read_text(encoding="utf-8"))
+    assert [entry["instrument"] for entry in document["readings"]] == ["45a:0", "di:8"]
+    assert document["aperture"].endswith("; on objects a spot of 40 mm")
+    for entry in document["readings"]:
+        assert (entry["surface"], entry["material"]) == ("Panel", "Plain")
+        spot = entry["spot"]
+        assert spot["point"] == pytest.approx([0.2 + 0.1 * np.tan(0.1), 0.7, 0], abs=1e-4)
+        assert (spot["diameter"], spot["is_alone"]) == (40, False)
+    _, rows = rows_of(tmp_path / "x.measured.csv")
+    assert [row["spot_mm"] for row in rows] == ["40", "40"]
+    assert [row["spot_filled"] for row in rows] == ["1.0000", "1.0000"]
+
+
+def test_a_spot_that_is_nowhere_is_refused(scene_file, main, tmp_path):
+    words = ("bake", "--blend", scene_file, "--output", tmp_path / "x")
+    for given, said in (
+        (("--at", "Panel"), "are of an object; name it with --object."),
+        (("--object", "Panel", "--at", "Nobody"), "'Nobody'"),
+        (("--object", "Panel", "--at", "Bare"), "does not meet object 'Panel'"),
+        (("--object", "Panel", "--vertex-group", "Seam"), "no vertex group 'Seam'; it has none."),
+        (("--object", "Panel", "--spot-diameter", "0"), "is 0 mm; give more than 0."),
+    ):
+        result = main(*words, *given)
+        assert result.status == 2
+        assert said in result.err
+    words = ("check", "--blend", scene_file, "--object", "Panel", "--spot-diameter", "4000")
+    result = main(*words)
+    assert result.status == 2
+    assert "half is the least" in result.err

@@ -406,6 +406,27 @@ def _is_measured_here() -> bool:
     return thing is not None and thing.active_material is not None and _is_measured()
 
 
+@picture("panel", ready=_is_measured)
+def measured_here() -> None:
+    """Show what was read of a spot on a surface."""
+    _assigned()
+    above = {"origin": (0.3, 0.2, 5.0), "direction": (0.0, 0.0, -1.0)}
+    _press("rough_spectra.measure_here", **above)
+
+
+def _is_choosing() -> bool:
+    [window] = bpy.context.window_manager.windows
+    return any("measure_here" in operator.bl_idname for operator in window.modal_operators)
+
+
+@picture("status", ready=_is_choosing)
+def measure_here() -> None:
+    """Show what the keys do while a place is chosen."""
+    _assigned()
+    _wide_area().type = "VIEW_3D"
+    _press("rough_spectra.measure_here")
+
+
 # Dialogs, menus and messages ---------------------------------------------------------------------
 
 

@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...support.shown_text import inform, tell
 from ..work_list import share
@@ -18,9 +19,9 @@ if TYPE_CHECKING:
 NAME = "bake"
 SUMMARY = "virtual spectrophotometer readings of materials and surfaces, into files"
 DESCRIPTION = (
-    "Predict the readings of materials from their spectra, measure them in Cycles renders of flat "
-    "samples at the instruments that they are to read right at, and write both. The "
-    ".blend itself is not changed."
+    "Predict the readings of materials from their spectra, measure them in Cycles renders at the "
+    "instruments that they are to read right at, and write both. A material is measured as a flat "
+    "sample, and an object where it stands. The .blend itself is not changed."
 )
 
 _UNUSABLE = 2
@@ -61,6 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare which materials are meant, and where they are read."""
     from ....core.instruments import REGISTRY
+    from ....core.limits import SPOT_DIAMETER
 
     instruments = tuple(REGISTRY)
     parser.add_argument(
@@ -75,7 +77,29 @@ def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help="the materials on this object's surface, repeatable",
+        help="the surface of this object as it is in the scene, repeatable: a spot in the middle "
+        "of each of its materials",
+    )
+    spot = parser.add_argument_group("where the spot on an object is, and how it is measured")
+    place = spot.add_mutually_exclusive_group()
+    place.add_argument(
+        "--at",
+        metavar="EMPTY",
+        help="where the z axis of this empty, or of any object, meets the surface; it points to "
+        "the instrument, and azimuths count from its x axis",
+    )
+    place.add_argument("--vertex-group", metavar="NAME", help="in the middle of this vertex group")
+    spot.add_argument(
+        "--spot-diameter",
+        type=float,
+        default=SPOT_DIAMETER,
+        metavar="MM",
+        help=f"millimeters ({SPOT_DIAMETER:g})",
+    )
+    spot.add_argument(
+        "--keep-neighbors",
+        action="store_true",
+        help="let other objects shade and light the spot; they are hidden else",
     )
     parser.add_argument(
         "--read-at",
@@ -103,8 +127,7 @@ def add_format_argument(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Bake and write; exit status 0, or 2 where a material could not be predicted or measured."""
     from ... import api
-    from ...instrument import bake
-    from ...material import selection
+    from ...instrument import surfaces as instrument_surfaces
     from ...readings import json_document, writers
     from ...support import atomic_files
     from ..progress import counted
@@ -117,15 +140,17 @@ def run(options: argparse.Namespace) -> int:
         atomic_files.check_target(target)
     else:
         writers.check(options.output)
-    surfaces = selection.surfaces(options.material, options.object)
-    whole = bake.digest(surfaces, not options.predicted_only, options.read_at, options.gloss)
+    surfaces = wanted(options, not options.predicted_only)
+    whole = instrument_surfaces.digest(
+        surfaces, not options.predicted_only, options.read_at, options.gloss
+    )
     if options.skip_done:
         document = target if count > 1 else options.output.with_name(f"{options.output.name}.json")
         if _is_done(document, whole, options.shard):
             add(options, files=[], skipped=True)
             inform(f"{document.name} is there already; nothing was measured")
             return 0
-    result = replace(measure(options, not options.predicted_only), whole=whole)
+    result = replace(measure(options, surfaces, not options.predicted_only), whole=whole)
     if count > 1:
         part = replace(result, shard=index, shards=count)
         with atomic_files.publication() as files:
@@ -175,15 +200,48 @@ def tell_faults(result: Readings) -> int:
     return _UNUSABLE if result.faults else 0
 
 
-def measure(options: argparse.Namespace, with_measurement: bool = True) -> Readings:
+def wanted(options: argparse.Namespace, with_measurement: bool = True) -> list[Any]:
+    """Find the surfaces that the options name: materials, and spots on objects.
+
+    Raises
+    ------
+    InputError, MaterialError, DomainError
+        If a name is not there, or nothing is left to measure.
+    """
+    from ....core.errors import InputError
+    from ... import api
+    from ...material import selection
+
+    on_objects = options.object
+    if (options.at or options.vertex_group or options.keep_neighbors) and not on_objects:
+        msg = "--at, --vertex-group and --keep-neighbors are of an object; name it with --object."
+        raise InputError(msg)
+    if not with_measurement or not on_objects:
+        return list(selection.surfaces(options.material, on_objects))
+    found: list[Any] = [("", selection.by_name(name)) for name in options.material]
+    at = None if options.at is None else selection.object_by_name(options.at)
+    for name in on_objects:
+        found += api.spots(
+            selection.object_by_name(name),
+            at=at,
+            vertex_group=options.vertex_group,
+            diameter=options.spot_diameter,
+            keep_neighbors=options.keep_neighbors,
+        )
+    return found
+
+
+def measure(
+    options: argparse.Namespace, surfaces: Sequence[Any], with_measurement: bool = True
+) -> Readings:
     """Take the readings that the options ask for, with a progress line."""
     from ....core.errors import MaterialError
     from ... import api
-    from ...material import selection, storage
+    from ...instrument import surfaces as instrument_surfaces
+    from ...material import storage
     from ..progress import ProgressLine
 
-    surfaces = selection.surfaces(options.material, options.object)
-    faults = [storage.fault(material) for _, material in surfaces]
+    faults = [storage.fault(material) for _, material in instrument_surfaces.pairs(surfaces)]
     if all(faults):
         raise MaterialError(faults[0])  # nothing is left to do for any of them
     index, count = getattr(options, "shard", (1, 1))

@@ -12,6 +12,7 @@ from .bake import (
     add_surface_arguments,
     measure,
     tell_faults,
+    wanted,
 )
 
 NAME = "check"
@@ -48,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     check_limit(options.max_delta_e)
     if options.output is not None:
         writers.check(options.output)
-    result = measure(options)
+    result = measure(options, wanted(options))
     if result.largest_delta_e is None and not result.faults:
         names = ", ".join(entry.material for entry in result.entries[:5])
         msg = f"None of {names} stores a spectrum to compare with; assign one first."

@@ -54,6 +54,13 @@ class InBackground:
 
     def execute(self, context: Any) -> set[str]:
         """Start the second Blender; in a background Blender, wait for it too."""
+        status = self.begin(context)
+        if status == {"RUNNING_MODAL"}:
+            context.window_manager.modal_handler_add(self)
+        return status
+
+    def begin(self, context: Any) -> set[str]:
+        """Start the job, for `modal` to watch; who is modal already calls only this."""
         try:
             self._job = self.start(context)
             if bpy.app.background:
@@ -64,7 +71,6 @@ class InBackground:
         manager = context.window_manager
         timer = manager.event_timer_add(_TIMER_SECONDS, window=context.window)
         manager.progress_begin(0, 1)
-        manager.modal_handler_add(self)
         # Blender drops an operator without a word when its class is unregistered.
         self._workspaces: set[str] = set()
         self._job.when_closed(partial(_clear, timer, self._workspaces))

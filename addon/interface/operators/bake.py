@@ -59,7 +59,7 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
         writers.check(self._base)
         materials = common.materials_in_scope(context, self.scope)
         surfaces = [("", material) for material in materials]
-        self._prepared = bake.prepare(surfaces)
+        self._prepared = bake.as_flat_samples(surfaces, bake.prepare(surfaces))
         return bake.plan(surfaces, self._prepared)
 
     def take(self, values: Array) -> str:

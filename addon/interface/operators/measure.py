@@ -54,10 +54,13 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
 
     def to_measure(self, context: Any) -> Plan:
         """Take down the predictions, and what each material is like now."""
-        from ...instrument import bake
+        from ...instrument import bake, unseen
         from ...material import last_measurement
 
         materials = common.materials_in_scope(context, self.scope)
+        for material in materials:
+            for sentence in unseen.on_flat_samples(material):
+                self.report({"WARNING"}, f"{material.name}: {sentence}")
         surfaces = [("", material) for material in materials]
         self._prepared = bake.prepare(surfaces)
         # A pointer to a material does not survive an undo while the measurement runs.

@@ -17,7 +17,7 @@ from ....core import instruments, limits, roughness, white_scale
 from ....core.errors import RoughSpectraError
 from ....core.numerics.memoized import memoized
 from ...colorimetry import perceptibility
-from ...material import derivation, settled, state, verdict
+from ...material import derivation, last_measurement, settled, state, verdict
 from ...material.snapshot import Snapshot
 from ...samples import gloss_of_set, stated_white
 from ...samples.readers.formats import library as library_format
@@ -145,18 +145,23 @@ def difference(
 
 @memoized(maxsize=_KEPT)
 def measurement(
-    predicted: float | None, measured: float, current: bool, read_at: str, how: Style
+    predicted: float | None, found: last_measurement.LastMeasurement, how: Style
 ) -> tuple[Sentence, ...]:
-    """Put a measured ΔE00 beside the predicted one; `current` unless something changed since.
-
-    There may be no prediction. `read_at` is the virtual instrument.
-    """
+    """Put a measured ΔE00 beside the predicted one, of which there may be none."""
+    assert found.delta_e is not None
     told = [] if predicted is None else [(_difference(iface_("Predicted"), predicted), "BLANK1")]
     where = iface_("Measured")
-    if read_at != instruments.DEFAULT:
-        where = iface_("Measured at {instrument}").format(instrument=_instrument(read_at))
-    told.append((_difference(where, measured), "BLANK1"))
-    if not current:
+    if found.place:
+        where = iface_("Measured on {place}").format(place=found.place)
+    if found.instrument != instruments.DEFAULT:
+        at = (
+            iface_("{where} at {instrument}") if found.place else iface_("Measured at {instrument}")
+        )
+        where = at.format(where=where, instrument=_instrument(found.instrument))
+    told.append((_difference(where, found.delta_e), "BLANK1"))
+    if found.spread is not None:
+        told.append((_difference(iface_("95 % of the spot below"), found.spread), "BLANK1"))
+    if not found.current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 

@@ -16,6 +16,7 @@ from ..document import (
     CyclesReading,
     Predicted,
     Readings,
+    SpotRead,
 )
 
 NAME = "csv"
@@ -110,6 +111,10 @@ def measured(readings: Readings) -> bytes:
     if shiny:
         comments.append("gloss: GU of ISO 2813, 100 = black glass of the index 1.567")
         header += [f"gloss_{angle}" for angle in GLOSS]
+    on_spots = any(entry.spot is not None for entry, _ in rows)
+    if on_spots:
+        comments.append("spread: ΔE00 from the reading over the spot, mean and 95th percentile")
+        header += ["spot_mm", "spot_filled", "spread_mean", "spread_95"]
     lines = [
         [
             to_cell(entry.material),
@@ -121,10 +126,20 @@ def measured(readings: Readings) -> bytes:
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
             "" if entry.delta_e_00 is None else f"{entry.delta_e_00:.4f}",
             *(f"{value:.2f}" for value in entry.gloss),
+            *(_of_spot(entry.spot) if on_spots else ()),
         ]
         for entry, part in rows
     ]
     return csv_of(comments, header, lines)
+
+
+def _of_spot(spot: SpotRead | None) -> list[str]:
+    """Give the cells of a spot, which a flat sample leaves empty."""
+    if spot is None:
+        return [""] * 4
+    spreads = (spot.spread_mean, spot.spread_95)
+    told = ("" if value is None else f"{value:.4f}" for value in spreads)
+    return [f"{spot.diameter:g}", f"{spot.covered:.4f}", *told]
 
 
 def nanometers(wavelength: float) -> str:

@@ -36,6 +36,7 @@ def draw(layout: Any, context: Any) -> None:
     row = layout.row(align=True) if beside else layout.column(align=True)
     row.operator("rough_spectra.measure", text="Measure", icon_value=render).scope = "ACTIVE"
     row.operator("rough_spectra.measure", text="Measure All").scope = "ALL"
+    layout.operator("rough_spectra.measure_here", icon_value=icon_value("EYEDROPPER"))
     if here.shown is not None:
         _draw_measured(layout, context, here, here.shown)
     layout.operator("rough_spectra.bake", icon_value=icon_value("EXPORT"))
@@ -54,7 +55,5 @@ def _draw_measured(
     predicted = found.predicted
     if predicted is None and (of_now := settled.numbers(shown.facts, False)) is not None:
         predicted = of_now[0]
-    told = sentences.measurement(
-        predicted, found.delta_e, found.current, found.instrument, here.style
-    )
+    told = sentences.measurement(predicted, found, here.style)
     text.draw(layout.column(align=True), told)
