@@ -90,7 +90,7 @@ def assign(
     solutions = _told_of_sets(work, solutions, space)
     palettes, solutions, written = textures.scaled(work, solutions, space, looked=looked)
     together = zip(work, written, palettes, nodes, read, given, strict=True)
-    for (place, request), solution, palette, shader, (told_gloss, _), gloss in together:
+    for (place, request), solution, palette, asked, (told_gloss, _), gloss in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
         node = _write(place, solution, palette)
@@ -98,7 +98,7 @@ def assign(
             shader_nodes.set_gloss(place.material, node, told_gloss)
         if gloss is not None:
             shader_nodes.put_gloss(place.material, gloss)
-        storage.store(place.material, request, shader)
+        storage.store(place.material, request, asked)
         storage.note_own_sigma(place.material, request.sample)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)

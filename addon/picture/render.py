@@ -26,7 +26,7 @@ from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
-from ..colorimetry import astm_e308, illuminant_spectra
+from ..colorimetry import cie_tables, illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from . import colors, light_spectra, passes
 from .colors import Colors
@@ -82,7 +82,7 @@ class Wanted:
         if not self.tolerance > 0:
             msg = f"The tolerance is ΔE00 {self.tolerance:g}; give a number above 0."
             raise DomainError(msg)
-        if self.observer not in astm_e308.OBSERVERS:
+        if self.observer not in cie_tables.OBSERVERS:
             msg = f"Observer {self.observer!r} is not known; choose 2 or 10 degrees."
             raise DomainError(msg)
         for name, value, most in (("samples", self.samples, 1 << 24),

@@ -221,8 +221,8 @@ def _best(
     relative = [_BODY if name in at else _RELATIVE for name in wanted]
     cost = ((apart / np.hypot(relative, known)) ** 2).sum(axis=-1)
     cost = cost + (np.log(levels / _USUAL) / _SPREAD) ** 2 if level is None else cost
-    at = int(np.argmin(cost))
-    return float(cost[at]), float(np.abs(apart[at]).max()), float(levels[at])
+    best = int(np.argmin(cost))
+    return float(cost[best]), float(np.abs(apart[best]).max()), float(levels[best])
 
 
 def _window(meter: meters.GlossMeter) -> Callable[[Array], Array]:

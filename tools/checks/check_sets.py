@@ -252,7 +252,12 @@ def check(samples: Sequence[Sample]) -> list[Read]:
     if angles:
         units = api.gloss(materials, angles)
         found += [
-            Read(sample.name, f"{angle:g}°", float(row[angles.index(angle)] - value), is_units=True)
+            Read(
+                sample.name,
+                f"{angle:g}°",
+                float(row[angles.index(round(angle))] - value),
+                is_units=True,
+            )
             for sample, row in zip(samples, units, strict=True)
             for angle, value in sample.gloss
             if angle in angles

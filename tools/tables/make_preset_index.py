@@ -7,6 +7,11 @@
 To be run whenever a preset is added or changed; a test says so.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
 from tools.run.run_command_line import load_extension
 
 
@@ -16,13 +21,14 @@ def main() -> None:
     from rough_spectra.addon.matching import own_gloss
     from rough_spectra.addon.samples import library, preset_index
 
-    found, glosses = [], {}
+    found: list[Any] = []
+    glosses: dict[str, tuple[str, Sequence[float]]] = {}
     for file in library.read_presets():
         found += file.entries
         for entry, sample in zip(file.entries, file.samples, strict=True):
-            readings = own_gloss.readings(sample)
+            readings = None if sample is None else own_gloss.readings(sample)
             gloss = None if readings is None else own_gloss.estimated(*readings)
-            if gloss is not None:
+            if readings is not None and gloss is not None:
                 numbers = [round(number, 6) for number in gloss.numbers()]
                 glosses[entry.id] = (own_gloss.key_of(*readings), numbers)
     text = preset_index.text(tuple(found), glosses)
