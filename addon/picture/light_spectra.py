@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.errors import DomainError, InputError
 from ...core.numerics.arrays import Array
-from ..colorimetry import astm_e308, illuminant_spectra
+from ..colorimetry import cie_tables, illuminant_spectra
 from ..samples import filter_response
 
 _FINE = 0.25
@@ -36,11 +36,11 @@ def find(name: str) -> tuple[Array, str]:
     InputError
         If the table cannot be read.
     """
-    if name in astm_e308.ILLUMINANTS:
+    if name in cie_tables.ILLUMINANTS:
         return illuminant_spectra.cie(name), f"CIE {name}"
     path = Path(name)
     if not path.exists():
-        choices = ", ".join(astm_e308.ILLUMINANTS)
+        choices = ", ".join(cie_tables.ILLUMINANTS)
         msg = f"{name!r} is neither a file nor an illuminant that is known: {choices}."
         raise DomainError(msg)
     table = filter_response.read(path)
