@@ -121,7 +121,7 @@ class Farm:
             self.holds(f"openjd check {template.parent.name}", checked.returncode == 0)
         started = time.monotonic()
         run = self.openjd(output, log)
-        self._kill_task(run.pid, output)
+        self._kill_task(run, output)
         self.holds("a killed task ends the run with a failure", run.wait() != 0)
         whole = sorted(path.stem for path in output.glob("*.json"))
         self.holds(
@@ -140,14 +140,12 @@ class Farm:
         self.holds("progress is told in the engine's lines", "openjd_progress: 100.0" in told)
         self.holds("every byte is that of one bake", self._equal(output))
 
-    def _kill_task(self, session: int, output: Path) -> None:
+    def _kill_task(self, run: subprocess.Popen[bytes], output: Path) -> None:
         """Kill a task as a lost machine would end it: while it measures, and others are done."""
         wanted = max(1, self.options.scenes // 3)
-        while True:
+        while run.poll() is None:
             time.sleep(0.05)
-            if not _below(session):
-                return
-            measuring = [pid for pid in _below(session) if _runs(pid, "rough_spectra", "job")]
+            measuring = [pid for pid in _below(run.pid) if _runs(pid, "rough_spectra", "job")]
             if len(list(output.glob("*.json"))) >= wanted and measuring and _below(measuring[0]):
                 os.kill(measuring[0], signal.SIGKILL)
                 return
@@ -199,10 +197,12 @@ def _runs(pid: int, *words: str) -> bool:
 def _below(pid: int) -> list[int]:
     """All processes that one started, and theirs."""
     try:
-        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        # Each thread has children of its own.
+        lists = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/children")]
     except OSError:  # it has ended
         return []
-    return [each for child in map(int, children) for each in (child, *_below(child))]
+    children = [int(word) for text in lists for word in text.split()]
+    return [each for child in children for each in (child, *_below(child))]
 
 
 def _options() -> argparse.Namespace:
