@@ -50,6 +50,9 @@ _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
     "nothing": ("differs: unknown", ""),
 }
 
+_NEARLY: dict[Limit, str] = {"engine": "roughness missing", "gloss": "slightly too glossy"}
+"""What is said of these where the difference is small: what to do is plain then."""
+
 
 class Verdict(NamedTuple):
     """What is said of a material, in three words or so.
@@ -131,11 +134,12 @@ def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
     seen = max(apart[:2])
     if seen < perceptibility.SIDE_BY_SIDE:
         return Verdict("right", "looks right")
-    words, remedy = _DIFFERS[limit(found, last, apart)]
+    why = limit(found, last, apart)
+    words, remedy = _DIFFERS[why]
     if remedy == "wide" and not has_wider_space(found.working_space):
         remedy = ""
     if seen < perceptibility.VISIBLE:
-        return Verdict("near", perceptibility.words(seen), remedy)
+        return Verdict("near", _NEARLY.get(why, perceptibility.words(seen)), remedy)
     return Verdict("off", words, remedy)
 
 

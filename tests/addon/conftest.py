@@ -26,6 +26,7 @@ def make_material():
 
     def make(name="Material", node="ShaderNodeBsdfDiffuse", **sockets):
         material = bpy.data.materials.new(name)
+        material.use_fake_user = True  # what nothing uses counts as deleted
         if material.node_tree is None:
             material.use_nodes = True
         tree = material.node_tree

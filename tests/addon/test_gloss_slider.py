@@ -109,3 +109,17 @@ def test_it_cannot_be_animated():
     known = bpy.data.materials.new("Any").rough_spectra.bl_rna.properties["gloss"]
     assert not known.is_animatable
     assert math.isclose(known.hard_max, 1.0)
+
+
+def test_a_step_is_solved_once(material, monkeypatch):
+    """What the slider sets is heard as a change of the nodes, too: there is nothing left to do."""
+    calls, real = [], solve.solve
+    monkeypatch.setattr(solve, "solve", lambda *given: calls.append(given) or real(*given))
+    thing = bpy.data.objects.new("Wall", bpy.data.meshes.new("Wall"))
+    bpy.context.collection.objects.link(thing)
+    thing.data.materials.append(material)
+    bpy.context.view_layer.update()
+    calls.clear()
+    material.rough_spectra.gloss = 0.25
+    bpy.context.view_layer.update()
+    assert len(calls) == 1

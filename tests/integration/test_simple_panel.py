@@ -209,6 +209,15 @@ def test_the_remedy_makes_it_look_right(name):
     assert judged()[0] == "right: looks right"
 
 
+def test_a_small_difference_names_its_reason_where_something_can_be_done():
+    """As with the cube of a factory start, whose engine leaves the roughness out."""
+    wall(degrees=15)
+    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    told, remedy = judged()
+    assert told == "near: roughness missing"
+    assert remedy[0] == "rough_spectra.switch_to_cycles"
+
+
 def test_without_a_sample_there_is_one_thing_to_do():
     mesh_object("Wall")
     page = closed()
