@@ -54,6 +54,10 @@ def test_what_blenders_exporters_lose_is_checked(main, tmp_path):
     assert lines[-1] == "1 of 1 material would lose color or roughness"
     bpy.data.materials["Wall"].rough_spectra.tolerance = 20
     assert main("export", "--check").status == 0
+    bpy.data.materials["Wall"].rough_spectra.spectrum = "{"
+    damaged = main("export", "--check")
+    assert damaged.status == 2
+    assert "its stored spectrum cannot be read" in damaged.err
 
 
 def test_the_operator_writes_what_is_chosen_and_changes_nothing(main, tmp_path):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from ...support.shown_text import tell
 
@@ -65,12 +66,7 @@ def run(options: argparse.Namespace) -> int:
 
     surfaces = selection.surfaces(options.material, options.object)
     if options.check:
-        lost = api.export_losses([material for _, material in surfaces])
-        for loss in lost:
-            tell(loss.sentence)
-        lose = len({loss.material for loss in lost})
-        tell(f"{lose} of {counted(len(surfaces), 'material')} would lose color or roughness")
-        return _FAILED if lost else 0
+        return _check([material for _, material in surfaces])
     chosen = options.target or write.usable()
     found = api.export([material for _, material in surfaces], options.output, chosen)
     for sentence in found.warnings:
@@ -87,3 +83,20 @@ def run(options: argparse.Namespace) -> int:
     for sentence in found.faults:
         tell(f"rough_spectra: {sentence}")
     return _UNUSABLE if found.faults else 0
+
+
+def _check(materials: list[Any]) -> int:
+    """Tell what would be lost; a material that cannot be read weighs more, as with `check`."""
+    from ... import api
+    from ...material import storage
+    from ..progress import counted
+
+    lost = api.export_losses(materials)
+    for loss in lost:
+        tell(loss.sentence)
+    lose = len({loss.material for loss in lost})
+    tell(f"{lose} of {counted(len(materials), 'material')} would lose color or roughness")
+    faults = [fault for fault in map(storage.fault, materials) if fault]
+    for sentence in faults:
+        tell(f"rough_spectra: {sentence}")
+    return _UNUSABLE if faults else _FAILED if lost else 0
