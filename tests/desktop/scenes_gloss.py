@@ -37,17 +37,18 @@ class SCENES_PT_gloss(bpy.types.Panel):
 
 def _slider(where, node, name):
     """Move over an area until the socket of a node is under the pointer; returns the point."""
-    socket = node.inputs.find(name)
-    wanted = f'nodes["{node.name}"].inputs[{socket}].default_value'
+    seen = set()
     x = where.x + int(where.width * 0.7)
     for y in range(where.y + where.height - 4, where.y, -8):
         yield from move(x, y)
         with over(where):
             held = getattr(bpy.context, "property", None)
-        if held is not None and held[1] == wanted:
+        seen.add(held and held[1])
+        owner = held and held[0].path_resolve(held[1].rpartition(".")[0] or held[1])
+        if getattr(owner, "name", "") == name:
             yield from move(x, y - 4)
             return x, y - 4
-    msg = f"{wanted} is not in the {where.type} editor"
+    msg = f"{node.name}: {name} is not in the {where.type} editor, but {seen} are"
     raise LookupError(msg)
 
 

@@ -104,8 +104,8 @@ def _of_samples(names: list[str], level: float | None, gloss: Gloss) -> None:
         raise silent[0]
     for name, estimate in found:
         _say(f"{name}: ", estimate)
-    for error in silent:
-        tell(f"warning: {error}")
+    for sentence in map(str, silent):
+        tell(f"warning: {sentence}")
 
 
 def _say(name: str, found: GlossEstimate) -> None:
