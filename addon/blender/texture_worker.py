@@ -20,9 +20,8 @@ SIDE = 251
 """Pixels of a side, a place in the texture each. A prime: beside the texels of an image the places
 then lie in all ways, and not on the middle of each."""
 SHIFTS = ((0.0, 0.0), (0.5, 0.25), (0.25, 0.75), (0.75, 0.5))
-"""Of the picture, in pixels: so often it is taken."""
-ONE = ((0.0, 0.0),)
-"""That of tiles, whose middles then are in the middles of the pixels."""
+"""Of the picture, in pixels: so often it is taken. Of tiles it is by the first, so that their
+middles are in the middles of the pixels."""
 
 
 def main(job_path: Path, measuring: Any) -> None:
@@ -37,9 +36,11 @@ def main(job_path: Path, measuring: Any) -> None:
         glow(material.node_tree, material.node_tree.nodes[node].inputs[socket])
         if maps:
             places = np.load(folder / f"places-{number}.npy")
-            mesh, side, shifts = lay_tiles(measuring, job["side"], maps, places), job["side"], ONE
+            side, shifts = job["side"], SHIFTS[:1]
+            mesh = lay_tiles(measuring, side, maps, places)
         else:
-            mesh, side, shifts = measuring.square(), SIDE, SHIFTS
+            side, shifts = SIDE, SHIFTS
+            mesh = measuring.square()
         scene = build(measuring, mesh, material, side)
         seen = []
         for x, y in shifts:

@@ -200,7 +200,7 @@ def _best(
 ) -> tuple[float, float, float]:
     """Find the level that fits best at one roughness; gives cost, misfit and level."""
     angles = tuple(int(name) for name in wanted if name.isdigit())
-    at = [name for name in wanted if name in REGISTRY]
+    further = [name for name in wanted if name in REGISTRY]
     nodes = _LEVELS if level is None else (level,)
     table = []
     for node in nodes:
@@ -208,9 +208,9 @@ def _best(
         whole = gloss_reading.at_instrument(tried, read.read_at)
         diffuse = float(np.maximum(whole.below(np.full(3, read.sci)), 0).mean())
         if "trap" in wanted:
-            found = _told(readings(tried, diffuse, angles, at))
+            found = _told(readings(tried, diffuse, angles, further))
         else:
-            units, seen = _units(tried, diffuse, angles), _seen(tried, diffuse, at)
+            units, seen = _units(tried, diffuse, angles), _seen(tried, diffuse, further)
             found = _told(GlossReadings(read.sci, units=units, angles=seen))
         table.append([found[name] for name in wanted])
     goal = np.array(list(wanted.values()))
@@ -218,7 +218,7 @@ def _best(
     rows = np.stack([np.interp(levels, nodes, column) for column in np.array(table).T], axis=-1)
     apart = np.log(np.maximum(rows, 1e-9) / goal)
     known = np.array([_ABSOLUTE.get(name, _UNITS) for name in wanted]) / goal
-    relative = [_BODY if name in at else _RELATIVE for name in wanted]
+    relative = [_BODY if name in further else _RELATIVE for name in wanted]
     cost = ((apart / np.hypot(relative, known)) ** 2).sum(axis=-1)
     cost = cost + (np.log(levels / _USUAL) / _SPREAD) ** 2 if level is None else cost
     best = int(np.argmin(cost))

@@ -16,6 +16,47 @@ def same(one, other):
     ] == pytest.approx([*other["color"], other["roughness"]], abs=1e-7)
 
 
+def test_dragging_gloss(scene):
+    assert scene["before"]["apart"] < 0.02
+    for place, (name, steps) in enumerate(scene["dragged"].items()):
+        assert len({step["gloss"][place] for step in steps}) > 3, name
+        assert len({tuple(step["color"]) for step in steps}) > 3, name
+        assert all(step["kind"] == "fresh" for step in steps), name
+        assert max(step["apart"] for step in steps) < 0.05, name
+    assert scene["after"]["gloss"] != scene["before"]["gloss"]
+    assert scene["undone"] == scene["before"]
+
+
+def test_choosing_for_a_texture(scene):
+    for way in ("stopped", "whole"):
+        assert scene[f"{way}_modal"] == ["ROUGH_SPECTRA_OT_choose_sample"]
+        assert scene[f"{way}_ran"]
+    assert scene["left"] == [0, 0, None, ""]
+    assert scene["kind"] == "fresh"
+    # The wall shows the dark half alone.
+    assert [0.25 * scale for scale in scene["scale"]] == pytest.approx(scene["plain"], rel=0.01)
+    assert scene["undone"] == [None, ""]
+
+
+def test_reading_at_another_instrument(scene):
+    assert scene["read_at"] not in ("45a:0", "")
+    assert scene["chosen"]["kind"] == "fresh"
+    assert scene["chosen"]["stamp"] != scene["before"]["stamp"]
+    assert scene["measured"] == [pytest.approx(0, abs=0.05), True]
+    read_at, state = scene["undone"]
+    assert read_at == "45a:0"
+    assert same(state, scene["before"])
+
+
+def test_matching_by_measuring(scene):
+    assert scene["stopped_ran"]
+    assert scene["whole_ran"]
+    assert scene["left"] == [0, 0]
+    assert scene["same"] == scene["before"] == scene["undone"]
+    assert scene["after"] != scene["before"]
+    assert scene["measured"] == pytest.approx(0, abs=0.1)
+
+
 def test_dragging_sigma(scene):
     assert len({state["sigma"] for state in scene["dragged"]}) > 4
     assert len({state["roughness"] for state in scene["dragged"]}) > 4

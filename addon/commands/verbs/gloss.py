@@ -118,8 +118,8 @@ def _of_samples(options: argparse.Namespace, gloss: Gloss) -> None:
     add(options, samples=[{"name": name, **_facts(estimate)} for name, estimate in found])
     for name, estimate in found:
         _say(f"{name}: ", estimate)
-    for error in silent:
-        tell(f"warning: {error}")
+    for sentence in map(str, silent):
+        tell(f"warning: {sentence}")
 
 
 def _say(name: str, found: GlossEstimate) -> None:
