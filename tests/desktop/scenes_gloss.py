@@ -78,7 +78,7 @@ def _reads():
 
 
 @scene
-def dragging_gloss(found):
+def dragging_the_sockets(found):
     """Drag specular level and roughness of a Principled BSDF, and undo."""
     yield from empty_file()
     material = bpy.data.materials.new("Paint")

@@ -16,7 +16,7 @@ def same(one, other):
     ] == pytest.approx([*other["color"], other["roughness"]], abs=1e-7)
 
 
-def test_dragging_gloss(scene):
+def test_dragging_the_sockets(scene):
     assert scene["before"]["apart"] < 0.02
     for place, (name, steps) in enumerate(scene["dragged"].items()):
         assert len({step["gloss"][place] for step in steps}) > 3, name
