@@ -52,7 +52,7 @@ BOUNDS = {"gltf": 0.5, "usd": 0.5}
 """ΔE00 at 45°/0° of what the renderer's colors can hold; elsewhere `BOUND`."""
 BOUND = 0.1
 HOW = {
-    "materialx": "its own GLSL, run line by line; validated",
+    "materialx": "formula: its own GLSL, run by numpy; validated",
     "usd": "imported by Blender, Cycles",
     "gltf": "imported by Blender, Cycles",
     "mitsuba": "`BSDF.eval` of the scene",
