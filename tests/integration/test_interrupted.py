@@ -238,14 +238,14 @@ def test_terminal_shows_rate_and_remaining_time_on_one_line(many, start, tmp_pat
     lines = shown.split("\r\x1b[K")
     assert lines[1] == "measuring: starting Blender"
     counts = [
-        re.fullmatch(r"measuring: (\d+) of (\d+)(, [\d.]+/s, \d+ s left)?", line)
+        re.fullmatch(r"measuring: (\d+) of (\d+) materials(, [\d.]+/s, \d+ s left)?", line)
         for line in lines[1:-1]
         if "starting" not in line and line
     ]
     assert counts
     assert all(counts), lines
     assert any(match[3] for match in counts)
-    assert {int(match[2]) for match in counts} == {2}
+    assert {int(match[2]) for match in counts} == {MANY}
     numbers = [int(match[1]) for match in counts]
     assert numbers == sorted(numbers)
     # The line is cleared, and what is left is the result.

@@ -55,14 +55,14 @@ def main() -> int:
 
 
 def make_scene(path: Path, count: int, seed: int) -> None:
-    """Save a file with materials of smooth random spectra."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    """Save a file with materials of smooth random spectra, dull enough for every gamut."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     random = np.random.default_rng(seed)
     bands = np.arange(400.0, 701.0, 10.0, dtype=np.float64)
     knots = np.linspace(400, 700, 5)
     pairs = []
     for number in range(count):
-        values = np.interp(bands, knots, random.uniform(0.05, 0.75, knots.size))
+        values = np.interp(bands, knots, random.uniform(0.3, 0.6, knots.size))
         sample = api.Sample(f"Paint {number}", bands, values, "reading")
         material = bpy.data.materials.new(f"Paint {number:04d}")
         material.use_fake_user = True
