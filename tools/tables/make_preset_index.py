@@ -16,13 +16,14 @@ def main() -> None:
     from rough_spectra.addon.matching import own_gloss
     from rough_spectra.addon.samples import library, preset_index
 
-    found, glosses = [], {}
+    found: list[library.Entry] = []
+    glosses: dict[str, tuple[str, list[float]]] = {}
     for file in library.read_presets():
         found += file.entries
         for entry, sample in zip(file.entries, file.samples, strict=True):
-            readings = own_gloss.readings(sample)
+            readings = None if sample is None else own_gloss.readings(sample)
             gloss = None if readings is None else own_gloss.estimated(*readings)
-            if gloss is not None:
+            if readings is not None and gloss is not None:
                 numbers = [round(number, 6) for number in gloss.numbers()]
                 glosses[entry.id] = (own_gloss.key_of(*readings), numbers)
     text = preset_index.text(tuple(found), glosses)

@@ -248,7 +248,8 @@ def begin(operator: Any, context: Any) -> None:
 
 def begin_scope(operator: Any, context: Any) -> None:
     """Mean all selected objects where there are several, one of which is the active one."""
-    chosen, active = _carriers(context), active_object(context)
+    chosen: list[Any] = _carriers(context)
+    active: Any = active_object(context)
     if len(chosen) > 1 and active in chosen and active.active_material == active_material(context):
         operator.scope = "EACH"
 
@@ -376,6 +377,7 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     """
     if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
         return materials_in_scope(context, scope), []
+    things: list[Any]
     if scope == "ACTIVE":
         things = [thing for thing in (active_object(context),) if can_carry(thing)]
         if not things:
