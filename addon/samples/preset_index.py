@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -58,7 +58,7 @@ def entries() -> tuple[Entry, ...] | None:
         return None  # they are read instead
 
 
-def text(found: tuple[Entry, ...], glosses: dict[str, tuple[str, Sequence[float]]]) -> str:
+def text(found: tuple[Entry, ...], glosses: Mapping[str, tuple[str, Sequence[float]]]) -> str:
     """Return the file's content for the entries of all presets, a preset a line.
 
     Parameters

@@ -20,6 +20,7 @@ def main() -> None:
     """Compute and write the weights."""
     load_extension()
     from rough_spectra.addon.colorimetry import astm_e308 as e308
+    from rough_spectra.addon.colorimetry import cie_tables
     from rough_spectra.addon.support.colour_science import colour
 
     science = colour()
@@ -41,9 +42,9 @@ def main() -> None:
             np.concatenate(
                 [weights(e308.whole(step), light, observer) for step in e308.TABLED_STEPS]
             )
-            for light in e308.ILLUMINANTS
+            for light in cie_tables.ILLUMINANTS
         ]
-        for observer in e308.OBSERVERS
+        for observer in cie_tables.OBSERVERS
     ]
     np.save(e308.FILE, np.array(rows), allow_pickle=False)
     print(f"{e308.FILE}: {e308.FILE.stat().st_size} bytes")

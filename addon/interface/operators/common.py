@@ -414,8 +414,9 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     """
     if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
         return materials_in_scope(context, scope), []
+    things: list[Any]
     if scope == "ACTIVE":
-        active: Any = active_object(context)
+        active = active_object(context)
         things = [active] if can_carry(active) else []
         if not things:
             msg = "There is no object that can carry a material; select a mesh first."

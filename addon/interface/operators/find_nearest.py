@@ -157,9 +157,9 @@ def _apart(operator: Any, material: Any, match: Sample) -> str:
     sample = _spectrum(operator, material)
     if sample is None:
         return ""
-    requests = [common.new_request(each, _own_sigma(each)) for each in (sample, match)]
+    one, other = (common.new_request(each, _own_sigma(each)) for each in (sample, match))
     reference, *others = _lights(material)
-    found = metamerism.compare(*requests, others[:_MOST_LIGHTS], reference)
+    found = metamerism.compare(one, other, others[:_MOST_LIGHTS], reference)
     told = ", ".join(f"{each.light} {each.index:.1f}" for each in found[1:])
     return rpt_("{told}, if alike in {light}").format(told=told, light=found[0].light)
 
@@ -194,6 +194,8 @@ def _lights(material: Any) -> list[Any]:
 
 def color_of(material: Any) -> tuple[float, float, float] | None:
     """Give the color of a material as encoded sRGB; None where it has not one."""
+    import numpy as np
+
     from ...blender import shader_nodes, working_space
     from ...colorimetry import srgb, tristimulus
     from ...material import snapshot, storage
@@ -209,7 +211,7 @@ def color_of(material: Any) -> tuple[float, float, float] | None:
     node = shader_nodes.shader_node(material)
     if node is None or shader_nodes.color_socket(node).is_linked:
         return None
-    linear = tuple(shader_nodes.color_socket(node).default_value)[:3]
+    linear = np.array(shader_nodes.color_socket(node).default_value)[:3]
     xyz = working_space.current().to_xyz(linear, "D65")
     encoded = srgb.encode(srgb.from_xyz(tristimulus.white("D65", 2)) @ xyz)
     red, green, blue = (min(max(value, 0.0), 1.0) for value in encoded.tolist())
