@@ -36,7 +36,8 @@ def pytest_collection_modifyitems(items):
 def session(tmp_path_factory):
     """What was found in each scene, and everything that Blender printed."""
     folder = tmp_path_factory.mktemp("desktop")
-    (folder / "tmp").mkdir()
+    for name in ("tmp", "user"):  # of one that is not there, Blender takes preferences elsewhere
+        (folder / name).mkdir()
     build = [sys.executable, str(ROOT / "dev.py"), "build"]
     subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
     [package] = (ROOT / "build").glob("rough_spectra-*.zip")
