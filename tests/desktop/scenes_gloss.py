@@ -42,10 +42,13 @@ def _slider(where, node, name):
     for y in range(where.y + where.height - 4, where.y, -8):
         yield from move(x, y)
         with over(where):
-            held = getattr(bpy.context, "property", None)
-        seen.add(held and held[1])
-        owner = held and held[0].path_resolve(held[1].rpartition(".")[0] or held[1])
-        if getattr(owner, "name", "") == name:
+            copy = bpy.ops.ui.copy_data_path_button
+            if not copy.poll() or copy(full_path=True) != {"FINISHED"}:
+                continue
+        found = bpy.context.window_manager.clipboard
+        seen.add(found)
+        number = node.inputs.find(name)
+        if found.endswith((f"inputs[{number}].default_value", f'inputs["{name}"].default_value')):
             yield from move(x, y - 4)
             return x, y - 4
     msg = f"{node.name}: {name} is not in the {where.type} editor, but {seen} are"
