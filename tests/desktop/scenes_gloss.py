@@ -20,19 +20,10 @@ def _node(name="ShaderNodeBsdfPrincipled"):
     return next(node for node in tree.nodes if node.bl_idname == name)
 
 
-class SCENES_PT_gloss(bpy.types.Panel):
-    """The sliders of the gloss, which Blender keeps in a panel that is folded."""
-
-    bl_label = "Gloss"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "material"
-    bl_order = -1
-
-    def draw(self, _context):
-        """Draw them."""
-        for name in GLOSSY:
-            self.layout.prop(_node().inputs[name], "default_value", text=name, slider=True)
+def _draw_sliders(self, _context):
+    """Draw the sliders of the gloss, which Blender keeps in a panel that is folded."""
+    for name in GLOSSY:
+        self.layout.prop(_node().inputs[name], "default_value", text=name, slider=True)
 
 
 def _slider(where, node, name):
@@ -92,7 +83,8 @@ def dragging_gloss(found):
     undo_step("Green")
     yield 0.5
     found["before"] = _reads()
-    bpy.utils.register_class(SCENES_PT_gloss)
+    ours_of = bpy.types.ROUGHSPECTRA_PT_material
+    ours_of.prepend(_draw_sliders)
     panel.tag_redraw()
     yield 0.5
     found["dragged"] = {}
@@ -104,7 +96,7 @@ def dragging_gloss(found):
     yield from press("Z", ctrl=True)
     yield 0.5
     found["undone"] = _reads()
-    bpy.utils.unregister_class(SCENES_PT_gloss)
+    ours_of.remove(_draw_sliders)
 
 
 def _textured():
