@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .request import Request
     from .solution import Solution
 
-TOLERANCE = 0.3
+MISSED = 0.3
 """ΔE00 from which on a reading is said to be missed."""
 
 
@@ -41,7 +41,7 @@ def missed(request: Request, solution: Solution, space: WorkingSpace) -> str:
             space.to_lab(rgb, request.illuminant) for rgb in (seen, other.reflectance @ weights)
         )
         apart = float(color_difference.delta_e(*labs))
-        if apart > TOLERANCE:
+        if apart > MISSED:
             told.append((apart, sets.label(other)))
     if not told:
         return ""

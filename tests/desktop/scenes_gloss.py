@@ -20,19 +20,10 @@ def _node(name="ShaderNodeBsdfPrincipled"):
     return next(node for node in tree.nodes if node.bl_idname == name)
 
 
-class SCENES_PT_gloss(bpy.types.Panel):
-    """The sliders of the gloss, which Blender keeps in a panel that is folded."""
-
-    bl_label = "Gloss"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "material"
-    bl_order = -1
-
-    def draw(self, _context):
-        """Draw them."""
-        for name in GLOSSY:
-            self.layout.prop(_node().inputs[name], "default_value", text=name, slider=True)
+def _draw_sliders(self, _context):
+    """Draw the sliders of the gloss, which Blender keeps in a panel that is folded."""
+    for name in GLOSSY:
+        self.layout.prop(_node().inputs[name], "default_value", text=name, slider=True)
 
 
 def _slider(where, node, name):
@@ -42,10 +33,13 @@ def _slider(where, node, name):
     for y in range(where.y + where.height - 4, where.y, -8):
         yield from move(x, y)
         with over(where):
-            held = getattr(bpy.context, "property", None)
-        seen.add(held and held[1])
-        owner = held and held[0].path_resolve(held[1].rpartition(".")[0] or held[1])
-        if getattr(owner, "name", "") == name:
+            copy = bpy.ops.ui.copy_data_path_button
+            if not copy.poll() or copy(full_path=True) != {"FINISHED"}:
+                continue
+        found = bpy.context.window_manager.clipboard
+        seen.add(found)
+        number = node.inputs.find(name)
+        if found.endswith((f"inputs[{number}].default_value", f'inputs["{name}"].default_value')):
             yield from move(x, y - 4)
             return x, y - 4
     msg = f"{node.name}: {name} is not in the {where.type} editor, but {seen} are"
@@ -89,7 +83,8 @@ def dragging_the_sockets(found):
     undo_step("Green")
     yield 0.5
     found["before"] = _reads()
-    bpy.utils.register_class(SCENES_PT_gloss)
+    ours_of = bpy.types.ROUGHSPECTRA_PT_material
+    ours_of.prepend(_draw_sliders)
     panel.tag_redraw()
     yield 0.5
     found["dragged"] = {}
@@ -101,7 +96,7 @@ def dragging_the_sockets(found):
     yield from press("Z", ctrl=True)
     yield 0.5
     found["undone"] = _reads()
-    bpy.utils.unregister_class(SCENES_PT_gloss)
+    ours_of.remove(_draw_sliders)
 
 
 def _textured():
