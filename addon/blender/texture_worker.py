@@ -36,10 +36,10 @@ def main(job_path: Path, measuring: Any) -> None:
         glow(material.node_tree, material.node_tree.nodes[node].inputs[socket])
         if maps:
             places = np.load(folder / f"places-{number}.npy")
-            side, shifts = job["side"], SHIFTS[:1]
+            side, shifts = job["side"], [SHIFTS[0]]
             mesh = lay_tiles(measuring, side, maps, places)
         else:
-            side, shifts = SIDE, SHIFTS
+            side, shifts = SIDE, list(SHIFTS)
             mesh = measuring.square()
         scene = build(measuring, mesh, material, side)
         seen = []

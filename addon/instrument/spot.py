@@ -10,6 +10,7 @@ render, the second Blender tells, which sees it (`spot_worker`).
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -337,6 +338,8 @@ def _spot(
 
 
 def key(block: Any) -> Key:
-    """Tell a datablock from all others."""
-    library = None if block.library is None else bpy.path.abspath(block.library.filepath)
-    return block.name, library
+    """Tell a datablock from all others, in the second Blender, too."""
+    if block.library is None:
+        return block.name, None
+    # That one's path has no "..": Blender writes it so.
+    return block.name, os.path.normpath(bpy.path.abspath(block.library.filepath))

@@ -19,6 +19,7 @@ instrument's light is taken off.
 import importlib.util
 import json
 import math
+import os
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -149,7 +150,9 @@ def main(job_path: Path) -> None:
 def find(blocks: Any, name: str, library: str | None) -> Any:
     """Give an object or a material by name and the path of the library it is linked from."""
     for thing in blocks:
-        linked = None if thing.library is None else bpy.path.abspath(thing.library.filepath)
+        linked = None
+        if thing.library is not None:
+            linked = os.path.normpath(bpy.path.abspath(thing.library.filepath))
         if (thing.name, linked) == (name, library):
             return thing
     raise shared.LibraryError(f"there is no {name!r} any more")

@@ -59,7 +59,7 @@ class _Header(NamedTuple):
     points: int
     first: float
     last: float
-    count: int
+    spectra: int
     along: int
     quantity: int
 
@@ -76,7 +76,7 @@ def sniff(document: Document) -> bool:
     header = _header(data)
     # With abscissas of their own the number of points is the place of a directory.
     fits = 2 * header.points <= len(data) or bool(header.flags & _OWN_ABSCISSAS)
-    return header.count > 0 and header.along < 32 and fits
+    return header.spectra > 0 and header.along < 32 and fits
 
 
 def read(document: Document) -> list[Sample]:
@@ -100,7 +100,7 @@ def read(document: Document) -> list[Sample]:
     instrument, assumed = geometry_words.instrument_of("")
     samples = []
     for number, (along, values) in enumerate(_spectra(document, header), start=1):
-        place = f"spectrum {number}" if header.count > 1 else ""
+        place = f"spectrum {number}" if header.spectra > 1 else ""
         where = f"{document.path}, {place}" if place else str(document.path)
         nm = _nanometers(document, header, along)
         scale, notes = _scale(values, is_percent)
@@ -109,7 +109,7 @@ def read(document: Document) -> list[Sample]:
         found = series.bands(nm, values / scale, where, lambda band: f"point {band + 1}")
         samples.append(
             Sample(
-                name=document.path.stem + (f" {number}" if header.count > 1 else ""),
+                name=document.path.stem + (f" {number}" if header.spectra > 1 else ""),
                 wavelengths=found.wavelengths,
                 values=found.values,
                 kind="reading",
@@ -193,7 +193,7 @@ def _spectra(
             place += 4 * header.points
         else:
             common = np.linspace(header.first, header.last, header.points)
-    for _ in range(header.count):
+    for _ in range(header.spectra):
         if place + _SUBHEADER > len(document.data):
             raise _truncated(document)
         power, points = document.data[place + 1], header.points
