@@ -46,8 +46,9 @@ def read(path: str | os.PathLike[str]) -> Filter:
     block = tables.numbers(document, table, _COLUMNS, (0, 1), decimal_comma=delimiter != ",")
     if not block.lines:
         raise document.error("", "no rows of numbers follow; export the table with its values")
-    order, _ = band_order.in_order(block.values[:, 0])
-    nm = scale.nanometers(document, said, block.values[order, 0], [label])
+    nm = scale.nanometers(document, said, block.values[:, 0], [label], is_seen=False)
+    order, _ = band_order.in_order(nm)
+    nm = nm[order]
     if nm.max() < SHORTEST_NM:
         raise document.error(
             f"line {block.lines[0]}",

@@ -15,12 +15,17 @@ _LONGEST_SEEN = 3000.0
 
 
 def nanometers(
-    document: Document, said: label_words.Comments, found: NDArray[np.float64], labels: list[str]
+    document: Document,
+    said: label_words.Comments,
+    found: NDArray[np.float64],
+    labels: list[str],
+    is_seen: bool = True,
 ) -> NDArray[np.float64]:
     """Return the wavelengths in nm, by the unit that a column name or a comment states.
 
     Wavenumbers, frequencies and photon energies become wavelengths. Where nothing states a unit
-    they are nanometers, unless no number could be one of light that is seen.
+    they are nanometers, unless no number could be one of light that is seen and `is_seen` says that
+    it should be.
 
     Raises
     ------
@@ -40,7 +45,7 @@ def nanometers(
         )
     if units:
         return label_words.to_nanometers(found, units.pop())
-    if found.size and (found > _LONGEST_SEEN).all() and (found < np.inf).all():
+    if is_seen and found.size and (found > _LONGEST_SEEN).all() and (found < np.inf).all():
         raise document.error(
             "wavelength unit",
             f"the wavelengths, {found.min():g} to {found.max():g}, have no unit and are not "

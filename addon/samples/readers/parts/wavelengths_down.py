@@ -89,7 +89,8 @@ def read(
     if said.kind != "emissivity":
         _refuse_others(document, [header[i] for i in columns])
     block = tables.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
-    nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]])
+    seen = said.kind != "emissivity" and not emitting
+    nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]], seen)
     values = block.values[:, 1:].T
     if len(columns) == 3 and shapes.are_of_the_eye(nm, values):
         raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
