@@ -5,6 +5,7 @@
 import math
 import re
 import types
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -12,7 +13,8 @@ import pytest
 from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.addon.interface.operators import common
 from rough_spectra.addon.interface.panels import panels, renewal, sentences, simple, text
-from rough_spectra.addon.material import snapshot, state, storage, verdict
+from rough_spectra.addon.matching.request import Request
+from rough_spectra.addon.material import derive, snapshot, state, storage, verdict
 from rough_spectra.addon.preview import balls, icons, theme
 
 from tests.integration.support import rgb_material
@@ -418,10 +420,12 @@ def test_what_limits_and_the_verdict_do_not_contradict_each_other():
     assert theme.current(bpy.context.preferences).scale == 1
 
 
-@pytest.mark.parametrize("preset", ["concrete", "sand", "chalk"])
-def test_presets_carry_no_warnings_that_read_like_faults(preset):
-    """What their readers left out is told with the source."""
-    material = wall(f"everyday/{preset}", 20)
+def test_what_readers_say_does_not_read_like_a_fault():
+    """What they left out of a file is told with the source."""
+    material = wall()
+    left_out = "2 bands without a value were left out: 400, 410 nm."
+    sample = replace(storage.load(material).sample, altered=(left_out,))
+    derive.assign([(material, Request(sample, math.radians(20)))])
     found = state.state(material).stamp
     assert found.warnings
     last = storage.load(material)
