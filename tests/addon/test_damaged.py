@@ -60,8 +60,6 @@ def damage(material, name, value):
 @pytest.fixture
 def materials(make_material):
     found = [make_material(f"M{i}") for i in range(3)]
-    for material in found:
-        material.use_fake_user = True  # what nothing uses is left as it is
     derive.assign([(m, Request(presets.load("14"), 0.35, model="two-bounce")) for m in found])
     return found
 

@@ -123,7 +123,7 @@ def lived_in(make_material, colorchecker, request_for, tmp_path):
     texture = tree.nodes.new("ShaderNodeTexImage")
     texture.image = image
     tree.links.new(texture.outputs[0], tree.nodes["Diffuse BSDF"].inputs["Color"])
-    make_material("Unused and unsaved by users")
+    make_material("Unused and unsaved by users").use_fake_user = False
     kept = make_material("Kept")
     kept.use_fake_user, kept.tag = True, True
     scene = bpy.context.scene

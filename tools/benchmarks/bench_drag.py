@@ -7,14 +7,15 @@
 Needs the bpy module and git. Each version runs in a Blender of its own, and both take a step in
 turn, so that neither has the better minutes of a shared server: what counts is the ratio of the
 medians, and that of the times of each pair of steps. A step is what Blender calls when the slider
-moves: deriving, the sockets, and the pictures of the panel, which are made visible before.
-Processor time.
+moves: deriving, the sockets, and the pictures of the panel, which are made visible before. Earlier
+versions always showed plots and swatches; now they are in Details, closed at first: ``--closed``
+compares what is seen then. Processor time.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib
+import importlib.util
 import itertools
 import json
 import os
@@ -30,6 +31,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 WARM_UP = 10
 FIGURES = (("sheet", 280), ("swatches", 96))
+BALL = (("ball", 88),)
+"""What is always seen, in versions that have it; the former are those of Details, or of all."""
 MODELS = ("auto", "two-bounce", "reference")
 CASES = tuple(itertools.product(MODELS, (False, True), (1, 2)))
 """Model, whether two lights of the scene light it, and scale of the interface."""
@@ -40,16 +43,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("commit", help="of the version to compare with; or a folder that has it")
     parser.add_argument("--steps", type=int, default=150, help="for each row of the table")
+    parser.add_argument("--closed", action="store_true", help="now, Details is closed")
     parser.add_argument("--as-worker", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.as_worker is not None:
         work(options.as_worker)
     elif Path(options.commit).is_dir():
-        compare(Path(options.commit).resolve(), options.steps)
+        compare(Path(options.commit).resolve(), options.steps, options.closed)
     else:
         with tempfile.TemporaryDirectory() as folder:
             unpack(options.commit, folder)
-            compare(Path(folder), options.steps)
+            compare(Path(folder), options.steps, options.closed)
 
 
 def unpack(commit: str, folder: str) -> None:
@@ -61,7 +65,7 @@ def unpack(commit: str, folder: str) -> None:
     subprocess.run(["tar", "-x", "-C", folder], input=archive.stdout, check=True)
 
 
-def compare(other: Path, steps: int) -> None:
+def compare(other: Path, steps: int, closed: bool) -> None:
     """Let both versions take steps in turn."""
     if hasattr(os, "sched_setaffinity"):  # one core for both: the others may be slower just now
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
@@ -71,7 +75,7 @@ def compare(other: Path, steps: int) -> None:
         ratios = []
         for case in CASES:
             for worker in (before, now):
-                ask(worker, {"case": case})
+                ask(worker, {"case": case, "closed": closed and worker is now})
             pairs = []
             for number in range(WARM_UP + steps):
                 sigma = 0.1 + 0.9 * number / (WARM_UP + steps)
@@ -133,7 +137,7 @@ def work(root: Path) -> None:
         if "case" in request:
             model, scene, scale = request["case"]
             set_up(material, model, scene)
-            step = stepping(material, scale)
+            step = stepping(material, scale, request["closed"])
             request["sigma"] = 0.09
         begin = time.process_time()
         step(request["sigma"])
@@ -154,7 +158,7 @@ def set_up(material: Any, model: str, scene: bool) -> None:
         group.use_scene = bool(scene)
 
 
-def stepping(material: Any, scale: int) -> Callable[[float], None]:
+def stepping(material: Any, scale: int, closed: bool) -> Callable[[float], None]:
     """Make the panel's pictures visible, and give what a step of the slider does."""
     import bpy
 
@@ -165,11 +169,13 @@ def stepping(material: Any, scale: int) -> Callable[[float], None]:
     except ModuleNotFoundError:
         snapshot = importlib.import_module("rough_spectra.addon.facts")
     icons.clear()
+    has_ball = importlib.util.find_spec("rough_spectra.addon.preview.balls") is not None
+    figures = (BALL if has_ball else ()) + (() if closed else FIGURES)
 
     def draw() -> None:
         """Ask for the pictures, as drawing does."""
         basis = (snapshot.of(material), theme.current(bpy.context.preferences))
-        for figure, side in FIGURES:
+        for figure, side in figures:
             icons.icon_id(material.session_uid, figure, side * scale, basis)
 
     draw()
