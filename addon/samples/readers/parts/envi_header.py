@@ -18,14 +18,32 @@ TYPES = {1: "u1", 2: "i2", 3: "i4", 4: "f4", 5: "f8", 12: "u2", 13: "u4"}
 
 _UNITS = {"nanometers": 1.0, "nanometer": 1.0, "nm": 1.0, "micrometers": 1e3, "micrometer": 1e3,
           "micron": 1e3, "microns": 1e3, "um": 1e3, "µm": 1e3, "angstroms": 0.1}  # fmt: skip
-_ENTRY = re.compile(r"^\s*([A-Za-z][^={}\n]*?)\s*=\s*(\{[^}]*\}|[^\n]*)", re.MULTILINE)
+_KEYS = 100
+"""Characters of a word of the header, at most."""
 _NANOMETERS = (200.0, 20_000.0)
 _MICROMETERS = (0.2, 20.0)
 
 
 def entries(text: str) -> dict[str, str]:
     """Give what the header says, by its words in small letters; lists with their braces."""
-    return {key.lower(): value.strip() for key, value in _ENTRY.findall(text)}
+    found: dict[str, str] = {}
+    listed, parts = "", [""]
+    for line in text.split("\n"):
+        if listed:
+            parts.append(line)
+        else:
+            key, equals, value = line.partition("=")
+            key = key.strip().lower()
+            if not equals or not key or len(key) > _KEYS:
+                continue
+            found[key] = value.strip()
+            if not value.lstrip().startswith("{"):
+                continue
+            listed, parts = key, [value.strip()]
+        if "}" in line:
+            whole = "\n".join(parts)
+            found[listed], listed = whole[: whole.index("}") + 1], ""
+    return found
 
 
 def words(listed: str) -> list[str]:
