@@ -100,7 +100,7 @@ def _browser():
 def other_files(found):
     """Save and reload, append, link, override, and make local, with the panel in sight."""
     yield from green_file()
-    before = state()
+    before, name_of_it = state(), wall().name
     path = str(Path(bpy.app.tempdir) / "wall.blend")
     for name, act in (
         ("saved", lambda: bpy.ops.wm.save_as_mainfile(filepath=path)),
@@ -111,9 +111,9 @@ def other_files(found):
         yield 1.0
         found[name] = state() == before
     for name, link in (("appended", False), ("linked", True)):
-        yield from _bring(path, link)
+        yield from _bring(path, name_of_it, link)
         found[name] = state()["kind"]
-    yield from _bring(path, link=True)
+    yield from _bring(path, name_of_it, link=True)
     override = wall().override_create(remap_local_usages=True)
     bpy.data.objects["Wall"].active_material = override
     yield 1.0
@@ -121,7 +121,7 @@ def other_files(found):
     override.rough_spectra.sigma = 0.2
     yield 0.5
     found["override"] = state()["color"] == before["color"]
-    yield from _bring(path, link=True)
+    yield from _bring(path, name_of_it, link=True)
     with over(area("PROPERTIES")):
         bpy.data.objects["Wall"].select_set(True)
         bpy.ops.object.make_local(type="SELECT_OBDATA_MATERIAL")
@@ -129,9 +129,9 @@ def other_files(found):
     found["local"] = [wall().library is None, state()["kind"]]
 
 
-def _bring(path, link):
+def _bring(path, material, link):
     yield from empty_file()
     with bpy.data.libraries.load(path, link=link) as (_, wanted):
-        wanted.materials = ["Wall"]
+        wanted.materials = [material]
     bpy.data.objects["Wall"].data.materials.append(wanted.materials[0])
     yield 1.0
