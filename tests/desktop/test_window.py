@@ -98,8 +98,8 @@ def test_finding_by_color(scene):
 
 
 BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
-TOLD = (" σ 20°: ",)
-"""What a user is told of the samples in a library that a scene builds."""
+TOLD = (" σ 20°: ", "The texture is scaled so that its mean")
+"""What a user is told of the samples in a library that a scene builds, and of a texture."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
 
 
