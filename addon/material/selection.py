@@ -22,11 +22,7 @@ def by_name(name: str) -> Any:
     MaterialError
         If there is none.
     """
-    material = bpy.data.materials.get((name, None)) or bpy.data.materials.get(name)
-    if material is None:
-        msg = f"There is no material {name!r} in {_file()}; check the name."
-        raise MaterialError(msg)
-    return material
+    return _found(bpy.data.materials, "material", name)
 
 
 def is_pattern(name: str) -> bool:
@@ -80,11 +76,7 @@ def object_by_name(name: str) -> Any:
     MaterialError
         If there is none.
     """
-    thing = bpy.data.objects.get((name, None)) or bpy.data.objects.get(name)
-    if thing is None:
-        msg = f"There is no object {name!r} in {_file()}; check the name."
-        raise MaterialError(msg)
-    return thing
+    return _found(bpy.data.objects, "object", name)
 
 
 def every() -> dict[str, Any]:
@@ -148,6 +140,14 @@ def surfaces(materials: Sequence[str], objects: Sequence[str]) -> list[tuple[str
         msg = f"No material of {_file()} has a measured spectrum; assign one first."
         raise InputError(msg)
     return found
+
+
+def _found(blocks: Any, kind: str, name: str) -> Any:
+    block = blocks.get((name, None)) or blocks.get(name)
+    if block is None:
+        msg = f"There is no {kind} {name!r} in {_file()}; check the name."
+        raise MaterialError(msg)
+    return block
 
 
 def _file() -> str:

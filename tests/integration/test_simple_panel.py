@@ -489,3 +489,20 @@ def test_counts_leave_out_materials_that_nobody_uses_any_more():
     assert OPS.renew(scope="ALL_STALE", overwrite_edits=True) == {"FINISHED"}
     assert state.state(gone).kind == "stale"
     assert state.state(bpy.data.materials["Wall"]).kind == "fresh"
+
+
+def test_what_cannot_be_written_is_refused_by_every_operator_alike(tmp_path):
+    """A library override is no more ours to write than what is linked: Blender resets its nodes."""
+    wall().name = "Theirs"
+    path = tmp_path / "theirs.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.materials = ["Theirs"]
+    [linked] = wanted.materials
+    mesh_object("Wall", linked)
+    for material in (linked, linked.override_create()):
+        bpy.data.objects["Wall"].active_material = material
+        assert not OPS.keep.poll()
+        assert not OPS.set_roughness.poll()
+        assert OPS.make_local.poll()

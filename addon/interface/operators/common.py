@@ -462,8 +462,10 @@ def has_materials(operator: Any) -> bool:
 
 
 def is_local(operator: Any, material: Any) -> bool:
-    """Poll for operators that write to a material."""
-    if material.is_editable:
+    """Poll for operators that write to a material: neither linked nor an override."""
+    from ...material import snapshot
+
+    if not snapshot.elsewhere(material):
         return True
     operator.poll_message_set("The material is linked; make it local first")
     return False

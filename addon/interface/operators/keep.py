@@ -24,16 +24,11 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material that is not up to date."""
-        from ...material import snapshot, state
+        from ...material import state
 
-        material = common.active_material(context)
-        if material is None or not snapshot.has_spectrum(material):
-            cls.poll_message_set("The material has no measured spectrum; assign one first")
+        if not common.has_own_spectrum(cls, context):
             return False
-        known = state.state(material)
-        if known.kind == "linked":
-            cls.poll_message_set("The material is linked; make it local first")
-            return False
+        known = state.state(common.active_material(context))
         if known.kind in {"fresh", "kept"} or known.stamp is None:
             cls.poll_message_set("There is nothing to keep: the material is up to date")
             return False
