@@ -182,7 +182,7 @@ def _end(children: Sequence[_Child]) -> None:
 
 
 def _abort(process: subprocess.Popen[bytes]) -> None:
-    """End a child that hangs; Python whose fault handler is on, as in pytest, tells where it was."""
+    """End a child that hangs; Python with a fault handler, as in pytest, tells where it was."""
     process.send_signal(signal.SIGTERM if sys.platform == "win32" else signal.SIGABRT)
     try:
         process.wait(LAST)
