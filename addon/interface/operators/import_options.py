@@ -133,15 +133,23 @@ def _colored(operator: Any, chosen: Sequence[Found]) -> list[Found]:
 
 def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
-    from ...material import derive
+    from ...matching import own_gloss
+    from ...material import derive, storage
 
     requests = [common.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
-    materials = [shader_nodes.new_material(each.sample.name) for each in chosen]
+    glosses = [own_gloss.of_sample(each.sample) for each in chosen]
+    materials = [
+        shader_nodes.new_material(each.sample.name, gloss is not None)
+        for each, gloss in zip(chosen, glosses, strict=True)
+    ]
+    pairs = list(zip(materials, requests, strict=True))
     try:
-        solutions = derive.assign(list(zip(materials, requests, strict=True)), operator.shader)
+        solutions = derive.assign(pairs, operator.shader, glosses=glosses)
     except RoughSpectraError:
         bpy.data.batch_remove(materials)
         raise
-    for material in materials:
+    for material, gloss in zip(materials, glosses, strict=True):
+        if gloss is not None:
+            storage.note_own_gloss(material, storage.shown_gloss(material))
         material.use_fake_user = True  # nothing uses it yet, and it is to be saved
     return list(zip(materials, solutions, strict=True))
