@@ -21,7 +21,7 @@ from ..blender import colors, shader_nodes, working_space
 from ..matching import color_search, solve
 from ..matching.color_search import MEASUREMENTS, Found
 from ..material import last_measurement, measured_match
-from . import arrangement
+from . import arrangement, unseen
 from .measure import SAMPLES, Measurement
 
 if TYPE_CHECKING:
@@ -224,7 +224,8 @@ def finish(adjustment: Adjustment) -> Adjusted:
     sentence = told(adjustment, material.name)
     if not found.has_say:
         raise MaterialError(sentence)
-    measured_match.write(material, adjustment.request, adjustment.place, found)
+    unlike = unseen.on_flat_samples(material)
+    measured_match.write(material, adjustment.request, adjustment.place, found, unlike)
     return Adjusted(
         found.color,
         found.reading,
@@ -232,7 +233,7 @@ def finish(adjustment: Adjustment) -> Adjusted:
         found.difference,
         found.is_met,
         found.measurements,
-        sentence,
+        "; ".join((sentence.removesuffix("."), *unlike)) if unlike else sentence,
     )
 
 

@@ -28,10 +28,11 @@ def test_dragging_the_sockets(scene):
 
 
 def test_choosing_for_a_texture(scene):
-    for way in ("stopped", "whole"):
-        assert scene[f"{way}_modal"] == ["ROUGH_SPECTRA_OT_choose_sample"]
+    for way, name in (("stopped", "import_samples"), ("whole", "choose_sample")):
+        assert scene[f"{way}_modal"] == [f"ROUGH_SPECTRA_OT_{name}"]
         assert scene[f"{way}_ran"]
     assert scene["left"] == [0, 0, None, ""]
+    assert not scene["imported"]
     assert scene["kind"] == "fresh"
     # The wall shows the dark half alone.
     assert [0.25 * scale for scale in scene["scale"]] == pytest.approx(scene["plain"], rel=0.01)

@@ -217,6 +217,29 @@ def test_the_dialog_writes_sigma_with_its_source(sanded, measured):
     assert state.state(sanded).kind == "fresh"
 
 
+def test_a_texture_is_scaled_anew_without_looking_again(sanded, measured, monkeypatch):
+    """Its colors are known, and the window stood still while a second Blender looked."""
+    from rough_spectra.addon import api
+    from rough_spectra.addon.blender import texture_colors, texture_scale
+
+    looks = []
+
+    def seen(sockets):
+        looks.append(len(sockets))
+        return [np.random.default_rng(1).uniform(0.2, 0.5, (100, 3)) for _ in sockets]
+
+    monkeypatch.setattr(texture_colors, "seen", seen)
+    tree = sanded.node_tree
+    node = next(n for n in tree.nodes if n.type == "BSDF_DIFFUSE")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], node.inputs["Color"])
+    api.renew([sanded])
+    before = texture_scale.factors(texture_scale.node_of(node.inputs["Color"]))
+    words = {"source": "FILE", "filepath": str(measured), "name_in_file": "Paper"}
+    assert OPS.estimate_sigma("EXEC_DEFAULT", **words) == {"FINISHED"}
+    assert looks == [1]
+    assert list(texture_scale.factors(texture_scale.node_of(node.inputs["Color"]))) != list(before)
+
+
 def test_an_albedo_is_the_smooth_reading(measured):
     thing = mesh_object("Card", rgb_material("Card"))
     words = {"filepath": str(measured), "kind": "albedo"}

@@ -163,6 +163,7 @@ def measurement(
         told.append((_difference(iface_("95 % of the spot below"), found.spread), "BLANK1"))
     if not found.current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
+    told += [(f"{sentence[:1].upper()}{sentence[1:]}", "ERROR") for sentence in found.unlike]
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 
