@@ -36,7 +36,7 @@ NO_CACHES = {
     ("addon/material/derivation.py", "_known"),
     # On the list as one, because Blender holds the pictures.
     ("addon/preview/icons.py", "_pictures"),
-    ("addon/preview/icons.py", "_swatches"),
+    ("addon/preview/list_icons.py", "_balls"),
     ("addon/preview/balls.py", "_rows"),
     ("addon/preview/icons.py", "_differences"),
     ("core/numerics/memoized.py", "_caches"),

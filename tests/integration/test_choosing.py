@@ -234,3 +234,19 @@ def test_gloss_that_the_user_gave_a_material_before_stays():
     before = storage.shown_gloss(wall)
     choose("everyday/tarp-blue")
     assert storage.shown_gloss(wall) == before
+
+
+def test_a_sample_that_is_matte_takes_the_gloss_of_a_new_node_away_and_no_other():
+    from rough_spectra.addon.material import storage
+
+    bpy.ops.wm.read_factory_settings()
+    cube = bpy.data.objects["Cube"].active_material
+    assert storage.shown_gloss(cube) is not None
+    choose(GREEN)  # which says nothing of its gloss
+    assert storage.shown_gloss(cube) is not None
+    choose(BRICK)
+    assert storage.shown_gloss(cube) is None
+    cube.rough_spectra.gloss = 0.3
+    before = storage.shown_gloss(cube)
+    choose("everyday/concrete")
+    assert storage.shown_gloss(cube) == before

@@ -387,19 +387,20 @@ def _assign(
 def _glosses(materials: Sequence[Any], sample: Sample) -> list[Gloss | None]:
     """Give the gloss that each material gets with a sample, or None: it stays as it is.
 
-    That of the sample, unless the user set one. One that an earlier sample brought goes with it.
+    That of the sample, unless the user set one. What a new node has goes where the sample says that
+    it is matte, and what an earlier sample brought goes with that.
     """
     from ....core.gloss import Gloss
     from ...matching import own_gloss
     from ...material import storage
 
-    own = own_gloss.of_sample(sample)
+    own, is_stated = own_gloss.of_sample(sample), own_gloss.is_stated(sample)
     matte = Gloss(level=0.0)
     found: list[Gloss | None] = []
     for material in materials:
         if storage.is_gloss_set(material):
             found.append(None)
-        elif own is None and storage.own_gloss(material) is not None:
+        elif own is None and (is_stated or storage.own_gloss(material) is not None):
             found.append(matte)
         else:
             found.append(own)
