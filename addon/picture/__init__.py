@@ -7,6 +7,7 @@ light_spectra  what a lamp sends, where that is known
 passes         the renders: which bands, and what each color is in them
 worker         the script of the second Blender, which sets colors and renders
 render         asks for it, and puts the renders together
+spectra        the spectrum of each pixel
 picture        the picture that comes of it, beside the ordinary one
 files          the picture as a file and as Blender's image
 """

@@ -28,7 +28,7 @@ from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
-from . import colors, light_spectra, passes
+from . import colors, light_spectra, passes, spectra
 from .colors import Colors
 from .passes import Lamps, Pass
 from .picture import SpectralPicture, compare
@@ -167,7 +167,7 @@ class Rendering(Job):
             If the second Blender failed.
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
-        alpha, xyz = _together(self, self._passes)
+        alpha, xyz, channels = _together(self, self._passes)
         adapted = xyz @ _to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
@@ -188,6 +188,14 @@ class Rendering(Job):
             {name: tuple(rules) for name, rules in self._found.told.items()},
             {name: tuple(left) for name, left in self._found.untranslated.items()},
             tuple(seconds),
+            spectra.of(
+                channels,
+                passes.surfaces_of(self._found, self._space),
+                self._lamps,
+                self._passes,
+                self._chosen.wavelengths,
+                self._wanted.observer,
+            ),
         )
 
 
@@ -252,19 +260,15 @@ def _choose(found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted) ->
     )
 
 
-def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array]:
-    """Alpha (rows, columns, 1) and XYZ (rows, columns, 3) of all renders, one in memory a time."""
-    alpha = xyz = None
-    for number, each in enumerate(renders):
-        pixels = np.load(job.output(f"pass-{number}.npy"))
-        part = pixels[..., :3].astype(np.float64) @ each.to_xyz
-        if xyz is None:
-            alpha, xyz = pixels[..., 3:].astype(np.float64), part
-        else:
-            xyz += part
-    assert alpha is not None
-    assert xyz is not None
-    return alpha, xyz
+def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
+    """Alpha (rows, columns, 1), XYZ (rows, columns, 3) and all channels of all renders."""
+    pixels = [np.load(job.output(f"pass-{number}.npy")) for number in range(len(renders))]
+    xyz = sum(
+        part[..., :3].astype(np.float64) @ each.to_xyz
+        for part, each in zip(pixels, renders, strict=True)
+    )
+    channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
+    return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels
 
 
 def _to_2_degrees(observer: int) -> Array:

@@ -52,7 +52,7 @@ SIGNATURES = {
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
-    "write_picture": "(picture, path)",
+    "write_picture": "(picture, path, spectra=None, *, at_bands=False)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
 """Every function, and how it is called. A script somewhere calls it so: adding an argument with a
@@ -94,7 +94,7 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds",
+    "untranslated seconds spectra",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

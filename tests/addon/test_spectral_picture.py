@@ -16,6 +16,8 @@ from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
 from rough_spectra.addon.picture import colors, light_spectra, passes, render
+from rough_spectra.addon.samples.readers import open_document
+from rough_spectra.addon.samples.readers.formats import spectral_exr
 from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.cycles import gloss_reading, instrument_lobe
@@ -352,7 +354,93 @@ def test_light_between_surfaces_is_that_of_the_spectrum():
     level = picture.xyz[0, 0, 1] / truth[1]
     assert level == pytest.approx(1, abs=5e-3)
     assert apart(picture.xyz[0, 0], level * truth, white) < 0.1
+    # And so is each wavelength's, from nine bands of some, and every band itself.
+    whole = every_10(level * bounces * planck())
+    assert picture.spectra.at(0, 0)[4:37] == pytest.approx(whole[4:37], rel=0.05)
+    held = picture.spectra
+    there = held.channels[0, 0].astype(float) @ held.to_bands
+    exact = level * bounces * planck()
+    assert there == pytest.approx(exact[(held.bands - NM[0]).astype(int)], rel=5e-3)
     assert picture.comparison.mean > 1  # which three channels are not
+
+
+TEN = np.arange(360.0, 781.0, 10.0)
+
+
+def every_10(spectrum):
+    """Means around every tenth nanometer, of values at 1 nm."""
+    near = np.maximum(1 - np.abs(NM[:, np.newaxis] - TEN) / 10, 0)
+    return spectrum @ (near / near.sum(axis=0))
+
+
+def test_where_direct_light_is_apart_its_three_channels_tell_spectra_roughly(lit):
+    """X, Y and Z of known surfaces: within a tenth of the lamp's light, root mean square."""
+    samples, picture, *_ = lit
+    lamp = every_10(planck())[4:37]  # 400 to 720 nm: beyond them nothing is seen, or known
+    missed = []
+    for column, sample in enumerate(samples):
+        values = wavelength_grid.resample(
+            sample.reflectance, sample.wavelengths, NM, method="cubic", ends="hold"
+        )
+        found = picture.spectra.at(column, 0)[4:37]
+        if column != 1:  # a rough one: not seen as its instrument does
+            missed.append((found - every_10(values * planck())[4:37]) / lamp.max())
+    assert np.sqrt(np.mean(np.square(missed))) < 0.1
+
+
+def test_a_spectral_image_is_read_again_and_has_the_colors_of_the_picture(lit, tmp_path):
+    """Every pixel's XYZ, summed from the file by the CIE's functions, is the picture's."""
+    _, picture, *_ = lit
+    path = tmp_path / "room.spectral.exr"
+    written = api.write_picture(picture, tmp_path / "room.exr", path)
+    assert [each.name for each in written] == ["room.exr", "room-delta-e.exr", path.name]
+    rows, columns = picture.xyz.shape[:2]
+    for column in range(columns):
+        nm, values = spectral_exr.emission(open_document(path, (column, rows - 1, 1, 1)))
+        assert nm.tolist() == TEN.tolist()
+        assert values == pytest.approx(picture.spectra.at(column, 0), rel=1e-5, abs=1e-9)
+        xyz = np.interp(NM, nm, values) @ functions()
+        assert xyz == pytest.approx(picture.xyz[0, column], rel=1e-4)
+        # Whoever just adds up every 10 nm is as near as bands are.
+        added = 10 * values @ functions()[::10]
+        white = planck() @ functions()
+        assert apart(added, picture.xyz[0, column], white) < 0.25
+    with pytest.raises(api.InputError, match=r"radiance \(an image of light"):
+        api.read(path)  # which is no reflectance
+    again = tmp_path / "again.spectral.exr"
+    api.write_picture(picture, tmp_path / "room.exr", again)
+    assert again.read_bytes() == path.read_bytes()
+
+
+def test_a_spectral_image_says_its_layout_and_units(lit, tmp_path):
+    from rough_spectra.addon.support.openimageio import openimageio
+
+    _, picture, *_ = lit
+    path = tmp_path / "room.spectral.exr"
+    api.write_picture(picture, tmp_path / "room.exr", path, at_bands=True)
+    file = openimageio().ImageInput.open(str(path))
+    spec = file.spec()
+    pixels = file.read_image(0, 0, 0, spec.nchannels, "float")
+    file.close()
+    assert spec.getattribute("spectralLayoutVersion") == "1.0"
+    assert "per nm" in spec.getattribute("emissiveUnits")
+    names = [f"S0.{nm:.0f},000000nm" for nm in picture.wavelengths]
+    assert [*spec.channelnames] == ["R", "G", "B", "A", *names]
+    assert pixels[::-1, :, :4] == pytest.approx(picture.rgb.astype(np.float32))
+
+
+@pytest.mark.parametrize(
+    ("path", "beside", "words"),
+    [
+        ("room.spectral.exr", None, "called like a spectral image"),
+        ("room.exr", "spectra.exr", "no spectral image by its name"),
+    ],
+)
+def test_names_of_files_that_mislead_are_refused(lit, path, beside, words, tmp_path):
+    _, picture, *_ = lit
+    with pytest.raises(api.OutputError, match=words):
+        api.write_picture(picture, tmp_path / path, beside and tmp_path / beside)
+    assert not list(tmp_path.iterdir())
 
 
 def tree_with(kind, **inputs):

@@ -40,6 +40,8 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
         "2",
         "--light",
         "World=F11",
+        "--spectral",
+        target.with_name("room.spectral.exr"),
     )
     result = main("spectral", *words)
     assert result.status == 0, result.err
@@ -47,7 +49,7 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
     assert "World 'World': CIE F11" in result.err
     assert "3 bands (" in result.err
     assert "the RGB picture is off by ΔE00" in result.err
-    assert "wrote room.exr, room-delta-e.exr" in result.err
+    assert "wrote room.exr, room-delta-e.exr, room.spectral.exr" in result.err
     for name, channels in (("room.exr", "RGBA"), ("room-delta-e.exr", "Y")):
         file = openimageio().ImageInput.open(str(target.with_name(name)))
         spec = file.spec()
@@ -64,6 +66,7 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
         (("--light", "World=F99"), "'F99' is neither a file nor"),
         (("--scene", "Nowhere"), "There is no scene 'Nowhere'"),
         (("-o", "room.png"), "is no EXR by its name"),
+        (("--spectral", "room.exr"), "no spectral image by its name"),
     ],
 )
 def test_what_is_refused_before_rendering(words, sentence, blend, tmp_path, main):
