@@ -1540,8 +1540,9 @@ def spectral_picture(
         Of the renders, instead of the scene's own.
     lights
         By the names of lamps, worlds and materials that emit one color, the spectrum that it has:
-        a CIE illuminant such as "F11", or the path of a table of wavelengths and power on any
-        scale. Its luminance stays that of its color.
+        a CIE illuminant such as "F11", or the path of a TM-27 file (.spdx), of a table of
+        wavelengths and power on any scale, or of a spectral image. Its luminance stays that of its
+        color.
     progress
         Called with renders done and renders in all.
 
@@ -1561,7 +1562,7 @@ def spectral_picture(
     DomainError
         An argument is none of these.
     InputError
-        A table of `lights` cannot be read.
+        A file of `lights` cannot be read.
     OutputError
         The second Blender failed.
     CancelledError

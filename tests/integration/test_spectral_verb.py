@@ -6,7 +6,9 @@ import bpy
 import pytest
 from rough_spectra.addon.support.openimageio import openimageio
 
-from tests.integration.support import rgb_material
+from tests.integration.support import ROOT, rgb_material
+
+LAMP = ROOT / "tests" / "fixtures" / "spdx" / "lamp.spdx"
 
 
 @pytest.fixture
@@ -39,14 +41,14 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
         "--samples",
         "2",
         "--light",
-        "World=F11",
+        f"World={LAMP}",
         "--spectral",
         target.with_name("room.spectral.exr"),
     )
     result = main("spectral", *words)
     assert result.status == 0, result.err
     assert "Material 'Plain': a spectrum for its RGB, by three spectra" in result.err
-    assert "World 'World': CIE F11" in result.err
+    assert "World 'World': measured: lamp.spdx" in result.err
     assert "3 bands (" in result.err
     assert "the RGB picture is off by ΔE00" in result.err
     assert "wrote room.exr, room-delta-e.exr, room.spectral.exr" in result.err

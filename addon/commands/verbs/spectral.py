@@ -64,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME=LIGHT",
         help="a lamp, world or emitting material, and the spectrum that it has: a CIE illuminant, "
-        "such as Lamp=F11, or a table of wavelengths and power; repeatable",
+        "such as Lamp=F11, or a file, such as Lamp=sodium.spdx, or a table; repeatable",
     )
     parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
     parser.add_argument(
