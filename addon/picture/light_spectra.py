@@ -17,12 +17,15 @@ from ..colorimetry import cie_tables, illuminant_spectra
 from ..samples import light_source
 from ..samples.light_source import LightSource
 
+KnownLight = tuple[Array, str]
+"""A spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is."""
+
 _FINE = 0.25
 """Nanometers at which a table is read: a line of a lamp is narrower than a step of `GRID`."""
 
 
-def find(name: str) -> tuple[Array, str]:
-    """Give a spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is.
+def find(name: str) -> KnownLight:
+    """Give what is known of a light.
 
     Parameters
     ----------
@@ -47,7 +50,7 @@ def find(name: str) -> tuple[Array, str]:
     return measured(light_source.read(path))
 
 
-def measured(source: LightSource) -> tuple[Array, str]:
+def measured(source: LightSource) -> KnownLight:
     """Give the same of a spectrum that was measured.
 
     Raises

@@ -15,7 +15,8 @@ from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
-from rough_spectra.addon.picture import colors, light_spectra, passes, render
+from rough_spectra.addon.picture import chosen_light, colors, light_spectra, passes, render
+from rough_spectra.addon.samples import light_source
 from rough_spectra.addon.samples.readers import open_document
 from rough_spectra.addon.samples.readers.formats import spectral_exr
 from rough_spectra.core import cycles
@@ -539,6 +540,56 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert found.told["Light 'Sun'"] == ["CIE F11"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
         colors.find(*args, {"Moon": light_spectra.find("F11")})
+
+
+def test_lamps_and_worlds_keep_their_spectra_in_the_file(tmp_path):
+    """The data itself, whole: the file it came from may be gone."""
+    path = tmp_path / "lamp.csv"
+    path.write_text("nm,power\n400,0.1\n555.123456789,0.7\n700,0.3\n", encoding="utf-8")
+    scene = from_above(4)
+    light = sun(scene)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.rough_spectra.spectrum = "F11"
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    chosen_light.keep(light, light_source.read(path), str(path))
+    wanted = light_spectra.find(str(path))
+    path.unlink()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    found = find()
+    assert found.told == {"Light 'Sun'": ["measured: lamp.csv"], "World 'World'": ["CIE F11"]}
+    of_lamp, of_world = found.shining
+    assert of_lamp.spectrum.tolist() == wanted[0].tolist()
+    assert of_world.spectrum == pytest.approx(illuminant_spectra.cie("F11"))
+    # What is asked for by name comes first.
+    args = bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
+    named = colors.find(*args, {"Sun": light_spectra.find("D50")})
+    assert named.told["Light 'Sun'"] == ["CIE D50"]
+
+
+def test_a_world_of_many_colors_says_that_it_has_no_one_spectrum():
+    scene = from_above(4)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.rough_spectra.spectrum = "F11"
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    glowing(tree, background.inputs["Color"])
+    rules = find().told["World 'World'"]
+    assert rules == [f"{colors.LINEAR}, times that of D65", "not CIE F11, as it has many colors"]
+
+
+@pytest.mark.parametrize(
+    ("stored", "words"), [("", "has none"), ("[1", "damaged"), ("[[1, 2], [0, 0]]", "damaged")]
+)
+def test_a_lamp_without_its_measured_spectrum_is_refused(stored, words):
+    light = sun(from_above(4))
+    light.rough_spectra.spectrum = "MEASURED"
+    light.rough_spectra.measured = stored
+    with pytest.raises(api.MaterialError, match=words):
+        find()
 
 
 def test_a_table_of_a_lamp_loses_none_of_its_lines(tmp_path):
