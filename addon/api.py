@@ -1507,7 +1507,7 @@ def spectral_picture(
     tolerance: float = TOLERANCE,
     bands: int | None = None,
     observer: int = 2,
-    direct: bool = False,
+    direct: bool | None = None,
     compare: bool = True,
     samples: int | None = None,
     percentage: int | None = None,
@@ -1533,7 +1533,7 @@ def spectral_picture(
         2 or 10 degrees.
     direct
         Whether light that met one surface alone is rendered apart and is exact, at the cost of one
-        more render for each spectrum of light.
+        more render for each spectrum of light. None chooses what needs fewer renders.
     compare
         Whether the ordinary picture is rendered, too, and compared.
     samples, percentage

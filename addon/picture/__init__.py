@@ -6,6 +6,7 @@ colors         where colors stand in materials, lamps and world, and what spectr
 light_spectra  what a lamp sends, where that is known
 chosen_light   the spectrum that a lamp or a world keeps in the .blend
 passes         the renders: which bands, and what each color is in them
+direct_light   whether direct light has renders of its own
 worker         the script of the second Blender, which sets colors and renders
 render         asks for it, and puts the renders together
 spectra        the spectrum of each pixel

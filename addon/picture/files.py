@@ -100,12 +100,17 @@ def told(picture: SpectralPicture) -> Iterable[str]:
     """Say in sentences what was rendered and what the comparison found."""
     bands = ", ".join(f"{nm:g}" for nm in picture.wavelengths)
     apart = ", direct light apart" if picture.direct else ""
+    if picture.direct_words:
+        apart += f", {picture.direct_words}"
     predicted = picture.predicted
-    yield (
-        f"{len(picture.wavelengths)} bands ({bands} nm){apart}; predicted ΔE00 to the whole "
-        f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
-        f"{predicted.largest:.1f}"
-    )
+    if not bands:
+        yield f"no bands{apart}"
+    else:
+        yield (
+            f"{len(picture.wavelengths)} bands ({bands} nm){apart}; predicted ΔE00 to the whole "
+            f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
+            f"{predicted.largest:.1f}"
+        )
     found = picture.comparison
     if found is not None:
         column, row = found.where

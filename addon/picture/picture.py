@@ -74,6 +74,8 @@ class SpectralPicture:
         Of each render, the ordinary one first where there is one.
     spectra
         From which each pixel's spectrum comes.
+    direct_words
+        Why direct light was rendered apart, where that was decided for it.
     """
 
     rgb: Array
@@ -88,6 +90,7 @@ class SpectralPicture:
     untranslated: Mapping[str, tuple[str, ...]]
     seconds: tuple[float, ...]
     spectra: Spectra | None = None
+    direct_words: str = ""
 
 
 def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Array) -> Comparison:

@@ -64,12 +64,15 @@ def write(picture: SpectralPicture, part: Path, target: Path, *, at_bands: bool 
     Raises
     ------
     OutputError
-        If there are no spectra, or the file cannot be written.
+        If there are no spectra or no bands, or the file cannot be written.
     """
     if picture.spectra is None:
         raise OutputError(f"{target} was not written: the picture has no spectra; render it anew.")
     held = picture.spectra
     nm, matrix = (held.bands, held.to_bands) if at_bands else (spectra.NM, held.to_grid)
+    if not nm.size:
+        msg = f"{target} was not written: nothing was rendered in bands; write every 10 nm instead."
+        raise OutputError(msg)
     rows, columns = held.channels.shape[:2]
     names = [f"S0.{value:.6f}nm".replace(".", ",").replace("S0,", "S0.", 1) for value in nm]
     oiio = openimageio()

@@ -46,7 +46,7 @@ SIGNATURES = {
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
-    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
+    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=None, "
     "compare=True, samples=None, percentage=None, lights=None, progress=None)",
     "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
@@ -94,7 +94,7 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds spectra",
+    "untranslated seconds spectra direct_words",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

@@ -15,7 +15,15 @@ from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
-from rough_spectra.addon.picture import chosen_light, colors, light_spectra, passes, render
+from rough_spectra.addon.picture import (
+    chosen_light,
+    colors,
+    direct_light,
+    files,
+    light_spectra,
+    passes,
+    render,
+)
 from rough_spectra.addon.samples import light_source
 from rough_spectra.addon.samples.readers import open_document
 from rough_spectra.addon.samples.readers.formats import spectral_exr
@@ -282,6 +290,54 @@ def test_it_is_written_and_becomes_an_image(lit, tmp_path):
     assert held == pytest.approx(picture.rgb.astype(np.float32))
     with pytest.raises(api.OutputError, match="no EXR by its name"):
         api.write_picture(picture, tmp_path / "room.png")
+
+
+def test_without_bounces_no_band_is_rendered_and_all_is_exact(lit):
+    """`lit` again, whose light cannot meet a second surface: one render instead of two."""
+    _, known, *_ = lit
+    scene = from_above(4)
+    strip(0, new_material("Plain", (0.6, 0.2, 0.1)))
+    strip(1, new_material("Gray", (0.5, 0.5, 0.5)))
+    sun(scene)
+    scene.cycles.max_bounces = 0
+    picture = api.spectral_picture(compare=False)
+    assert (picture.direct, len(picture.seconds), picture.wavelengths.size) == (True, 1, 0)
+    assert list(files.told(picture)) == [
+        "no bands, direct light apart, there is no other, so every color is exact"
+    ]
+    plain = slice(len(PATCHES), len(PATCHES) + 3, 2)
+    assert picture.xyz[0, :2] == pytest.approx(known.xyz[0, plain], rel=1e-4)
+    assert (picture.predicted.largest, picture.enough) == (0, True)
+
+
+class Foretold:
+    """Bands as `choose` gives them, as far as deciding needs them."""
+
+    def __init__(self, count, enough):
+        self.wavelengths, self.enough = np.zeros(count), enough
+
+
+@pytest.mark.parametrize(
+    ("together", "apart", "lamps", "words"),
+    [
+        ((12, True), (6, True), 1, "as bands alone need 4 renders"),
+        ((9, True), (6, True), 3, None),  # 3 against 2 and three halves
+        ((6, True), (3, True), 2, None),
+        ((36, False), (9, True), 6, "bands alone are not within the tolerance"),
+        ((36, False), (36, False), 1, None),
+    ],
+)
+def test_direct_light_is_apart_where_that_needs_fewer_renders(together, apart, lamps, words):
+    scene = from_above(4)
+    found = {False: Foretold(*together), True: Foretold(*apart)}
+    choice = direct_light.decide(scene, None, lamps, False, found.__getitem__)
+    assert (choice.apart, choice.words, choice.is_all) == (words is not None, words or "", False)
+    assert choice.bands is found[choice.apart]
+    # Who says what to do, or how many bands, gets that; parts of a picture cannot be denoised.
+    assert not direct_light.decide(scene, False, lamps, False, found.__getitem__).apart
+    assert not direct_light.decide(scene, None, lamps, True, found.__getitem__).apart
+    scene.cycles.use_denoising = True
+    assert not direct_light.decide(scene, None, lamps, False, found.__getitem__).apart
 
 
 @pytest.mark.parametrize("space", ["Linear Rec.709", "Linear Rec.2020"])

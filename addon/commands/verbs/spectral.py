@@ -48,9 +48,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2, help="in degrees; 2")
     parser.add_argument(
         "--direct",
-        action="store_true",
+        action=argparse.BooleanOptionalAction,
         help="render direct light apart, in one more render for each spectrum of light: it is "
-        "exact then",
+        "exact then. Chosen by what needs fewer renders if left out",
     )
     parser.add_argument(
         "--no-comparison",
