@@ -11,5 +11,8 @@ worker         the script of the second Blender, which sets colors and renders
 render         asks for it, and puts the renders together
 spectra        the spectrum of each pixel
 picture        the picture that comes of it, beside the ordinary one
+settings       how a scene's picture is rendered from the interface
+images         the last picture as images of the open file
+pixel          what a pixel of it is
 files          the picture as a file and as Blender's image
 """

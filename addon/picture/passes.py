@@ -73,7 +73,11 @@ class Lamps:
     @property
     def white(self) -> Array:
         """XYZ of all together by the 2° observer, with a Y of 1."""
-        xyz = illuminant_spectra.to_xyz(self.spectra.sum(axis=0))
+        return self.white_by(2)
+
+    def white_by(self, observer: int) -> Array:
+        """XYZ of all together by the observer of 2 or 10 degrees, with a Y of 1."""
+        xyz = self.spectra.sum(axis=0) @ illuminant_spectra.observer(observer)
         return np.asarray(xyz / xyz[1])
 
 

@@ -76,6 +76,8 @@ class SpectralPicture:
         From which each pixel's spectrum comes.
     direct_words
         Why direct light was rendered apart, where that was decided for it.
+    white
+        XYZ of white by the observer under the scene's light, with a Y of 1, shape (3,).
     """
 
     rgb: Array
@@ -91,6 +93,7 @@ class SpectralPicture:
     seconds: tuple[float, ...]
     spectra: Spectra | None = None
     direct_words: str = ""
+    white: Array | None = None
 
 
 def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Array) -> Comparison:

@@ -199,6 +199,7 @@ class Rendering(Job):
                 self._wanted.observer,
             ),
             self._light.words,
+            self._lamps.white_by(self._wanted.observer),
         )
 
     @property
