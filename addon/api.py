@@ -1507,7 +1507,7 @@ def spectral_picture(
     tolerance: float = TOLERANCE,
     bands: int | None = None,
     observer: int = 2,
-    direct: bool = False,
+    direct: bool | None = None,
     compare: bool = True,
     samples: int | None = None,
     percentage: int | None = None,
@@ -1533,15 +1533,16 @@ def spectral_picture(
         2 or 10 degrees.
     direct
         Whether light that met one surface alone is rendered apart and is exact, at the cost of one
-        more render for each spectrum of light.
+        more render for each spectrum of light. None chooses what needs fewer renders.
     compare
         Whether the ordinary picture is rendered, too, and compared.
     samples, percentage
         Of the renders, instead of the scene's own.
     lights
         By the names of lamps, worlds and materials that emit one color, the spectrum that it has:
-        a CIE illuminant such as "F11", or the path of a table of wavelengths and power on any
-        scale. Its luminance stays that of its color.
+        a CIE illuminant such as "F11", or the path of a TM-27 file (.spdx), of a table of
+        wavelengths and power on any scale, or of a spectral image. Its luminance stays that of its
+        color.
     progress
         Called with renders done and renders in all.
 
@@ -1551,7 +1552,8 @@ def spectral_picture(
     the bottom up; `xyz`; the `wavelengths` of the bands; the `predicted` error (`mean`, `usual`,
     which is 95 %, and `largest`), and whether it is `enough`; the `comparison` with the ordinary
     picture: `delta_e`, `mean`, `usual`, `largest`, and `where`; by which `rules` each material,
-    lamp and world got its spectra; what stayed RGB (`untranslated`); and `seconds`.
+    lamp and world got its spectra; what stayed RGB (`untranslated`); `seconds`; and `spectra`,
+    whose `at(column, row)` is a pixel's radiance per nanometer from 360 to 780 nm every 10 nm.
 
     Raises
     ------
@@ -1560,7 +1562,7 @@ def spectral_picture(
     DomainError
         An argument is none of these.
     InputError
-        A table of `lights` cannot be read.
+        A file of `lights` cannot be read.
     OutputError
         The second Blender failed.
     CancelledError
@@ -1584,7 +1586,13 @@ def spectral_picture(
     return picture_render.render(scene or bpy.context.scene, wanted, progress)
 
 
-def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> list[Path]:
+def write_picture(
+    picture: SpectralPicture,
+    path: str | os.PathLike[str],
+    spectra: str | os.PathLike[str] | None = None,
+    *,
+    at_bands: bool = False,
+) -> list[Path]:
     """Write a spectral picture as an EXR in the working space, and its map of ΔE00 beside it.
 
     Parameters
@@ -1593,6 +1601,11 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
         What `spectral_picture` gave, of the open file.
     path
         Ends in .exr; the map is called the same with `-delta-e`.
+    spectra
+        Of a spectral image, which ends in .spectral.exr, if that is wanted, too: radiance every
+        10 nm, in channels such as S0.440,000000nm. Don't open it with Blender.
+    at_bands
+        Whether it holds the radiance at the bands' wavelengths instead.
 
     Returns
     -------
@@ -1615,7 +1628,8 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
     ['room.exr']
     """
     _check_enabled()
-    return picture_files.write(picture, Path(path))
+    beside = None if spectra is None else Path(spectra)
+    return picture_files.write(picture, Path(path), beside, at_bands=at_bands)
 
 
 def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:

@@ -46,13 +46,13 @@ SIGNATURES = {
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
-    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
+    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=None, "
     "compare=True, samples=None, percentage=None, lights=None, progress=None)",
     "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
     "texture_material": "(made, name='')",
     "write_emissivity": "(found, base)",
-    "write_picture": "(picture, path)",
+    "write_picture": "(picture, path, spectra=None, *, at_bands=False)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
 """Every function, and how it is called. A script somewhere calls it so: adding an argument with a
@@ -94,7 +94,7 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds",
+    "untranslated seconds spectra direct_words",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

@@ -29,6 +29,8 @@ NO_CACHES = {
     ("addon/preview/balls.py", "_pending"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
+    # What was rendered last, which is dear to make again.
+    ("addon/picture/images.py", "_held"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
     ("addon/interface/shelf.py", "_asked"),
