@@ -404,6 +404,20 @@ def test_nodes_that_reach_no_output_do_not_count():
     assert not find().colored
 
 
+def test_colors_of_lobes_that_are_not_there_do_not_count():
+    """A gray Principled BSDF has a Subsurface Radius of three lengths, and a weight of 0."""
+    scene = from_above(4)
+    sun(scene)
+    material, node = tree_with("ShaderNodeBsdfPrincipled")
+    strip(0, material)
+    node.inputs["Coat Tint"].default_value = (1, 0.2, 0.1, 1)
+    assert not find().colored
+    node.inputs["Subsurface Weight"].default_value = 0.5
+    node.inputs["Coat Weight"].default_value = 0.5
+    places = [node.inputs[each.place.socket].name for each in find().colored]
+    assert places == ["Subsurface Radius", "Coat Tint"]
+
+
 def test_colors_in_groups_count_where_they_enter_a_shader():
     scene = from_above(4)
     sun(scene)
