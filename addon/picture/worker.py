@@ -81,6 +81,8 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.cycles.samples = job["samples"]
     scene.cycles.use_animated_seed = False
     scene.cycles.seed = job["seed"]
+    # Faint light is left out by chance, and whether it is faint depends on its color.
+    scene.cycles.light_sampling_threshold = 0
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "MULTI_LAYER_IMAGE" if job["apart"] else "IMAGE"
     kind = "OPEN_EXR_MULTILAYER" if job["apart"] else "OPEN_EXR"

@@ -312,6 +312,22 @@ def test_a_white_furnace_is_neutral(space):
     assert all("three spectra" in rule for rule in picture.rules["World 'World'"])
 
 
+def test_faint_light_is_no_noise_of_color():
+    """Gray below a dim lamp: Cycles would leave out its light by chance, in each band otherwise."""
+    scene = from_above(16)
+    scene.cycles.use_light_tree, scene.cycles.light_sampling_threshold = False, 0.5
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    light = bpy.data.lights.new("Panel", "AREA")
+    light.size, light.energy = 4, 20
+    light.use_temperature, light.temperature = True, KELVIN
+    scene.collection.objects.link(bpy.data.objects.new("Panel", light))
+    bpy.data.objects["Panel"].location = (8, ROWS / 2, 5)
+    picture = api.spectral_picture(bands=6, samples=2)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.2
+
+
 def glowing(tree, socket):
     """Let white come from a node that is no plain color."""
     ramp = tree.nodes.new("ShaderNodeCombineXYZ")
