@@ -7,7 +7,7 @@ From a file to files:
     read, find → request → assign → state, renew, keep → bake → write
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
-    spectral_picture → write_picture, picture_image
+    spectral_picture → write_picture, picture_image; picture_verdict
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -78,7 +78,9 @@ from .material.settled import Settled
 from .material.state import State
 from .picture import files as picture_files
 from .picture import render as picture_render
+from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
+from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings, SpotRead
@@ -130,6 +132,7 @@ __all__ = [
     "Spot",
     "SpotRead",
     "State",
+    "Verdict",
     "assign",
     "bake",
     "compare",
@@ -152,6 +155,7 @@ __all__ = [
     "palette",
     "paused",
     "picture_image",
+    "picture_verdict",
     "presets",
     "read",
     "read_filter",
@@ -1584,6 +1588,62 @@ def spectral_picture(
         tolerance, bands, observer, direct, compare, samples, percentage, lights or {}
     )
     return picture_render.render(scene or bpy.context.scene, wanted, progress)
+
+
+def picture_verdict(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE,
+    samples: int | None = None,
+    percentage: int | None = None,
+    lights: Mapping[str, str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Verdict:
+    """Say whether RGB is enough for a scene, and if not, the least that is.
+
+    A second Blender renders small pictures of a copy of the open file, and this call waits for it.
+
+    Parameters
+    ----------
+    scene, lights, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be.
+    samples, percentage
+        Of the small pictures; 8, and what comes to 480 × 270 pixels, if left out.
+
+    Returns
+    -------
+    Whether RGB is `enough`; the `sentence`; the `rungs`, from RGB as it is over the working space
+    and the materials' match to passes of three bands, each with `kind`, `words`, `renders`,
+    `mean`, `usual`, `largest` (ΔE00) and `seconds`; the `chosen` one, which is the first within
+    the tolerance, or None; the `comparison` of RGB with the spectral picture, in blocks of pixels;
+    what stayed RGB (`untranslated`), and which part of the picture that has `touched`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> picture_verdict(scene, samples=1).sentence
+    'RGB is enough: 95 % of the picture within ΔE00 0.00, the tolerance is 1.'
+    """
+    _check_enabled()
+    return picture_judgement.judge(
+        scene or bpy.context.scene,
+        progress,
+        tolerance=tolerance,
+        samples=samples,
+        percentage=percentage,
+        lights=lights,
+    )
 
 
 def write_picture(

@@ -42,6 +42,12 @@ _BY_THREE = {
     ("ShaderNodeSubsurfaceScattering", "Radius"),
 }
 """Vectors that have a number for each of red, green and blue."""
+_PARTS = {
+    ("ShaderNodeBsdfPrincipled", "Subsurface Radius"): "Subsurface Weight",
+    ("ShaderNodeBsdfPrincipled", "Sheen Tint"): "Sheen Weight",
+    ("ShaderNodeBsdfPrincipled", "Coat Tint"): "Coat Weight",
+}
+"""Sockets of lobes that a node may be without, and those that say how much of them it has."""
 _EVEN = 1e-6
 """Spread of a color's channels below which it is gray, which is the same in all bands."""
 
@@ -325,6 +331,8 @@ class _Search:
                 if place in taken or not (socket.type == "RGBA" or kind in _BY_THREE):
                     continue
                 if node.bl_idname == "ShaderNodeGroup" or not socket.enabled:
+                    continue
+                if kind in _PARTS and not _in_use(node, _PARTS[kind]):
                     continue
                 if kind in _GLOWS:
                     strength = node.inputs[_GLOWS[kind]]

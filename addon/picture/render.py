@@ -59,6 +59,11 @@ class Wanted:
     lights
         By the names of lamps, worlds and materials that emit, the CIE illuminant that they are, or
         the path of a table; see `light_spectra.find`.
+    most
+        Bands beyond which none are added for the tolerance.
+    steady
+        Whether all renders follow the same paths of light, whatever its colors: without russian
+        roulette, adaptive sampling and denoising.
 
     Raises
     ------
@@ -74,6 +79,8 @@ class Wanted:
     samples: int | None = None
     percentage: int | None = None
     lights: Mapping[str, str] = field(default_factory=dict)
+    most: int = MOST
+    steady: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -131,6 +138,7 @@ class Rendering(Job):
         self._passes = [] if self._light.is_all else passes.of_bands(self._chosen)
         if self._light.apart:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
+        renders = [*self._passes, *self._beside(depsgraph, scene)]
 
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "scene.blend"
@@ -149,9 +157,10 @@ class Rendering(Job):
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
                 "apart": self._light.apart,
-                "passes": len(self._passes),
-                "direct": [each.direct for each in self._passes],
-                "edits": passes.edits(self._found, self._lamps, self._passes, self._space),
+                "steady": wanted.steady,
+                "passes": len(renders),
+                "direct": [each.direct for each in renders],
+                "edits": self._edits(renders),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -159,6 +168,14 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
+
+    def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
+        """Give renders that are wanted after those of the picture."""
+        return []
+
+    def _edits(self, renders: list[Pass]) -> list[dict[str, Any]]:
+        """Say what has to be set for the renders; see `passes.edits`."""
+        return passes.edits(self._found, self._lamps, renders, self._space)
 
     def result(self) -> SpectralPicture:
         """Put the renders together, once `poll` says that they are done.
@@ -259,7 +276,7 @@ def _decide(
     scene: Any, found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted
 ) -> direct_light.Choice:
     counted = wanted.bands is not None
-    tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, MOST)
+    tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
 
     def choose(direct: bool) -> Bands:
         more = {"most": most, "direct": direct, "observer": wanted.observer}

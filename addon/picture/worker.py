@@ -81,6 +81,10 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.cycles.samples = job["samples"]
     scene.cycles.use_animated_seed = False
     scene.cycles.seed = job["seed"]
+    # Faint light is left out by chance, and whether it is faint depends on its color.
+    scene.cycles.light_sampling_threshold = 0
+    if job["steady"]:
+        keep_paths(scene.cycles)
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "MULTI_LAYER_IMAGE" if job["apart"] else "IMAGE"
     kind = "OPEN_EXR_MULTILAYER" if job["apart"] else "OPEN_EXR"
@@ -97,6 +101,14 @@ def prepare(job: dict[str, Any]) -> Any:
         layer.use_pass_emit = layer.use_pass_environment = True
         layer.cycles.use_pass_volume_direct = True
     return scene
+
+
+def keep_paths(cycles: Any) -> None:
+    """Let no path of light depend on its color: what two renders differ by is color alone."""
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.min_light_bounces = cycles.max_bounces
+    cycles.min_transparent_bounces = cycles.transparent_max_bounces
+    cycles.use_light_tree = False  # it picks lamps by what they send
 
 
 def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None = None) -> None:

@@ -38,6 +38,8 @@ SIGNATURES = {
     "palette": "(path)",
     "paused": "()",
     "picture_image": "(picture, name='Spectral')",
+    "picture_verdict": "(scene=None, *, tolerance=1.0, samples=None, percentage=None, "
+    "lights=None, progress=None)",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
     "read_filter": "(path)",
@@ -95,6 +97,7 @@ FIELDS = {
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
     "untranslated seconds spectra direct_words",
+    "Verdict": "rungs tolerance chosen comparison untranslated touched seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

@@ -28,6 +28,7 @@ VERBS = (
     "search",
     "spectral",
     "texture",
+    "verdict",
 )
 
 
