@@ -85,7 +85,6 @@ BEGIN = b">>>>>Begin Spectral Data<<<<<\n400\t1\n410\t1\n"
         (b"PK\x03\x04\x00 notes.txt \x00", ["archive", "unpack"]),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\x00", [".xls", "CSV"]),
         (b"\x0a\x0a\xfe\xfe\x00\x00", ["OPUS", "JCAMP"]),
-        (b"tensor_file\x00\x01\x00", ["RGL", "CSV"]),
         (b"\x89HDF\r\n\x1a\n\x00", ["HDF5", "CSV"]),
         (b"ENVI\nfile type = ENVI Standard\n", ["image", "Material from Image"]),
         (b"ENVI\nfile type = ENVI Spectral Library\n", ["without its file of numbers"]),

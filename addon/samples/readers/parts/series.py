@@ -22,6 +22,10 @@ _NAMED = 8  # how many of the bands left out a sentence names
 # Whole words, the longest first: "transmission" says more than its "T". "Scope" is what both Ocean
 # Optics and Avantes call raw counts.
 _OTHERS = (
+    (
+        re.compile(r"\bb[rs]df\b", re.IGNORECASE),
+        "a BRDF, the reflectance factor over π, without the angles of light and view",
+    ),
     (re.compile(r"/\s*sr\b", re.IGNORECASE), "radiance"),
     (re.compile(r"irradian[cz]|µ?w(?:att)?/c?m|j/cm", re.IGNORECASE), "irradiance"),
     (re.compile(r"radiance\b(?! factor)|\brad\. \(", re.IGNORECASE), "radiance"),
