@@ -8,6 +8,7 @@ From a file to files:
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
     spectral_picture → write_picture, picture_image; picture_verdict
+    picture_lights → relight → write_picture
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -77,9 +78,12 @@ from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
 from .picture import files as picture_files
+from .picture import groups as picture_groups
+from .picture import relight as picture_relight
 from .picture import render as picture_render
 from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
+from .picture.relight import Lights
 from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
@@ -114,6 +118,7 @@ __all__ = [
     "InBand",
     "InLight",
     "InputError",
+    "Lights",
     "Loss",
     "Made",
     "MaterialError",
@@ -155,10 +160,12 @@ __all__ = [
     "palette",
     "paused",
     "picture_image",
+    "picture_lights",
     "picture_verdict",
     "presets",
     "read",
     "read_filter",
+    "relight",
     "renew",
     "request",
     "rough_sample",
@@ -1642,6 +1649,86 @@ def picture_verdict(
         percentage=percentage,
         lights=lights,
     )
+
+
+def picture_lights(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE / 2,
+    bands: int | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Lights:
+    """Render the light of each lamp apart, so that lamps can be changed without rendering.
+
+    Parameters
+    ----------
+    scene, bands, samples, percentage, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be, in the scene's own light and in that of
+        the usual illuminants.
+
+    Returns
+    -------
+    Their `names`, `spectra`, `parts`, `alpha` and `wavelengths`, for `relight`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`; and where lamps cannot be told apart.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> lights = picture_lights(scene, bands=3, samples=1)
+    >>> lights.names, lights.parts.shape, relight(lights, {"Gray": "A"}).rgb.shape
+    (('Gray',), (1, 3, 8, 8), (8, 8, 4))
+    """
+    _check_enabled()
+    wanted = picture_render.Wanted(
+        tolerance, bands, plain=False, samples=samples, percentage=percentage, steady=True
+    )
+    return picture_groups.gather(scene or bpy.context.scene, wanted, progress)
+
+
+def relight(
+    lights: Lights,
+    spectra: Mapping[str, str] | None = None,
+    intensities: Mapping[str, float] | None = None,
+    observer: int = 2,
+) -> SpectralPicture:
+    """Give the picture with other lamps, without rendering; see `picture_lights`.
+
+    Parameters
+    ----------
+    lights
+        What `picture_lights` gave.
+    spectra
+        By name, the CIE illuminant that a lamp becomes, or the path of a table.
+    intensities
+        By name, how many times as bright it is.
+    observer
+        2 or 10 degrees.
+
+    Raises
+    ------
+    DomainError, InputError
+        There is no such lamp or light, or the open file has another working space.
+
+    Examples
+    --------
+    See `picture_lights`.
+    """
+    _check_enabled()
+    desk = picture_relight.Desk(lights, observer)
+    picture_relight.set_all(desk, spectra or {}, intensities or {})
+    return desk.picture()
 
 
 def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> list[Path]:

@@ -20,7 +20,6 @@ import bpy
 import numpy as np
 
 from ...core.bands import Bands
-from ...core.color import color_difference
 from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
@@ -132,8 +131,8 @@ class Rendering(Job):
         depsgraph = _evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
-        self._chosen = _choose(self._found, self._lamps, self._space, wanted)
-        self._passes = passes.of_bands(self._chosen)
+        self._chosen = self._choose()
+        self._passes = self._of_bands()
         if wanted.direct:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
         renders = [*self._passes, *self._beside(depsgraph, scene)]
@@ -159,6 +158,7 @@ class Rendering(Job):
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
+                "groups": self._groups(depsgraph, scene),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -167,8 +167,18 @@ class Rendering(Job):
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
 
+    def _choose(self) -> Bands:
+        return _choose(self._found, self._lamps, self._space, self._wanted)
+
+    def _of_bands(self) -> list[Pass]:
+        return passes.of_bands(self._chosen)
+
     def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
         """Give renders that are wanted after those of the picture."""
+        return []
+
+    def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
+        """Give what shines together, where pictures are wanted of each."""
         return []
 
     def _edits(self, renders: list[Pass]) -> list[dict[str, Any]]:
@@ -185,7 +195,7 @@ class Rendering(Job):
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
         alpha, xyz = _together(self, self._passes)
-        adapted = xyz @ _to_2_degrees(self._wanted.observer).T
+        adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
         comparison = None
@@ -282,13 +292,3 @@ def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array]:
     assert alpha is not None
     assert xyz is not None
     return alpha, xyz
-
-
-def _to_2_degrees(observer: int) -> Array:
-    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both."""
-    if observer == 2:
-        return np.eye(3)
-    light = illuminant_spectra.cie("D65")
-    step = illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
-    whites = [light @ illuminant_spectra.observer(each) * step for each in (observer, 2)]
-    return np.asarray(color_difference.adaptation(*whites))

@@ -11,6 +11,6 @@ wavelengths   which of them tell most
 fitting       weights, and what lamps send in the bands
 """
 
-from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, choose, rgb
+from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, at, choose, rgb
 
-__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "choose", "rgb"]
+__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "at", "choose", "rgb"]
