@@ -159,6 +159,7 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
+        self.total = len(self._passes) + wanted.plain  # before the other Blender says so
 
     def result(self) -> SpectralPicture:
         """Put the renders together, once `poll` says that they are done.

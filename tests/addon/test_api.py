@@ -38,6 +38,8 @@ SIGNATURES = {
     "palette": "(path)",
     "paused": "()",
     "picture_image": "(picture, name='Spectral')",
+    "picture_pixel": "(picture, column, row)",
+    "measured_light": "(light, path)",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
     "read_filter": "(path)",
@@ -94,7 +96,8 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds spectra direct_words",
+    "untranslated seconds spectra direct_words white",
+    "Pixel": "column row wavelengths radiance xyz lab delta_e",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""
