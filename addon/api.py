@@ -77,19 +77,22 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
+from .picture import chosen_light, light_spectra
 from .picture import files as picture_files
 from .picture import groups as picture_groups
+from .picture import pixel as picture_pixels
 from .picture import relight as picture_relight
 from .picture import render as picture_render
 from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
+from .picture.pixel import Pixel
 from .picture.relight import Lights
 from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings, SpotRead
 from .readings.emission import Emissivity, InBand
-from .samples import filter_response, gloss_of_set, library, readers, stated_white
+from .samples import filter_response, gloss_of_set, library, light_source, readers, stated_white
 from .samples import palette as palette_files
 from .samples import presets as preset_files
 from .samples.palette import Row
@@ -124,6 +127,7 @@ __all__ = [
     "MaterialError",
     "Measured",
     "OutputError",
+    "Pixel",
     "Reading",
     "Readings",
     "Request",
@@ -155,12 +159,14 @@ __all__ = [
     "match_by_measuring",
     "materials",
     "measure_rough",
+    "measured_light",
     "metamerism",
     "nearest",
     "palette",
     "paused",
     "picture_image",
     "picture_lights",
+    "picture_pixel",
     "picture_verdict",
     "presets",
     "read",
@@ -1518,7 +1524,7 @@ def spectral_picture(
     tolerance: float = TOLERANCE,
     bands: int | None = None,
     observer: int = 2,
-    direct: bool = False,
+    direct: bool | None = None,
     compare: bool = True,
     samples: int | None = None,
     percentage: int | None = None,
@@ -1544,15 +1550,16 @@ def spectral_picture(
         2 or 10 degrees.
     direct
         Whether light that met one surface alone is rendered apart and is exact, at the cost of one
-        more render for each spectrum of light.
+        more render for each spectrum of light. None chooses what needs fewer renders.
     compare
         Whether the ordinary picture is rendered, too, and compared.
     samples, percentage
         Of the renders, instead of the scene's own.
     lights
         By the names of lamps, worlds and materials that emit one color, the spectrum that it has:
-        a CIE illuminant such as "F11", or the path of a table of wavelengths and power on any
-        scale. Its luminance stays that of its color.
+        a CIE illuminant such as "F11", or the path of a TM-27 file (.spdx), of a table of
+        wavelengths and power on any scale, or of a spectral image. Its luminance stays that of its
+        color.
     progress
         Called with renders done and renders in all.
 
@@ -1562,7 +1569,8 @@ def spectral_picture(
     the bottom up; `xyz`; the `wavelengths` of the bands; the `predicted` error (`mean`, `usual`,
     which is 95 %, and `largest`), and whether it is `enough`; the `comparison` with the ordinary
     picture: `delta_e`, `mean`, `usual`, `largest`, and `where`; by which `rules` each material,
-    lamp and world got its spectra; what stayed RGB (`untranslated`); and `seconds`.
+    lamp and world got its spectra; what stayed RGB (`untranslated`); `seconds`; and `spectra`,
+    whose `at(column, row)` is a pixel's radiance per nanometer from 360 to 780 nm every 10 nm.
 
     Raises
     ------
@@ -1571,7 +1579,7 @@ def spectral_picture(
     DomainError
         An argument is none of these.
     InputError
-        A table of `lights` cannot be read.
+        A file of `lights` cannot be read.
     OutputError
         The second Blender failed.
     CancelledError
@@ -1731,7 +1739,13 @@ def relight(
     return desk.picture()
 
 
-def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> list[Path]:
+def write_picture(
+    picture: SpectralPicture,
+    path: str | os.PathLike[str],
+    spectra: str | os.PathLike[str] | None = None,
+    *,
+    at_bands: bool = False,
+) -> list[Path]:
     """Write a spectral picture as an EXR in the working space, and its map of ΔE00 beside it.
 
     Parameters
@@ -1740,6 +1754,11 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
         What `spectral_picture` gave, of the open file.
     path
         Ends in .exr; the map is called the same with `-delta-e`.
+    spectra
+        Of a spectral image, which ends in .spectral.exr, if that is wanted, too: radiance every
+        10 nm, in channels such as S0.440,000000nm. Don't open it with Blender.
+    at_bands
+        Whether it holds the radiance at the bands' wavelengths instead.
 
     Returns
     -------
@@ -1762,7 +1781,8 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
     ['room.exr']
     """
     _check_enabled()
-    return picture_files.write(picture, Path(path))
+    beside = None if spectra is None else Path(spectra)
+    return picture_files.write(picture, Path(path), beside, at_bands=at_bands)
 
 
 def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
@@ -1788,6 +1808,81 @@ def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
     """
     _check_enabled()
     return picture_files.image(picture, name)
+
+
+def picture_pixel(picture: SpectralPicture, column: int, row: int) -> Pixel:
+    """Read a pixel of a spectral picture.
+
+    Parameters
+    ----------
+    picture
+        What `spectral_picture` gave.
+    column, row
+        From the bottom left.
+
+    Returns
+    -------
+    Its `wavelengths`, from 360 to 780 nm every 10 nm, and `radiance` per nanometer in the scene's
+    units; `xyz` by the picture's observer; `lab` against white at a radiance of 1 under the scene's
+    light; and `delta_e`, ΔE00 of the ordinary picture there, None without one.
+
+    Raises
+    ------
+    DomainError
+        There is no such pixel.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> scene.cycles.use_denoising = False
+    >>> picture = spectral_picture(scene, bands=3, samples=1)
+    >>> pixel = picture_pixel(picture, 4, 4)
+    >>> pixel.radiance.shape, [round(abs(value), 1) for value in pixel.lab[1:]]
+    ((43,), [0.0, 0.0])
+    """
+    _check_enabled()
+    return picture_pixels.read(picture, column, row)
+
+
+def measured_light(light: bpy.types.Light | bpy.types.World, path: str | os.PathLike[str]) -> None:
+    r"""Let a lamp or a world have the spectrum of a file in spectral pictures; it is kept with it.
+
+    A CIE illuminant needs no function: ``light.rough_spectra.spectrum = "F11"``, and "COLOR" for
+    what fits its color.
+
+    Parameters
+    ----------
+    light
+        A lamp or a world.
+    path
+        A TM-27 file (.spdx), a table of wavelengths and power, or a spectral image.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or nothing of this light is seen.
+    MaterialError
+        The light is linked from another file.
+
+    Examples
+    --------
+    >>> _ = Path("lamp.csv").write_text("nm,W\n400,0.2\n500,0.5\n600,0.9\n700,1\n")
+    >>> lamp = bpy.data.lights.new("Lamp", "POINT")
+    >>> measured_light(lamp, "lamp.csv")
+    >>> lamp.rough_spectra.spectrum, lamp.rough_spectra.sample_name
+    ('MEASURED', 'lamp.csv')
+    """
+    _check_enabled()
+    if not light.is_editable:
+        msg = f"{light.name!r} is linked from another file; make it local first."
+        raise MaterialError(msg)
+    source = light_source.read(path)
+    light_spectra.measured(source)  # refuses what nobody sees
+    chosen_light.keep(light, source, str(path))
 
 
 def _checked(material: Any) -> Any:

@@ -26,9 +26,9 @@ from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import surface_spectra
 from ..material import settled, state, storage
 from ..scene import emission
+from . import chosen_light
+from .light_spectra import KnownLight
 
-KnownLight = tuple[Array, str]
-"""A spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is."""
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
 _GLOWS = {
     ("ShaderNodeEmission", "Color"): "Strength",
@@ -171,12 +171,12 @@ def find(
         The working space.
     known
         By the names of lamps, worlds and materials, the spectrum that their light has, and what
-        that is; its luminance stays that of their color.
+        that is, whatever they keep themselves; its luminance stays that of their color.
 
     Raises
     ------
     MaterialError
-        If nothing of such a name shines with one color.
+        If nothing of such a name shines with one color, or a lamp keeps what is no spectrum.
     """
     search = _Search(space, known or {})
     found = search.of(depsgraph, scene)
@@ -195,6 +195,7 @@ class _Search:
         self._known = known
         self.unused = set(known)
         self._called: dict[str, str] = {}
+        self._chosen: dict[str, KnownLight] = {}
         self._found = Colors()
         self._seen: set[tuple[str, str, str]] = set()
 
@@ -225,6 +226,12 @@ class _Search:
         title = f"{kind} {data.name!r}"
         self._called[title] = str(data.name)
         return title
+
+    def _choose(self, title: str, data: Any) -> None:
+        """Remember the spectrum that a lamp or a world keeps, and that it has to be used."""
+        chosen = chosen_light.known(data)
+        if chosen is not None:
+            self._chosen[title] = chosen
 
     def _material(self, material: Any) -> None:
         of = _key("materials", material)
@@ -272,6 +279,7 @@ class _Search:
         name = self._title("Light", light)
         if getattr(getattr(light, "cycles", None), "is_portal", False):
             return
+        self._choose(name, light)
         color = np.array(light.color[:], np.float64)
         kelvin = None
         if light.use_temperature:
@@ -290,6 +298,7 @@ class _Search:
     def _world(self, world: Any) -> None:
         of = _key("worlds", world)
         name = self._title("World", world)
+        self._choose(name, world)
         tree = emission.tree(world)
         if tree is None:
             self._glow(Place(of, attribute="color"), name, np.array(world.color[:], np.float64))
@@ -359,6 +368,9 @@ class _Search:
                 return
         self._found.shining.append(Shining(place, None, own))
         self._found.tell(name, f"{LINEAR}, times that of D65")
+        if name in self._chosen:
+            _, words = self._chosen[name]
+            self._found.tell(name, f"not {words}, as it has many colors")
 
     def _glow(self, place: Place, name: str, rgb: Array, kelvin: float | None = None) -> None:
         xyz = np.linalg.solve(self._space.from_xyz, np.maximum(rgb, 0))
@@ -367,7 +379,10 @@ class _Search:
         known = self._known.get(self._called[name])
         if known is not None:
             self.unused.discard(self._called[name])
+        known = known or self._chosen.get(name)
         spectrum, words = known or illuminant_spectra.like(xyz / xyz[1], kelvin)
+        if known is not None and _are_apart(illuminant_spectra.to_xyz(spectrum), xyz):
+            words += ", though its RGB is another color"
         self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
         self._found.tell(name, words)
 
@@ -386,6 +401,12 @@ class _Search:
             self._found.leave(name, "its metal's IOR and extinction")
         if _in_use(node, "Thin Film Thickness"):
             self._found.leave(name, "its thin film")
+
+
+def _are_apart(xyz: Array, other: Array) -> bool:
+    """Whether two lights are seen to be of different colors."""
+    one, two = (illuminant_spectra.to_uv(each) for each in (xyz, other))
+    return float(np.linalg.norm(one - two)) > illuminant_spectra.NEAR_WHITE
 
 
 def _reached(tree: Any) -> list[Any]:

@@ -19,7 +19,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...core.bands import Bands
+from ...core.bands import Bands, Error
 from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
@@ -27,7 +27,7 @@ from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
-from . import colors, light_spectra, passes
+from . import colors, direct_light, light_spectra, passes, spectra
 from .colors import Colors
 from .passes import Lamps, Pass
 from .picture import SpectralPicture, compare
@@ -49,7 +49,8 @@ class Wanted:
     observer
         2 or 10 degrees.
     direct
-        Whether direct light is rendered apart, one more render a lamp, and is exact.
+        Whether direct light is rendered apart, one more render a lamp, and is exact; None for
+        where it is the better way, see `direct_light`.
     plain
         Whether to render the ordinary picture too, and compare.
     samples, percentage
@@ -72,7 +73,7 @@ class Wanted:
     tolerance: float = TOLERANCE
     bands: int | None = None
     observer: int = 2
-    direct: bool = False
+    direct: bool | None = False
     plain: bool = True
     samples: int | None = None
     percentage: int | None = None
@@ -131,9 +132,10 @@ class Rendering(Job):
         depsgraph = _evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
-        self._chosen = self._choose()
-        self._passes = self._of_bands()
-        if wanted.direct:
+        self._light = self._decide(scene)
+        self._chosen = self._light.bands
+        self._passes = [] if self._light.is_all else self._of_bands()
+        if self._light.apart:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
         renders = [*self._passes, *self._beside(depsgraph, scene)]
 
@@ -153,7 +155,7 @@ class Rendering(Job):
                 "samples": wanted.samples or scene.cycles.samples,
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
-                "apart": wanted.direct,
+                "apart": self._light.apart,
                 "steady": wanted.steady,
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
@@ -166,9 +168,10 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
+        self.total = len(renders) + wanted.plain  # before the other Blender says so
 
-    def _choose(self) -> Bands:
-        return _choose(self._found, self._lamps, self._space, self._wanted)
+    def _decide(self, scene: Any) -> direct_light.Choice:
+        return _decide(scene, self._found, self._lamps, self._space, self._wanted)
 
     def _of_bands(self) -> list[Pass]:
         return passes.of_bands(self._chosen)
@@ -194,7 +197,7 @@ class Rendering(Job):
             If the second Blender failed.
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
-        alpha, xyz = _together(self, self._passes)
+        alpha, xyz, channels = _together(self, self._passes)
         adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
@@ -207,15 +210,31 @@ class Rendering(Job):
             shown,
             xyz,
             self._wanted.observer,
-            self._chosen.wavelengths,
-            self._wanted.direct,
-            self._chosen.error,
-            self._chosen.enough,
+            self._wavelengths,
+            self._light.apart,
+            Error(0.0, 0.0, 0.0) if self._light.is_all else self._chosen.error,
+            self._light.is_all or self._chosen.enough,
             comparison,
             {name: tuple(rules) for name, rules in self._found.told.items()},
             {name: tuple(left) for name, left in self._found.untranslated.items()},
             tuple(seconds),
+            spectra.of(
+                channels,
+                passes.surfaces_of(self._found, self._space),
+                self._lamps,
+                self._passes,
+                self._wavelengths,
+                self._wanted.observer,
+            ),
+            self._light.words,
+            self._lamps.white_by(self._wanted.observer),
         )
+
+    @property
+    def _wavelengths(self) -> Array:
+        """Of the bands that are rendered."""
+        nm: Array = self._chosen.wavelengths
+        return nm[:0] if self._light.is_all else nm
 
 
 def render(
@@ -264,31 +283,25 @@ def _evaluated(scene: Any, layer: Any) -> Any:
         return bpy.context.evaluated_depsgraph_get()
 
 
-def _choose(found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted) -> Bands:
-    tolerance, most = wanted.tolerance, wanted.most
-    if wanted.bands is not None:
-        tolerance, most = 0.0, wanted.bands
-    return passes.choose(
-        found,
-        lamps,
-        space,
-        tolerance,
-        most=most,
-        direct=wanted.direct,
-        observer=wanted.observer,
+def _decide(
+    scene: Any, found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted
+) -> direct_light.Choice:
+    counted = wanted.bands is not None
+    tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
+
+    def choose(direct: bool) -> Bands:
+        more = {"most": most, "direct": direct, "observer": wanted.observer}
+        return passes.choose(found, lamps, space, tolerance, **more)
+
+    return direct_light.decide(scene, wanted.direct, len(lamps.spectra), counted, choose)
+
+
+def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
+    """Alpha (rows, columns, 1), XYZ (rows, columns, 3) and all channels of all renders."""
+    pixels = [np.load(job.output(f"pass-{number}.npy")) for number in range(len(renders))]
+    xyz = sum(
+        part[..., :3].astype(np.float64) @ each.to_xyz
+        for part, each in zip(pixels, renders, strict=True)
     )
-
-
-def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array]:
-    """Alpha (rows, columns, 1) and XYZ (rows, columns, 3) of all renders, one in memory a time."""
-    alpha = xyz = None
-    for number, each in enumerate(renders):
-        pixels = np.load(job.output(f"pass-{number}.npy"))
-        part = pixels[..., :3].astype(np.float64) @ each.to_xyz
-        if xyz is None:
-            alpha, xyz = pixels[..., 3:].astype(np.float64), part
-        else:
-            xyz += part
-    assert alpha is not None
-    assert xyz is not None
-    return alpha, xyz
+    channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
+    return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels

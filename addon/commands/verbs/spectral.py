@@ -25,6 +25,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from ...colorimetry.tristimulus import OBSERVERS
 
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="an EXR")
+    parser.add_argument(
+        "--spectral",
+        type=Path,
+        metavar="FILE",
+        help="a spectral image besides, FILE.spectral.exr: radiance every 10 nm",
+    )
+    parser.add_argument(
+        "--at-bands", action="store_true", help="the bands themselves in that, as rendered"
+    )
     parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
     amount = parser.add_mutually_exclusive_group()
     amount.add_argument(
@@ -40,9 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--observer", type=int, choices=OBSERVERS, default=2, help="in degrees; 2")
     parser.add_argument(
         "--direct",
-        action="store_true",
+        action=argparse.BooleanOptionalAction,
         help="render direct light apart, in one more render for each spectrum of light: it is "
-        "exact then",
+        "exact then. Chosen by what needs fewer renders if left out",
     )
     parser.add_argument(
         "--no-comparison",
@@ -65,7 +74,7 @@ def add_light(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME=LIGHT",
         help="a lamp, world or emitting material, and the spectrum that it has: a CIE illuminant, "
-        "such as Lamp=F11, or a table of wavelengths and power; repeatable",
+        "such as Lamp=F11, or a file, such as Lamp=sodium.spdx, or a table; repeatable",
     )
 
 
@@ -97,7 +106,7 @@ def run(options: argparse.Namespace) -> int:
     from ..progress import ProgressLine, counted
 
     scene = scene_of(options)
-    files.check(options.output)  # before the work that could not be written
+    files.check(options.output, options.spectral)  # before the work that could not be written
     progress = ProgressLine("rendering")
     try:
         picture = api.spectral_picture(
@@ -122,7 +131,9 @@ def run(options: argparse.Namespace) -> int:
         tell(sentence)
     if not picture.enough and options.bands is None:
         tell(f"warning: no number of bands is within ΔE00 {options.tolerance:g}")
-    written = api.write_picture(picture, options.output)
+    written = api.write_picture(
+        picture, options.output, options.spectral, at_bands=options.at_bands
+    )
     tell(
         f"{counted(len(picture.seconds), 'render')} in {sum(picture.seconds):.1f} s; wrote "
         f"{', '.join(path.name for path in written)}"

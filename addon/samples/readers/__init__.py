@@ -11,6 +11,7 @@ A format is one module of `formats/`, and nothing else has to know of it:
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
     REGIONS = True                                  only where it reads `Document.region`
     SETS = True                                     only where files say what belongs together
+    def emission(document: Document)                only where it reads light, see `light_source`
 
 What several formats share is in `parts/`.
 """
