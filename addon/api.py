@@ -8,6 +8,7 @@ From a file to files:
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
     spectral_picture → write_picture, picture_image; picture_verdict
+    picture_lights → relight → write_picture
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -76,16 +77,22 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
+from .picture import chosen_light, light_spectra
 from .picture import files as picture_files
+from .picture import groups as picture_groups
+from .picture import pixel as picture_pixels
+from .picture import relight as picture_relight
 from .picture import render as picture_render
 from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
+from .picture.pixel import Pixel
+from .picture.relight import Lights
 from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings, SpotRead
 from .readings.emission import Emissivity, InBand
-from .samples import filter_response, gloss_of_set, library, readers, stated_white
+from .samples import filter_response, gloss_of_set, library, light_source, readers, stated_white
 from .samples import palette as palette_files
 from .samples import presets as preset_files
 from .samples.palette import Row
@@ -114,11 +121,13 @@ __all__ = [
     "InBand",
     "InLight",
     "InputError",
+    "Lights",
     "Loss",
     "Made",
     "MaterialError",
     "Measured",
     "OutputError",
+    "Pixel",
     "Reading",
     "Readings",
     "Request",
@@ -150,15 +159,19 @@ __all__ = [
     "match_by_measuring",
     "materials",
     "measure_rough",
+    "measured_light",
     "metamerism",
     "nearest",
     "palette",
     "paused",
     "picture_image",
+    "picture_lights",
+    "picture_pixel",
     "picture_verdict",
     "presets",
     "read",
     "read_filter",
+    "relight",
     "renew",
     "request",
     "rough_sample",
@@ -1646,6 +1659,86 @@ def picture_verdict(
     )
 
 
+def picture_lights(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE / 2,
+    bands: int | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Lights:
+    """Render the light of each lamp apart, so that lamps can be changed without rendering.
+
+    Parameters
+    ----------
+    scene, bands, samples, percentage, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be, in the scene's own light and in that of
+        the usual illuminants.
+
+    Returns
+    -------
+    Their `names`, `spectra`, `parts`, `alpha` and `wavelengths`, for `relight`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`; and where lamps cannot be told apart.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> lights = picture_lights(scene, bands=3, samples=1)
+    >>> lights.names, lights.parts.shape, relight(lights, {"Gray": "A"}).rgb.shape
+    (('Gray',), (1, 3, 8, 8), (8, 8, 4))
+    """
+    _check_enabled()
+    wanted = picture_render.Wanted(
+        tolerance, bands, plain=False, samples=samples, percentage=percentage, steady=True
+    )
+    return picture_groups.gather(scene or bpy.context.scene, wanted, progress)
+
+
+def relight(
+    lights: Lights,
+    spectra: Mapping[str, str] | None = None,
+    intensities: Mapping[str, float] | None = None,
+    observer: int = 2,
+) -> SpectralPicture:
+    """Give the picture with other lamps, without rendering; see `picture_lights`.
+
+    Parameters
+    ----------
+    lights
+        What `picture_lights` gave.
+    spectra
+        By name, the CIE illuminant that a lamp becomes, or the path of a table.
+    intensities
+        By name, how many times as bright it is.
+    observer
+        2 or 10 degrees.
+
+    Raises
+    ------
+    DomainError, InputError
+        There is no such lamp or light, or the open file has another working space.
+
+    Examples
+    --------
+    See `picture_lights`.
+    """
+    _check_enabled()
+    desk = picture_relight.Desk(lights, observer)
+    picture_relight.set_all(desk, spectra or {}, intensities or {})
+    return desk.picture()
+
+
 def write_picture(
     picture: SpectralPicture,
     path: str | os.PathLike[str],
@@ -1715,6 +1808,81 @@ def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
     """
     _check_enabled()
     return picture_files.image(picture, name)
+
+
+def picture_pixel(picture: SpectralPicture, column: int, row: int) -> Pixel:
+    """Read a pixel of a spectral picture.
+
+    Parameters
+    ----------
+    picture
+        What `spectral_picture` gave.
+    column, row
+        From the bottom left.
+
+    Returns
+    -------
+    Its `wavelengths`, from 360 to 780 nm every 10 nm, and `radiance` per nanometer in the scene's
+    units; `xyz` by the picture's observer; `lab` against white at a radiance of 1 under the scene's
+    light; and `delta_e`, ΔE00 of the ordinary picture there, None without one.
+
+    Raises
+    ------
+    DomainError
+        There is no such pixel.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> scene.cycles.use_denoising = False
+    >>> picture = spectral_picture(scene, bands=3, samples=1)
+    >>> pixel = picture_pixel(picture, 4, 4)
+    >>> pixel.radiance.shape, [round(abs(value), 1) for value in pixel.lab[1:]]
+    ((43,), [0.0, 0.0])
+    """
+    _check_enabled()
+    return picture_pixels.read(picture, column, row)
+
+
+def measured_light(light: bpy.types.Light | bpy.types.World, path: str | os.PathLike[str]) -> None:
+    r"""Let a lamp or a world have the spectrum of a file in spectral pictures; it is kept with it.
+
+    A CIE illuminant needs no function: ``light.rough_spectra.spectrum = "F11"``, and "COLOR" for
+    what fits its color.
+
+    Parameters
+    ----------
+    light
+        A lamp or a world.
+    path
+        A TM-27 file (.spdx), a table of wavelengths and power, or a spectral image.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or nothing of this light is seen.
+    MaterialError
+        The light is linked from another file.
+
+    Examples
+    --------
+    >>> _ = Path("lamp.csv").write_text("nm,W\n400,0.2\n500,0.5\n600,0.9\n700,1\n")
+    >>> lamp = bpy.data.lights.new("Lamp", "POINT")
+    >>> measured_light(lamp, "lamp.csv")
+    >>> lamp.rough_spectra.spectrum, lamp.rough_spectra.sample_name
+    ('MEASURED', 'lamp.csv')
+    """
+    _check_enabled()
+    if not light.is_editable:
+        msg = f"{light.name!r} is linked from another file; make it local first."
+        raise MaterialError(msg)
+    source = light_source.read(path)
+    light_spectra.measured(source)  # refuses what nobody sees
+    chosen_light.keep(light, source, str(path))
 
 
 def _checked(material: Any) -> Any:

@@ -381,6 +381,8 @@ class _Search:
             self.unused.discard(self._called[name])
         known = known or self._chosen.get(name)
         spectrum, words = known or illuminant_spectra.like(xyz / xyz[1], kelvin)
+        if known is not None and _are_apart(illuminant_spectra.to_xyz(spectrum), xyz):
+            words += ", though its RGB is another color"
         self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
         self._found.tell(name, words)
 
@@ -399,6 +401,12 @@ class _Search:
             self._found.leave(name, "its metal's IOR and extinction")
         if _in_use(node, "Thin Film Thickness"):
             self._found.leave(name, "its thin film")
+
+
+def _are_apart(xyz: Array, other: Array) -> bool:
+    """Whether two lights are seen to be of different colors."""
+    one, two = (illuminant_spectra.to_uv(each) for each in (xyz, other))
+    return float(np.linalg.norm(one - two)) > illuminant_spectra.NEAR_WHITE
 
 
 def _reached(tree: Any) -> list[Any]:

@@ -19,6 +19,7 @@ from ...core.numerics.arrays import Array
 from ..support import events
 from . import files
 from .picture import SpectralPicture
+from .pixel import Pixel
 
 PICTURE, MAP = "Spectral", "Spectral ΔE00"
 """Names of the images, unless others are called so."""
@@ -56,6 +57,8 @@ class Shown(NamedTuple):
 
 _held: list[Shown] = []
 """The last picture, if it is of the open file."""
+_picked: list[Pixel] = []
+"""The pixel of it that was read last, if any was."""
 
 
 def put(picture: SpectralPicture) -> list[Any]:
@@ -69,6 +72,7 @@ def put(picture: SpectralPicture) -> list[Any]:
         bpy.app.handlers.load_post.append(_forget)
         events.unregistering.subscribe(_end)
     top = None if picture.comparison is None else _top(picture.comparison.delta_e)
+    _picked.clear()
     _held[:] = [Shown(picture, tuple(files.told(picture)), top)]
     shown = [_replace(PICTURE, files.image(picture, PICTURE))]
     if picture.comparison is not None and top is not None:
@@ -82,6 +86,16 @@ def put(picture: SpectralPicture) -> list[Any]:
 def last() -> Shown | None:
     """Give the last picture of the open file, while it is in memory."""
     return _held[0] if _held else None
+
+
+def pick(pixel: Pixel) -> None:
+    """Remember the pixel that was read, for the panel."""
+    _picked[:] = [pixel]
+
+
+def picked() -> Pixel | None:
+    """Give the pixel that was read last of the last picture."""
+    return _picked[0] if _picked else None
 
 
 def of(image: Any) -> SpectralPicture | None:
@@ -134,6 +148,7 @@ def _forget(_path: str) -> None:
 
 def _end() -> None:
     _held.clear()
+    _picked.clear()
     events.unregistering.unsubscribe(_end)
     if _forget in bpy.app.handlers.load_post:
         bpy.app.handlers.load_post.remove(_forget)

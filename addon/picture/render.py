@@ -20,7 +20,6 @@ import bpy
 import numpy as np
 
 from ...core.bands import Bands, Error
-from ...core.color import color_difference
 from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
@@ -133,9 +132,9 @@ class Rendering(Job):
         depsgraph = _evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
-        self._light = _decide(scene, self._found, self._lamps, self._space, wanted)
+        self._light = self._decide(scene)
         self._chosen = self._light.bands
-        self._passes = [] if self._light.is_all else passes.of_bands(self._chosen)
+        self._passes = [] if self._light.is_all else self._of_bands()
         if self._light.apart:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
         renders = [*self._passes, *self._beside(depsgraph, scene)]
@@ -161,6 +160,7 @@ class Rendering(Job):
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
+                "groups": self._groups(depsgraph, scene),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -168,9 +168,20 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
+        self.total = len(renders) + wanted.plain  # before the other Blender says so
+
+    def _decide(self, scene: Any) -> direct_light.Choice:
+        return _decide(scene, self._found, self._lamps, self._space, self._wanted)
+
+    def _of_bands(self) -> list[Pass]:
+        return passes.of_bands(self._chosen)
 
     def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
         """Give renders that are wanted after those of the picture."""
+        return []
+
+    def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
+        """Give what shines together, where pictures are wanted of each."""
         return []
 
     def _edits(self, renders: list[Pass]) -> list[dict[str, Any]]:
@@ -187,7 +198,7 @@ class Rendering(Job):
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
         alpha, xyz, channels = _together(self, self._passes)
-        adapted = xyz @ _to_2_degrees(self._wanted.observer).T
+        adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
         comparison = None
@@ -294,13 +305,3 @@ def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
     )
     channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
     return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels
-
-
-def _to_2_degrees(observer: int) -> Array:
-    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both."""
-    if observer == 2:
-        return np.eye(3)
-    light = illuminant_spectra.cie("D65")
-    step = illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
-    whites = [light @ illuminant_spectra.observer(each) * step for each in (observer, 2)]
-    return np.asarray(color_difference.adaptation(*whites))

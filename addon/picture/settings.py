@@ -69,7 +69,7 @@ class RoughSpectraPicture(PropertyGroup):
         max=100,
     )
     compare: BoolProperty(
-        name="Compare with RGB",
+        name="Compare RGB",
         description="Render the ordinary picture, too, and a map of how far it is off",
         default=True,
     )

@@ -556,6 +556,18 @@ def test_rules_are_told_and_what_has_none_is_named():
     ]
 
 
+def test_a_radius_counts_only_where_light_scatters():
+    scene = from_above(4)
+    sun(scene)
+    material, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Base Color"].default_value = (0.5, 0.5, 0.5, 1)
+    strip(0, material)
+    assert not find().colored
+    node.inputs["Subsurface Weight"].default_value = 0.1
+    [found] = find().colored
+    assert node.inputs[found.place.socket].name == "Subsurface Radius"
+
+
 def test_nodes_that_reach_no_output_do_not_count():
     scene = from_above(4)
     sun(scene)
@@ -623,7 +635,7 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert shining.spectrum == pytest.approx(sd)
     luminance = np.linalg.solve(working_space.current().from_xyz, light.color)[1]
     assert shining.strength == pytest.approx([luminance] * 3)
-    assert found.told["Light 'Sun'"] == ["CIE F11"]
+    assert found.told["Light 'Sun'"] == ["CIE F11, though its RGB is another color"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
         colors.find(*args, {"Moon": light_spectra.find("F11")})
 
@@ -644,14 +656,24 @@ def test_lamps_and_worlds_keep_their_spectra_in_the_file(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     found = find()
-    assert found.told == {"Light 'Sun'": ["measured: lamp.csv"], "World 'World'": ["CIE F11"]}
+    assert list(found.told) == ["Light 'Sun'", "World 'World'"]
+    # A blackbody of 2856 K and gray, which F11 is next to neither.
+    other = ", though its RGB is another color"
+    assert list(found.told.values()) == [
+        [f"measured: lamp.csv{other}"],
+        [f"CIE F11{other}"],
+    ]
     of_lamp, of_world = found.shining
     assert of_lamp.spectrum.tolist() == wanted[0].tolist()
     assert of_world.spectrum == pytest.approx(illuminant_spectra.cie("F11"))
     # What is asked for by name comes first.
     args = bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
     named = colors.find(*args, {"Sun": light_spectra.find("D50")})
-    assert named.told["Light 'Sun'"] == ["CIE D50"]
+    assert named.told["Light 'Sun'"] == [f"CIE D50{other}"]
+    bpy.data.lights["Sun"].temperature = 4000
+    bpy.context.view_layer.update()
+    named = colors.find(*args, {"Sun": light_spectra.find("F11")})
+    assert named.told["Light 'Sun'"] == ["CIE F11"]
 
 
 def test_a_world_of_many_colors_says_that_it_has_no_one_spectrum():

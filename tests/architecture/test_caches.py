@@ -31,6 +31,7 @@ NO_CACHES = {
     ("addon/preview/icons.py", "_pending"),
     # What was rendered last, which is dear to make again.
     ("addon/picture/images.py", "_held"),
+    ("addon/picture/images.py", "_picked"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
     ("addon/interface/shelf.py", "_asked"),

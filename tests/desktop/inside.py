@@ -20,6 +20,7 @@ import scenes_quitting  # noqa: F401
 import scenes_rough  # noqa: F401
 import scenes_shelf  # noqa: F401
 import scenes_simple  # noqa: F401
+import scenes_spectral  # noqa: F401
 import scenes_spots  # noqa: F401
 import stage
 

@@ -314,3 +314,29 @@ def test_measuring_a_spot(scene):
     assert scene["after"] == []
     assert scene["undone"] == [None, []]
     assert scene["left"] == [[], None, [], 0]
+
+
+def test_rendering_a_spectral_picture(scene):
+    assert scene["modal"] == ["ROUGH_SPECTRA_OT_render_spectral"]
+    assert scene["modal_after"] == scene["picking_after"] == []
+    assert scene["images"] == ["Spectral", "Spectral ΔE00"]
+    assert scene["shown"] == "Spectral"
+    assert scene["same"]
+    assert scene["told"][0].startswith("6 bands")
+    assert scene["rules"]["Light 'Tube'"] == ["CIE F11"]
+    assert scene["rules"]["Material 'Yellow'"] == ["measured: ColorChecker 16 Yellow"]
+    assert scene["picking"] == ["ROUGH_SPECTRA_OT_pick_pixel"]
+    assert scene["picked"] == scene["wanted"]
+    lightness, _, b = scene["lab"]
+    assert lightness > 20
+    assert b > 40  # which is yellow
+    assert scene["delta_e"] > 0
+    assert scene["undone"] == []
+
+
+def test_stopping_a_spectral_picture(scene):
+    assert scene["ran"]
+    assert scene["left"] == [0, 0, []]
+    assert scene["folders"] == []
+    assert scene["same"]
+    assert scene["modal"] == []

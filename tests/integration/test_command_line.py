@@ -25,6 +25,7 @@ VERBS = (
     "lab",
     "list",
     "merge",
+    "relight",
     "search",
     "spectral",
     "texture",

@@ -102,6 +102,30 @@ def test_a_pixel_has_the_color_of_its_spectrum(room):
         pixel.read(picture, COLUMNS, 3)
 
 
+def test_a_pixel_is_picked_by_a_script_too(room):
+    with pytest.raises(RuntimeError, match="Render a spectral picture first"):
+        bpy.ops.rough_spectra.pick_pixel(place=(1, 2))
+    bpy.ops.rough_spectra.render_spectral()
+    assert images.picked() is None
+    assert bpy.ops.rough_spectra.pick_pixel(place=(1, 2)) == {"FINISHED"}
+    found, direct = images.picked(), pixel.read(images.last().picture, 1, 2)
+    assert (found.column, found.row, found.lab) == (1, 2, direct.lab)
+    with pytest.raises(RuntimeError, match="no pixel 1, 99"):
+        bpy.ops.rough_spectra.pick_pixel(place=(1, 99))
+
+
+def test_a_spectrum_is_plotted_where_its_numbers_are():
+    from rough_spectra.addon.preview.drawing import looks
+    from rough_spectra.addon.preview.figures import radiance
+
+    look = looks.look((0.2, 0.2, 0.2), (0.9, 0.9, 0.9), 1.0)
+    nm = np.arange(360.0, 781.0, 10.0)
+    canvas = radiance.picture(180, nm, np.where(nm < 600, 0.0, 5.0), look)
+    bright = canvas[..., 3].astype(int) * (canvas[..., :3].min(axis=-1) > 180)
+    left, right = bright[:120, 20:100].sum(axis=1), bright[:120, 130:175].sum(axis=1)
+    assert right[:10].max() > 50 * 255 * 0.5 > 10 * left[:10].max()
+
+
 @pytest.mark.parametrize(
     ("set_to", "wanted"),
     [

@@ -53,19 +53,16 @@ class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Read the file, and keep its spectrum with the light."""
-        from ...picture import chosen_light, light_spectra
-        from ...samples import light_source
+        from ... import api
 
-        data, path = light_of(context), bpy.path.abspath(self.filepath)
+        data: Any = light_of(context)
         try:
-            source = light_source.read(path)
-            light_spectra.measured(source)  # refuses what nobody sees
+            api.measured_light(data, bpy.path.abspath(self.filepath))
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}
-        chosen_light.keep(data, source, self.filepath)
         sentence = rpt_("{light} has the spectrum of {file} in spectral pictures")
-        self.report({"INFO"}, sentence.format(light=data.name, file=source.name))
+        self.report({"INFO"}, sentence.format(light=data.name, file=data.rough_spectra.sample_name))
         return {"FINISHED"}
 
 

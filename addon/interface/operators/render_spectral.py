@@ -58,7 +58,9 @@ class ROUGHSPECTRA_OT_render_spectral(background.InBackground, bpy.types.Operato
         for name, left in picture.untranslated.items():
             sentence = rpt_("{name}: {what} stays RGB")
             self.report({"WARNING"}, sentence.format(name=name, what=", ".join(left)))
-        told = images.last().told[-1]
+        last = images.last()
+        assert last is not None
+        told = last.told[-1]
         if not is_shown:
             told += rpt_("; open an Image Editor and choose the image {name}").format(
                 name=shown[0].name

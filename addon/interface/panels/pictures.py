@@ -78,6 +78,42 @@ class ROUGHSPECTRA_PT_picture_rules(_Tab, bpy.types.Panel):
             text.draw(layout.column(align=True), _rules(last, _format(context)))
 
 
+class ROUGHSPECTRA_PT_pixel(bpy.types.Panel):
+    """Spectrum and color of a pixel of the spectral picture, and how far RGB is off there"""
+
+    bl_label = "Rough Spectra"
+    bl_space_type = "IMAGE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Rough Spectra"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show where the spectral picture or its map is shown."""
+        from ...picture import images
+
+        return images.of(context.space_data.image) is not None
+
+    def draw(self, context: Any) -> None:
+        """Draw the button, and what was clicked."""
+        from ...picture import images
+        from ...preview import pixel_plot
+        from . import text
+
+        layout: Any = self.layout
+        layout.operator("rough_spectra.pick_pixel", icon="EYEDROPPER")
+        found, form = images.picked(), _format(context)
+        if found is None:
+            return
+        layout.template_icon(pixel_plot.icon_id(), scale=pixel_plot.UNITS)
+        words = iface_("Pixel {column}, {row}").format(column=found.column, row=found.row)
+        lab = "L* {:.1f}, a* {:.1f}, b* {:.1f}".format(*found.lab)
+        xyz = "X {:.4g}, Y {:.4g}, Z {:.4g}".format(*found.xyz)
+        told = [words, lab, xyz]
+        if found.delta_e is not None:
+            told.append(iface_("RGB is off by ΔE00 {:.2f}").format(found.delta_e))
+        text.draw(layout.column(align=True), [form.sentence(each, "NONE") for each in told])
+
+
 def _last() -> Shown | None:
     from ...picture import images  # most sessions of Blender never render one
 
@@ -115,4 +151,4 @@ def _rules(last: Shown, form: Format) -> list[Sentence]:
     return told
 
 
-classes = (ROUGHSPECTRA_PT_picture, ROUGHSPECTRA_PT_picture_rules)
+classes = (ROUGHSPECTRA_PT_picture, ROUGHSPECTRA_PT_picture_rules, ROUGHSPECTRA_PT_pixel)
