@@ -60,6 +60,21 @@ def pytest_collection_finish():
     gc.freeze()
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_fixture_setup():
+    _hide_the_test()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call():
+    _hide_the_test()
+
+
+def _hide_the_test():
+    """Take the test's name from the environment: a second Blender is kept while that stays alike."""
+    os.environ.pop("PYTEST_CURRENT_TEST", None)
+
+
 @pytest.fixture(scope="session")
 def extension():
     """Register the extension once for all folders of tests that need Blender.
