@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 
 from ...core.errors import MaterialError
-from ..blender import colors, shader_nodes, working_space
+from ..blender import colors, second_blender, shader_nodes, working_space
 from ..matching import color_search, solve
 from ..matching.color_search import MEASUREMENTS, Found
 from ..material import last_measurement, measured_match
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Adjustment:
-    """A search under way: one measurement after the other, each in a second Blender.
+    """A search under way: one measurement after the other, all of them in one second Blender.
 
     To whoever waits it is a `Job`: it has `total` and `done`, `poll`, `wait`, `close` and
     `when_closed`. The material itself is not touched; `found` says what color it is to get.
@@ -73,7 +73,10 @@ class Adjustment:
         self._search = color_search.search(
             self.target, start, lambda rgb: space.to_lab(rgb, request.illuminant)
         )
-        self._measure(next(self._search))
+        with ExitStack() as undone:
+            undone.enter_context(second_blender.kept())
+            self._measure(next(self._search))
+            self._traces = undone.pop_all()
 
     def material(self) -> Any:
         """Give the material as it is now.
