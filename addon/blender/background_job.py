@@ -62,7 +62,9 @@ class Job:
                 # Switching the extension off, or quitting Blender, ends what runs.
                 events.unregistering.subscribe(self.close)
                 self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
-                job = {"asked_by": os.getpid(), **prepare(self._folder)}
+                scene = bpy.context.scene
+                frame = (scene.frame_current, scene.frame_subframe)
+                job = {"asked_by": os.getpid(), "frame": frame, **prepare(self._folder)}
                 self._start(self._folder, worker, job)
                 undone.pop_all()
         except (OSError, RuntimeError) as error:

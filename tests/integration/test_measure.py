@@ -6,6 +6,8 @@ import json
 
 import bpy
 import pytest
+from rough_spectra.addon.blender import shader_nodes, texture_colors
+from rough_spectra.addon.instrument import measure
 from rough_spectra.addon.interface.panels import sentences, text
 from rough_spectra.addon.material import last_measurement
 
@@ -62,6 +64,25 @@ def test_what_a_flat_sample_lacks_is_told_wherever_it_is_measured(main, tmp_path
     [reading] = json.loads((tmp_path / "wall.json").read_text(encoding="utf-8"))["readings"]
     assert any(lacks in warning for warning in reading["warnings"])
     assert reading["measured"]["rgb"] == [0, 0, 0]
+
+
+def test_what_is_animated_is_seen_as_at_the_frame_of_the_scene():
+    """The second Blender showed its first frame, and read what nobody saw."""
+    material = rgb_material("Wall")
+    tree = material.node_tree
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    source = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    tree.links.new(source, node.inputs["Color"])
+    for frame, value in ((1, 0.1), (11, 0.2), (12, 0.4)):
+        source.default_value = (value, value, value, 1)
+        source.keyframe_insert("default_value", frame=frame)
+    for curve in shader_nodes.curves(tree.animation_data):
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    bpy.context.scene.frame_set(11, subframe=0.5)
+    assert measure.measure([material])[0, 0, 0] == pytest.approx([0.3] * 3, abs=1e-5)
+    [colors] = texture_colors.seen([node.inputs["Color"]])
+    assert colors == pytest.approx(0.3, abs=1e-5)
 
 
 def test_a_material_without_a_spectrum_is_measured_too():

@@ -23,7 +23,11 @@ bpy.utils.expose_bundled_modules()
 
 import numpy as np  # noqa: E402
 
-from tools.manual import palette_png, screenshots_states  # noqa: E402
+from tools.manual import (  # noqa: E402
+    palette_png,
+    screenshots_readings,  # noqa: F401, it registers its states
+    screenshots_states,
+)
 
 ZIP, OUT, SCALE, WIDTH, THEME, GRAB, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 SETTLE_SECONDS = 1.5
@@ -133,7 +137,7 @@ def _cut(path: Path, part: str, window: Any) -> None:
         [region] = [region for region in wide.regions if region.type == "UI"]
         # Below the sidebar's panels a grid shows through.
         pixels = _panel(_within(pixels, region, window), 24, 3 * CONTRAST)
-    elif part == "dialog":
+    elif part in ("dialog", "nodes"):
         pixels = _dialog(_within(pixels, wide, window))
     elif part == "status":
         below = min(area.y for area in window.screen.areas)

@@ -44,7 +44,8 @@ class Picture:
     show
         Puts the window into the state.
     part
-        "panel", "sidebar", "dialog", "status", "preferences", "view" or "window": what is saved.
+        "panel", "sidebar", "dialog", "nodes", "status", "preferences", "view" or "window": what is
+        saved.
     ready
         Whether what takes its time is there.
     """
