@@ -97,7 +97,9 @@ def test_finding_by_color(scene):
     assert scene["undone"]["sample"] == name
 
 
-BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
+BLENDERS_OWN = (
+    "Could not get a list of mounted file-systems",
+)
 TOLD = (" σ 20°: ", "The texture is scaled so that its mean")
 """What a user is told of the samples in a library that a scene builds, and of a texture."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
@@ -313,3 +315,11 @@ def test_measuring_a_spot(scene):
     assert scene["after"] == []
     assert scene["undone"] == [None, []]
     assert scene["left"] == [[], None, [], 0]
+
+
+def test_first_hour(scene):
+    """What `docs/first-material.md` counts."""
+    assert scene["first"] == [{"clicks": 4, "words": 1}, "Brick", 0.0, "looks right"]
+    assert scene["next"] == [{"drags": 1}, True]
+    assert scene["several"] == [{"clicks": 2, "words": 1}, ["Brick"] * 3]
+    assert scene["gloss"] == [{"drags": 1}, "looks right"]
