@@ -93,7 +93,9 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
     )
 
     def draw(self, _context: Any) -> None:
-        """Draw all of them, in the order of use."""
+        """Draw all of them, in the order of use, and where to read on."""
+        from ..support import version  # reads the manifest, which no start has to
+
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -106,6 +108,12 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
         layout.prop(self, "show_shelf")
         layout.operator("rough_spectra.show_presets", icon="ASSET_MANAGER")
+        address = version.website()
+        if address:
+            layout.operator("wm.url_open", text="Manual", icon="HELP").url = address
+        else:
+            entry = layout.operator("wm.path_open", text="Read Me", icon="HELP")
+            entry.filepath = str(version.read_me())
 
 
 def defaults() -> Defaults:

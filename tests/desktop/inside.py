@@ -15,6 +15,7 @@ import scenes_background  # noqa: F401
 import scenes_comfort  # noqa: F401
 import scenes_files  # noqa: F401
 import scenes_gloss  # noqa: F401
+import scenes_hour  # noqa: F401
 import scenes_panel  # noqa: F401
 import scenes_quitting  # noqa: F401
 import scenes_rough  # noqa: F401

@@ -340,3 +340,11 @@ def test_stopping_a_spectral_picture(scene):
     assert scene["folders"] == []
     assert scene["same"]
     assert scene["modal"] == []
+
+
+def test_first_hour(scene):
+    """What `docs/first-material.md` counts."""
+    assert scene["first"] == [{"clicks": 4, "words": 1}, "Brick", 0.0, "looks right"]
+    assert scene["next"] == [{"drags": 1}, True]
+    assert scene["several"] == [{"clicks": 2, "words": 1}, ["Brick"] * 3]
+    assert scene["gloss"] == [{"drags": 1}, "looks right"]
