@@ -170,3 +170,47 @@ def test_one_number_a_row_keeps_faults_at_their_line(tmp_path):
         read(tmp_path, head + "T,d/8,400,0.1\nT,d/8,410,high\n")
     plain = read(tmp_path, "wavelength,sample,reflectance\n400,1,0.5\n500,1,0.6\n")
     assert [s.values.tolist() for s in plain] == [[0.5, 0.6]], "raw counts beside the reflectance"
+
+
+@pytest.mark.parametrize(
+    ("words", "instrument"),
+    [
+        *(("d:8i", "di:8"), ("d:8e", "de:8"), ("D/8° (SCI)", "di:8"), ("diffuse/8 SPEX", "de:8")),
+        *(
+            ("SPIN", "di:8"),
+            ("SPEX", "de:8"),
+            ("RSIN", "di:8"),
+            ("RSEX", "de:8"),
+            ("SCI方式", "di:8"),
+        ),
+        *(("mit Glanz", "di:8"), ("ohne Glanz", "de:8"), ("Glanz eingeschlossen", "di:8")),
+        *(("Glanzfalle", "de:8"), ("spéculaire inclus", "di:8"), ("正反射光除去", "de:8")),
+        *(("spec. excl.", "de:8"), ("specular not included", "de:8"), ("Ulbricht", "di:8")),
+        *(
+            ("as110", "45as110"),
+            ("aspecular 25", "45as25"),
+            ("r45as25", "45as25"),
+            ("45c:0", "45a:0"),
+        ),
+    ],
+)
+@pytest.mark.parametrize(
+    "layout", ["# geometry: {}", "Geometry,{}", "# measured {}", "brick ({})", "Mode,{}"]
+)
+def test_makers_words_in_their_spellings_and_languages(tmp_path, words, instrument, layout):
+    said = layout.format(words)
+    if layout.startswith("brick"):
+        text = down(f"wavelength,{said}")
+    else:
+        text = f"{said}\n" + down("wavelength,brick")
+    [sample] = read(tmp_path, text)
+    assert sample.instrument == instrument
+
+
+def test_what_is_not_stated_is_named(tmp_path):
+    [sample] = read(tmp_path, down("wavelength,brick"))
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+    [sample] = read(tmp_path, down("# instrument: 45a:0\nwavelength,brick"))
+    assert sample.notes == ()
+    [sample] = read(tmp_path, down("# kind: albedo\nwavelength,brick"))
+    assert sample.notes == ()

@@ -130,7 +130,8 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
         note = "" if mark.angle is None else _ANGLES
         return _measured(sample, f"45as{mark.aspecular}", note, "")
     if bare and not sample.geometry and _MULTI_ANGLE.search(sample.device[:_LONGEST]):
-        return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *sample.notes))
+        kept = (note for note in sample.notes if note != instrument_of("")[1])
+        return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *kept))
     return sample
 
 

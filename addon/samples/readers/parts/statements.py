@@ -255,6 +255,8 @@ def make(
     known = finish(({"device": device} if device else {}) | _measured(said, fields) | fields)
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
+    if "instrument" not in known and said.kind == "reading":
+        notes = (instrument_of("")[1], *notes)
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
     texts |= {"device": known["device"]} if "device" in known else {}
     if said.kind == "emissivity":
