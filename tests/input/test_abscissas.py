@@ -196,3 +196,29 @@ def test_letters_beside_each_other_or_below_reflectance_are_samples(tmp_path):
     path = tmp_path / "two.csv"
     path.write_text("x,A,T\n400,0.1,0.2\n500,0.1,0.2\n")
     assert [sample.name for sample in readers.read(path)] == ["A", "T"]
+
+
+@pytest.mark.parametrize(
+    ("head", "cells"),
+    [("name,unit", "ink,%"), ("Probe,Einheit", "ink,Prozent"), ("name,Y units", "ink,%R")],
+)
+def test_a_column_tells_the_unit_of_each_row(tmp_path, head, cells):
+    text = f"{head},400 nm,500 nm\n{cells},0.6,0.8\npaper,fraction,0.6,0.8\n"
+    ink, paper = read(tmp_path, text)
+    assert (ink.values.tolist(), paper.values.tolist()) == ([0.006, 0.008], [0.6, 0.8])
+    text = "name,geometry,unit,wavelength,value\n" + "".join(
+        f"ink,d/8 SCE,%,{nm},{value}\n" for nm, value in ((400, 0.6), (500, 0.8))
+    )
+    [ink] = read(tmp_path, text)
+    assert ink.values.tolist() == [0.006, 0.008]
+
+
+def test_rows_of_another_quantity_are_left_out_and_told(tmp_path):
+    head = "name,quantity,400 nm,500 nm\n"
+    rows = "ink,reflectance,0.6,0.8\nink,absorbance,0.1,0.2\nink transmittance,,0.6,0.8\n"
+    [ink] = read(tmp_path, head + rows)
+    assert ink.values.tolist() == [0.6, 0.8]
+    assert "line 3 on absorbance" in ink.notes[-1]
+    assert "line 4 on transmittance" in ink.notes[-1]
+    with pytest.raises(InputError, match="line 2: the values are absorbance"):
+        read(tmp_path, head + "ink,absorbance,0.1,0.2\n")

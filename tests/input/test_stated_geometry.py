@@ -214,3 +214,45 @@ def test_what_is_not_stated_is_named(tmp_path):
     assert sample.notes == ()
     [sample] = read(tmp_path, down("# kind: albedo\nwavelength,brick"))
     assert sample.notes == ()
+
+
+@pytest.mark.parametrize(
+    "head",
+    ["Probe,Messgeometrie", "échantillon,géométrie", "試料名,光学系", "name,Glanz", "name,正反射"],
+)
+def test_columns_in_other_languages(tmp_path, head):
+    rows = ("Wand,d/8 SCE", "Putz,d/8 SCI")
+    if head.startswith("name"):
+        rows = tuple(row.replace("d/8 ", "") for row in rows)
+    wall, plaster = read(tmp_path, table(head, *rows))
+    assert (wall.name, wall.instrument) == ("Wand", "de:8")
+    assert (plaster.name, plaster.instrument) == ("Putz", "di:8")
+
+
+@pytest.mark.parametrize(
+    ("above", "device", "instrument"),
+    [
+        ("# Konica Minolta CM-26d\n", "CM-26d", "di:8"),
+        ("# measured by X-Rite i1Pro 2\n", "i1Pro", "45a:0"),
+        ("# Spectrophotometer: Ci7800, SPEX\n", "Ci7800, SPEX", "de:8"),
+        ("# Instrument: HunterLab LabScan XE\n", "HunterLab LabScan XE", "0:45a"),
+        ("# the exact color of 5 walls\n", "", "45a:0"),
+    ],
+)
+def test_a_device_counts_wherever_it_is_named(tmp_path, above, device, instrument):
+    [sample] = read(tmp_path, above + down("wavelength,brick"))
+    assert (sample.device, sample.instrument) == (device, instrument)
+
+
+def test_columns_of_angles_alone_and_of_makers_marks(tmp_path):
+    [car] = read(tmp_path, down("wavelength,-15,15,25,45,75,110"))
+    assert {s.instrument for s in car.readings} == {f"45as{a}" for a in (-15, 15, 25, 45, 75, 110)}
+    assert len(read(tmp_path, down("wavelength,15,25,45"))) == 3, "may be samples 15, 25 and 45"
+    [car] = read(tmp_path, down("wavelength,car r45as15,car r45as110"))
+    assert levels([car]) == {"45as15": 0.3, "45as110": 0.32}
+    [tile] = read(tmp_path, down("wavelength,Tile RSIN,Tile RSEX"))
+    assert (tile.name, levels([tile])) == ("Tile", SPHERES)
+
+
+def test_a_name_tells_the_condition(tmp_path):
+    assert [s.condition for s in read(tmp_path, down("wavelength,T M0,T (M1)"))] == ["M0", "M1"]

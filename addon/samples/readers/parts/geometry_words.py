@@ -257,18 +257,36 @@ def geometry_of_device(model: str) -> str:
     return next((geometry for pattern, geometry in _DEVICES if pattern.search(plain)), "")
 
 
+def device_in_text(text: str) -> str:
+    """Return the device with a known geometry that free text names, or an empty string."""
+    for pattern, _ in _DEVICES:
+        for match in pattern.finditer(text[:_LONGEST].lower()):
+            if match[0] not in _WORDS:
+                # All of the model, as in "Ci7800".
+                end = re.match(r"[\w-]*", text[match.end() :])
+                return text[match.start() : match.end() + (end.end() if end else 0)]
+    return ""
+
+
+_WORDS = {"exact", "isis", "isis "}
+"""Names of devices that free text holds without meaning one."""
 _DEVICES = (
     (
         # Not all of a maker's: Konica Minolta's CM-2500c is 45/0, its CM-512m3 has many angles.
-        re.compile(r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:26d|36d|[67]00d|2[356]00d|3[67]\d0)"),
+        re.compile(
+            r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:5\b|17d|2[56]d|36d|[67]00d|2[356]00d|3[67]\d0)|"
+            r"\bdatacolor (?:1[01]\d\d|[4-8][05]0)\b|\bultrascan\b|\bcolorquest\b"
+        ),
         "d/8",
     ),
     (
         re.compile(
             r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"
             r"color ?munki|\bdtp-?(?:20|22|41|70)\b|\bexact\b|\bfd-?[579]\b|myiro|"
-            r"spectro ?(?:lfp|pad)"
+            r"spectro ?(?:lfp|pad)|\bcolorflex\b|\bcm-?25cg|\bdatacolor 45|"
+            r"\bnix (?:pro|mini|spectro|qc)"
         ),
         "45/0",
     ),
+    (re.compile(r"\blabscan\b|\bagera\b"), "0/45"),
 )

@@ -17,7 +17,7 @@ from ...sample import Kind
 from ...stated_white import fields as white_fields
 from . import name_marks
 from .document import Document, quote
-from .geometry_words import in_text
+from .geometry_words import device_in_text, in_text
 from .tables import lines
 
 T = TypeVar("T")
@@ -299,7 +299,7 @@ def comments(document: Document) -> Comments:
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
         elif pair and value:
             found.others.append((pair[1], value))
-        elif text.strip() and any(in_text(text)):
+        elif text.strip() and (any(in_text(text)) or device_in_text(text)):
             found.others.append(("", text))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))
     if fault:

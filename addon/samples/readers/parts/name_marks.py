@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from .geometry_words import in_text, specular_of
 
 _LONGEST = 24  # characters of a name that can be such a mark
-_SPECULAR = r"r?(?:SCI|SCE|SPIN|SPEX|SIN(?<=RSIN)|SEX(?<=RSEX))"
-_ANGLE = r"(45\s*°?\s*:?\s*)?as([-+\u2212]?\d{1,3})\s*°?"
+_SPECULAR = r"[Rr]?(?:SCI|SCE|SPIN|SPEX|SIN(?<=RSIN)|SEX(?<=RSEX))"
+_ANGLE = r"(r?45\s*°?\s*:?\s*)?as([-+\u2212]?\d{1,3})\s*°?"
 _BARE = r"([-+\u2212]?\d{1,3})\s*(?:°|º|deg)"
 _IN_BRACKETS = re.compile(rf"\s*[(\[]\s*(?:({_SPECULAR})|{_ANGLE}|{_BARE})\s*[)\]]$", re.IGNORECASE)
 # Without brackets "sci" may be part of a word, unlike "SCI", and a hyphen before an angle its sign.
@@ -57,6 +57,8 @@ class Mark:
         Degrees of an angle that is not said to be one from the mirror direction, or None.
     sure
         Whether it stands in brackets, or could be nothing else.
+    bare
+        Whether the name is a number and no more.
     geometry
         In its words, where they are more than a specular component or an angle.
     """
@@ -67,6 +69,7 @@ class Mark:
     angle: int | None = None
     sure: bool = False
     geometry: str = ""
+    bare: bool = False
 
 
 def of_name(name: str) -> Mark:
@@ -75,7 +78,8 @@ def of_name(name: str) -> Mark:
     inside = _IN_BRACKETS.search(end)
     match = _GEOMETRY.search(end) or inside or _BEHIND.search(end)
     if not match:
-        return _in_words(name)
+        number = angle_of(name)
+        return _in_words(name) if number is None else Mark("", angle=number, bare=True)
     if match.re is _GEOMETRY:
         return _of_geometry(name, match)
     base = name[: len(name) - len(match[0])].rstrip()
