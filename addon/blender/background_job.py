@@ -19,6 +19,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, ClassVar
 
+import bpy
+
 from ...core.errors import CancelledError, OutputError, OwnFaultError, RoughSpectraError
 from ..support import events
 from . import job_failure, second_blender

@@ -81,6 +81,12 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
     )
 
+    flamenco_manager: StringProperty(
+        name="Flamenco Manager",
+        description="Address of a Flamenco manager to submit to, such as http://farm:8080; "
+        "nothing is sent to it before you submit",
+    )
+
     show_shelf: BoolProperty(
         name="Asset Shelf",
         description="Show measured materials below the 3D view, to drag onto objects",
@@ -106,6 +112,7 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         column.prop(self, "read_at")
         column.prop(self, "tolerance")
         layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
+        layout.prop(self, "flamenco_manager", placeholder="http://farm:8080")
         layout.prop(self, "show_shelf")
         layout.operator("rough_spectra.show_presets", icon="ASSET_MANAGER")
         address = version.website()
@@ -130,6 +137,14 @@ def defaults() -> Defaults:
         folder,
         chosen.read_at or DEFAULT,  # empty where another version knew other instruments
     )
+
+
+def flamenco_manager() -> str:
+    """Return the address of the manager to submit to; empty without one."""
+    addon = bpy.context.preferences.addons.get(PACKAGE)
+    if addon is None or addon.preferences is None:
+        return ""
+    return str(addon.preferences.flamenco_manager).strip()
 
 
 def shows_shelf() -> bool:
