@@ -7,7 +7,8 @@ From a file to files:
     read, find → request → assign → state, renew, keep → bake → write
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
-    spectral_picture → write_picture, picture_image
+    spectral_picture → write_picture, picture_image; picture_verdict
+    picture_lights → relight → write_picture
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -78,10 +79,15 @@ from .material.settled import Settled
 from .material.state import State
 from .picture import chosen_light, light_spectra
 from .picture import files as picture_files
+from .picture import groups as picture_groups
 from .picture import pixel as picture_pixels
+from .picture import relight as picture_relight
 from .picture import render as picture_render
+from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
 from .picture.pixel import Pixel
+from .picture.relight import Lights
+from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings, SpotRead
@@ -115,6 +121,7 @@ __all__ = [
     "InBand",
     "InLight",
     "InputError",
+    "Lights",
     "Loss",
     "Made",
     "MaterialError",
@@ -134,6 +141,7 @@ __all__ = [
     "Spot",
     "SpotRead",
     "State",
+    "Verdict",
     "assign",
     "bake",
     "compare",
@@ -157,10 +165,13 @@ __all__ = [
     "palette",
     "paused",
     "picture_image",
+    "picture_lights",
     "picture_pixel",
+    "picture_verdict",
     "presets",
     "read",
     "read_filter",
+    "relight",
     "renew",
     "request",
     "rough_sample",
@@ -1590,6 +1601,142 @@ def spectral_picture(
         tolerance, bands, observer, direct, compare, samples, percentage, lights or {}
     )
     return picture_render.render(scene or bpy.context.scene, wanted, progress)
+
+
+def picture_verdict(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE,
+    samples: int | None = None,
+    percentage: int | None = None,
+    lights: Mapping[str, str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Verdict:
+    """Say whether RGB is enough for a scene, and if not, the least that is.
+
+    A second Blender renders small pictures of a copy of the open file, and this call waits for it.
+
+    Parameters
+    ----------
+    scene, lights, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be.
+    samples, percentage
+        Of the small pictures; 8, and what comes to 480 × 270 pixels, if left out.
+
+    Returns
+    -------
+    Whether RGB is `enough`; the `sentence`; the `rungs`, from RGB as it is over the working space
+    and the materials' match to passes of three bands, each with `kind`, `words`, `renders`,
+    `mean`, `usual`, `largest` (ΔE00) and `seconds`; the `chosen` one, which is the first within
+    the tolerance, or None; the `comparison` of RGB with the spectral picture, in blocks of pixels;
+    what stayed RGB (`untranslated`), and which part of the picture that has `touched`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> picture_verdict(scene, samples=1).sentence
+    'RGB is enough: 95 % of the picture within ΔE00 0.00, the tolerance is 1.'
+    """
+    _check_enabled()
+    return picture_judgement.judge(
+        scene or bpy.context.scene,
+        progress,
+        tolerance=tolerance,
+        samples=samples,
+        percentage=percentage,
+        lights=lights,
+    )
+
+
+def picture_lights(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE / 2,
+    bands: int | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Lights:
+    """Render the light of each lamp apart, so that lamps can be changed without rendering.
+
+    Parameters
+    ----------
+    scene, bands, samples, percentage, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be, in the scene's own light and in that of
+        the usual illuminants.
+
+    Returns
+    -------
+    Their `names`, `spectra`, `parts`, `alpha` and `wavelengths`, for `relight`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`; and where lamps cannot be told apart.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> lights = picture_lights(scene, bands=3, samples=1)
+    >>> lights.names, lights.parts.shape, relight(lights, {"Gray": "A"}).rgb.shape
+    (('Gray',), (1, 3, 8, 8), (8, 8, 4))
+    """
+    _check_enabled()
+    wanted = picture_render.Wanted(
+        tolerance, bands, plain=False, samples=samples, percentage=percentage, steady=True
+    )
+    return picture_groups.gather(scene or bpy.context.scene, wanted, progress)
+
+
+def relight(
+    lights: Lights,
+    spectra: Mapping[str, str] | None = None,
+    intensities: Mapping[str, float] | None = None,
+    observer: int = 2,
+) -> SpectralPicture:
+    """Give the picture with other lamps, without rendering; see `picture_lights`.
+
+    Parameters
+    ----------
+    lights
+        What `picture_lights` gave.
+    spectra
+        By name, the CIE illuminant that a lamp becomes, or the path of a table.
+    intensities
+        By name, how many times as bright it is.
+    observer
+        2 or 10 degrees.
+
+    Raises
+    ------
+    DomainError, InputError
+        There is no such lamp or light, or the open file has another working space.
+
+    Examples
+    --------
+    See `picture_lights`.
+    """
+    _check_enabled()
+    desk = picture_relight.Desk(lights, observer)
+    picture_relight.set_all(desk, spectra or {}, intensities or {})
+    return desk.picture()
 
 
 def write_picture(

@@ -42,6 +42,12 @@ _BY_THREE = {
     ("ShaderNodeSubsurfaceScattering", "Radius"),
 }
 """Vectors that have a number for each of red, green and blue."""
+_PARTS = {
+    ("ShaderNodeBsdfPrincipled", "Subsurface Radius"): "Subsurface Weight",
+    ("ShaderNodeBsdfPrincipled", "Sheen Tint"): "Sheen Weight",
+    ("ShaderNodeBsdfPrincipled", "Coat Tint"): "Coat Weight",
+}
+"""Sockets of lobes that a node may be without, and those that say how much of them it has."""
 _EVEN = 1e-6
 """Spread of a color's channels below which it is gray, which is the same in all bands."""
 
@@ -326,8 +332,8 @@ class _Search:
                     continue
                 if node.bl_idname == "ShaderNodeGroup" or not socket.enabled:
                     continue
-                if kind[1] == "Subsurface Radius" and not _in_use(node, "Subsurface Weight"):
-                    continue  # nothing scatters, and every new material has a red one
+                if kind in _PARTS and not _in_use(node, _PARTS[kind]):
+                    continue
                 if kind in _GLOWS:
                     strength = node.inputs[_GLOWS[kind]]
                     if strength.is_linked or strength.default_value != 0:

@@ -46,12 +46,16 @@ class Pass:
         From the channels to X, Y and Z, shape (3, 3).
     direct
         Whether it is of direct light alone.
+    from_rgb
+        From a surface's red, green and blue to the channels, shape (3, 3), where these are
+        themselves colors; None where it goes by their spectra.
     """
 
     taken: Array
     lamps: Array
     to_xyz: Array
     direct: bool = False
+    from_rgb: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,18 +111,6 @@ def lamps_of(found: Colors, space: WorkingSpace) -> Lamps:
     return Lamps(np.maximum(np.stack(spectra), 0), tuple(numbers))
 
 
-def surfaces_of(found: Colors, space: WorkingSpace) -> Array:
-    """Albedos that stand for all of the scene's, 0 to 1, at `GRID`: shape (surfaces, values)."""
-    by_rgb = rgb_spectra.reflectances(space)
-    albedos = [each.reading for each in found.measured]
-    albedos += [each.rgb @ by_rgb for each in found.colored if each.rgb is not None]
-    if not albedos or any(each.rgb is None for each in found.colored):
-        albedos += list(_ANY @ by_rgb)
-    albedos.append(np.full(illuminant_spectra.GRID.size, 0.5))
-    picked = np.unique(np.linspace(0, len(albedos) - 1, _SEEN).astype(int))
-    return np.asarray(np.clip(np.stack(albedos)[picked], 0, 1))
-
-
 def choose(
     found: Colors, lamps: Lamps, space: WorkingSpace, tolerance: float, **more: Any
 ) -> Bands:
@@ -126,12 +118,24 @@ def choose(
     observer = more.pop("observer", 2)
     return bands.choose(
         illuminant_spectra.GRID,
-        surfaces_of(found, space),
+        surfaces(found, space),
         lamps.spectra,
         illuminant_spectra.observer(observer),
         tolerance,
         **more,
     )
+
+
+def surfaces(found: Colors, space: WorkingSpace) -> Array:
+    """Give albedos that stand for what was found, at `GRID`, shape (surfaces, wavelengths)."""
+    by_rgb = rgb_spectra.reflectances(space)
+    albedos = [each.reading for each in found.measured]
+    albedos += [each.rgb @ by_rgb for each in found.colored if each.rgb is not None]
+    if not albedos or any(each.rgb is None for each in found.colored):
+        albedos += list(_ANY @ by_rgb)
+    albedos.append(np.full(illuminant_spectra.GRID.size, 0.5))
+    picked = np.unique(np.linspace(0, len(albedos) - 1, _SEEN).astype(int))
+    return np.clip(np.stack(albedos)[picked], 0, 1)
 
 
 def of_bands(chosen: Bands) -> list[Pass]:
@@ -165,9 +169,9 @@ def edits(
     by_rgb = rgb_spectra.reflectances(space)
     to_rec709 = rgb_spectra.to_rec709(space)
     # From red, green and blue of a surface to the channels.
-    mixing = [by_rgb @ each.taken for each in passes]
+    mixing = [by_rgb @ p.taken if p.from_rgb is None else p.from_rgb for p in passes]
     told = [
-        _edit(each.place, "colors", [_matched(each, by_rgb, one.taken) for one in passes])
+        _edit(each.place, "colors", [matched(each, by_rgb, one.taken) for one in passes])
         for each in found.measured
     ]
     for colored in found.colored:
@@ -191,8 +195,18 @@ def _of_light(
     return _edit(shining.place, "matrices", matrices)
 
 
-def _matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
-    """Color that reads in the channels as the spectrum does there, under the gloss as it is."""
+def matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
+    """Color that reads in the channels as the spectrum does there, under the gloss as it is.
+
+    Parameters
+    ----------
+    each
+        A surface.
+    by_rgb
+        Spectra of the working space's red, green and blue, as `rgb_spectra.reflectances` gives.
+    taken
+        As of `Pass`.
+    """
     wanted = each.reading @ taken
     if each.gloss is not None:
         tints = (each.gloss.tint, each.gloss.coat_tint)

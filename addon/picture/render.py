@@ -20,17 +20,14 @@ import bpy
 import numpy as np
 
 from ...core.bands import Bands, Error
-from ...core.color import color_difference
 from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from ..colorimetry.rgb_space import WorkingSpace
 from . import colors, direct_light, light_spectra, passes, spectra
-from .colors import Colors
-from .passes import Lamps, Pass
+from .passes import Pass
 from .picture import SpectralPicture, compare
 
 MOST = 36
@@ -59,6 +56,11 @@ class Wanted:
     lights
         By the names of lamps, worlds and materials that emit, the CIE illuminant that they are, or
         the path of a table; see `light_spectra.find`.
+    most
+        Bands beyond which none are added for the tolerance.
+    steady
+        Whether all renders follow the same paths of light, whatever its colors: without russian
+        roulette, adaptive sampling and denoising.
 
     Raises
     ------
@@ -74,6 +76,8 @@ class Wanted:
     samples: int | None = None
     percentage: int | None = None
     lights: Mapping[str, str] = field(default_factory=dict)
+    most: int = MOST
+    steady: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -126,11 +130,12 @@ class Rendering(Job):
         depsgraph = _evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
-        self._light = _decide(scene, self._found, self._lamps, self._space, wanted)
+        self._light = self._decide(scene)
         self._chosen = self._light.bands
-        self._passes = [] if self._light.is_all else passes.of_bands(self._chosen)
+        self._passes = [] if self._light.is_all else self._of_bands()
         if self._light.apart:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
+        renders = [*self._passes, *self._beside(depsgraph, scene)]
 
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "scene.blend"
@@ -149,9 +154,11 @@ class Rendering(Job):
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
                 "apart": self._light.apart,
-                "passes": len(self._passes),
-                "direct": [each.direct for each in self._passes],
-                "edits": passes.edits(self._found, self._lamps, self._passes, self._space),
+                "steady": wanted.steady,
+                "passes": len(renders),
+                "direct": [each.direct for each in renders],
+                "edits": self._edits(renders),
+                "groups": self._groups(depsgraph, scene),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -159,7 +166,37 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
-        self.total = len(self._passes) + wanted.plain  # before the other Blender says so
+        self.total = len(renders) + wanted.plain  # before the other Blender says so
+
+    def _decide(self, scene: Any) -> direct_light.Choice:
+        """Choose the bands, and whether direct light has renders of its own."""
+        counted = self._wanted.bands is not None
+        lamps = len(self._lamps.spectra)
+        return direct_light.decide(scene, self._wanted.direct, lamps, counted, self._choose)
+
+    def _choose(self, direct: bool) -> Bands:
+        """Choose the bands, of light that met several surfaces where `direct` light is apart."""
+        wanted = self._wanted
+        tolerance, most = wanted.tolerance, wanted.most
+        if wanted.bands is not None:
+            tolerance, most = 0.0, wanted.bands
+        more = {"most": most, "direct": direct, "observer": wanted.observer}
+        return passes.choose(self._found, self._lamps, self._space, tolerance, **more)
+
+    def _of_bands(self) -> list[Pass]:
+        return passes.of_bands(self._chosen)
+
+    def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
+        """Give renders that are wanted after those of the picture."""
+        return []
+
+    def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
+        """Give what shines together, where pictures are wanted of each."""
+        return []
+
+    def _edits(self, renders: list[Pass]) -> list[dict[str, Any]]:
+        """Say what has to be set for the renders; see `passes.edits`."""
+        return passes.edits(self._found, self._lamps, renders, self._space)
 
     def result(self) -> SpectralPicture:
         """Put the renders together, once `poll` says that they are done.
@@ -171,7 +208,7 @@ class Rendering(Job):
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
         alpha, xyz, channels = _together(self, self._passes)
-        adapted = xyz @ _to_2_degrees(self._wanted.observer).T
+        adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
         comparison = None
@@ -193,7 +230,7 @@ class Rendering(Job):
             tuple(seconds),
             spectra.of(
                 channels,
-                passes.surfaces_of(self._found, self._space),
+                passes.surfaces(self._found, self._space),
                 self._lamps,
                 self._passes,
                 self._wavelengths,
@@ -256,19 +293,6 @@ def _evaluated(scene: Any, layer: Any) -> Any:
         return bpy.context.evaluated_depsgraph_get()
 
 
-def _decide(
-    scene: Any, found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted
-) -> direct_light.Choice:
-    counted = wanted.bands is not None
-    tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, MOST)
-
-    def choose(direct: bool) -> Bands:
-        more = {"most": most, "direct": direct, "observer": wanted.observer}
-        return passes.choose(found, lamps, space, tolerance, **more)
-
-    return direct_light.decide(scene, wanted.direct, len(lamps.spectra), counted, choose)
-
-
 def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
     """Alpha (rows, columns, 1), XYZ (rows, columns, 3) and all channels of all renders."""
     pixels = [np.load(job.output(f"pass-{number}.npy")) for number in range(len(renders))]
@@ -278,13 +302,3 @@ def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
     )
     channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
     return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels
-
-
-def _to_2_degrees(observer: int) -> Array:
-    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both."""
-    if observer == 2:
-        return np.eye(3)
-    light = illuminant_spectra.cie("D65")
-    step = illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
-    whites = [light @ illuminant_spectra.observer(each) * step for each in (observer, 2)]
-    return np.asarray(color_difference.adaptation(*whites))

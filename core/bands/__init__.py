@@ -12,6 +12,6 @@ fitting       weights, and what lamps send in the bands
 restoring     from the bands back to a whole spectrum
 """
 
-from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, choose, rgb
+from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, at, choose, rgb
 
-__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "choose", "rgb"]
+__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "at", "choose", "rgb"]

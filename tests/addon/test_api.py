@@ -40,9 +40,14 @@ SIGNATURES = {
     "picture_image": "(picture, name='Spectral')",
     "picture_pixel": "(picture, column, row)",
     "measured_light": "(light, path)",
+    "picture_lights": "(scene=None, *, tolerance=0.5, bands=None, samples=None, percentage=None, "
+    "progress=None)",
+    "picture_verdict": "(scene=None, *, tolerance=1.0, samples=None, percentage=None, "
+    "lights=None, progress=None)",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
     "read_filter": "(path)",
+    "relight": "(lights, spectra=None, intensities=None, observer=2)",
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
@@ -98,6 +103,8 @@ FIELDS = {
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
     "untranslated seconds spectra direct_words white",
     "Pixel": "column row wavelengths radiance xyz lab delta_e",
+    "Lights": "names spectra parts alpha wavelengths surfaces space",
+    "Verdict": "rungs tolerance chosen comparison untranslated touched seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

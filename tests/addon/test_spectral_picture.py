@@ -371,6 +371,22 @@ def test_a_white_furnace_is_neutral(space):
     assert all("three spectra" in rule for rule in picture.rules["World 'World'"])
 
 
+def test_faint_light_is_no_noise_of_color():
+    """Gray below a dim lamp: Cycles would leave out its light by chance, in each band otherwise."""
+    scene = from_above(16)
+    scene.cycles.use_light_tree, scene.cycles.light_sampling_threshold = False, 0.5
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    light = bpy.data.lights.new("Panel", "AREA")
+    light.size, light.energy = 4, 20
+    light.use_temperature, light.temperature = True, KELVIN
+    scene.collection.objects.link(bpy.data.objects.new("Panel", light))
+    bpy.data.objects["Panel"].location = (8, ROWS / 2, 5)
+    picture = api.spectral_picture(bands=6, samples=2)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.2
+
+
 def glowing(tree, socket):
     """Let white come from a node that is no plain color."""
     ramp = tree.nodes.new("ShaderNodeCombineXYZ")
@@ -559,6 +575,20 @@ def test_nodes_that_reach_no_output_do_not_count():
     material.node_tree.nodes.new("ShaderNodeBsdfGlass").inputs["Color"].default_value = (1, 0, 0, 1)
     strip(0, material)
     assert not find().colored
+
+
+def test_colors_of_lobes_that_are_not_there_do_not_count():
+    """A gray Principled BSDF has a Subsurface Radius of three lengths, and a weight of 0."""
+    scene = from_above(4)
+    sun(scene)
+    material, node = tree_with("ShaderNodeBsdfPrincipled")
+    strip(0, material)
+    node.inputs["Coat Tint"].default_value = (1, 0.2, 0.1, 1)
+    assert not find().colored
+    node.inputs["Subsurface Weight"].default_value = 0.5
+    node.inputs["Coat Weight"].default_value = 0.5
+    places = [node.inputs[each.place.socket].name for each in find().colored]
+    assert places == ["Subsurface Radius", "Coat Tint"]
 
 
 def test_colors_in_groups_count_where_they_enter_a_shader():

@@ -25,9 +25,11 @@ VERBS = (
     "lab",
     "list",
     "merge",
+    "relight",
     "search",
     "spectral",
     "texture",
+    "verdict",
 )
 
 

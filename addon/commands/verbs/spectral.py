@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from ...support.shown_text import tell
 
@@ -57,6 +58,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave out the RGB picture and the map",
     )
+    add_light(parser)
+    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
+    parser.add_argument(
+        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
+    )
+
+
+def add_light(parser: argparse.ArgumentParser) -> None:
+    """Declare --light."""
     parser.add_argument(
         "--light",
         type=_light,
@@ -66,27 +76,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a lamp, world or emitting material, and the spectrum that it has: a CIE illuminant, "
         "such as Lamp=F11, or a file, such as Lamp=sodium.spdx, or a table; repeatable",
     )
-    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
-    parser.add_argument(
-        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
-    )
+
+
+def scene_of(options: argparse.Namespace) -> Any:
+    """Give the scene that --scene names, or the active one.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    import bpy
+
+    from ....core.errors import InputError
+
+    if options.scene is None:
+        return bpy.context.scene
+    scene = bpy.data.scenes.get(options.scene)
+    if scene is None:
+        msg = f"There is no scene {options.scene!r} in the file; check the name."
+        raise InputError(msg)
+    return scene
 
 
 def run(options: argparse.Namespace) -> int:
     """Render, write and tell; exit status 0."""
-    import bpy
-
-    from ....core.errors import InputError
     from ... import api
     from ...picture import files
     from ..progress import ProgressLine, counted
 
-    scene = bpy.context.scene
-    if options.scene is not None:
-        scene = bpy.data.scenes.get(options.scene)
-        if scene is None:
-            msg = f"There is no scene {options.scene!r} in the file; check the name."
-            raise InputError(msg)
+    scene = scene_of(options)
     files.check(options.output, options.spectral)  # before the work that could not be written
     progress = ProgressLine("rendering")
     try:
