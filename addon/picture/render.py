@@ -159,6 +159,7 @@ class Rendering(Job):
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
                 "groups": self._groups(depsgraph, scene),
+                "untranslated": self._materials_left(),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -189,6 +190,22 @@ class Rendering(Job):
     def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
         """Give renders that are wanted after those of the picture."""
         return []
+
+    def _materials_left(self) -> list[list[str]]:
+        """Give the keys of materials of which something stays red, green and blue."""
+        left = self._found.untranslated
+        keys = [
+            colors.key("materials", material)
+            for material in bpy.data.materials
+            if colors.title("Material", material) in left
+        ]
+        return [list(each) for each in keys]
+
+    def _touched(self) -> float | None:
+        """Give the part of the picture that shows them."""
+        if not self._materials_left():
+            return None
+        return float(json.loads(self.output("touched.json").read_text(encoding="utf-8")))
 
     def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
         """Give what shines together, where pictures are wanted of each."""
@@ -238,6 +255,7 @@ class Rendering(Job):
             ),
             self._light.words,
             self._lamps.white_by(self._wanted.observer),
+            self._touched(),
         )
 
     @property
