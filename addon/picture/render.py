@@ -151,7 +151,7 @@ class Rendering(Job):
                 "layer": layer.name,
                 "frame": scene.frame_current,
                 "subframe": scene.frame_subframe,
-                "seed": scene.cycles.seed,
+                "seed": _seed(scene),
                 "samples": wanted.samples or scene.cycles.samples,
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
@@ -274,6 +274,13 @@ def _layer(scene: Any) -> Any:
         msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
         raise MaterialError(msg)
     return used[0]
+
+
+def _seed(scene: Any) -> int:
+    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
+    cycles = scene.cycles
+    aside = scene.frame_current if cycles.use_animated_seed else 0
+    return int((cycles.seed + aside) % (1 << 31))
 
 
 def _evaluated(scene: Any, layer: Any) -> Any:
