@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ...core.bands import Bands
 from ...core.errors import MaterialError
 from ...core.numerics.arrays import Array
 from ..colorimetry import illuminant_spectra, rgb_spectra
 from . import passes
 from .colors import Shining
+from .direct_light import Choice
 from .passes import Lamps, Pass
 from .relight import ILLUMINANTS, Lights
 from .render import Rendering, Wanted
@@ -85,11 +85,11 @@ class Gathering(Rendering):
             np.ascontiguousarray(channels.reshape(lamps, -1, rows, columns)),
             pictures[0][0, ..., 3],
             self._chosen.wavelengths,
-            passes.surfaces(self._found, self._space),
+            passes.surfaces_of(self._found, self._space),
             self._space.name,
         )
 
-    def _choose(self, direct: bool) -> Bands:
+    def _decide(self, _scene: Any) -> Choice:
         """Choose bands for the scene's lamps and for those that may come."""
         self._together = self._grouped()
         spectra = [group.base for group in self._together]
@@ -97,7 +97,8 @@ class Gathering(Rendering):
         lamps = Lamps(np.stack(spectra), ())
         most = self._wanted.bands or self._wanted.most
         tolerance = 0.0 if self._wanted.bands else self._wanted.tolerance
-        return passes.choose(self._found, lamps, self._space, tolerance, most=most)
+        chosen = passes.choose(self._found, lamps, self._space, tolerance, most=most)
+        return Choice(chosen, apart=False, is_all=False, words="")
 
     def _of_bands(self) -> list[Pass]:
         """Let each lamp send its spectrum in parts of its group's."""

@@ -111,23 +111,8 @@ def lamps_of(found: Colors, space: WorkingSpace) -> Lamps:
     return Lamps(np.maximum(np.stack(spectra), 0), tuple(numbers))
 
 
-def choose(
-    found: Colors, lamps: Lamps, space: WorkingSpace, tolerance: float, **more: Any
-) -> Bands:
-    """Choose bands for what was found; further arguments as of `core.bands.choose`."""
-    observer = more.pop("observer", 2)
-    return bands.choose(
-        illuminant_spectra.GRID,
-        surfaces(found, space),
-        lamps.spectra,
-        illuminant_spectra.observer(observer),
-        tolerance,
-        **more,
-    )
-
-
-def surfaces(found: Colors, space: WorkingSpace) -> Array:
-    """Give albedos that stand for what was found, at `GRID`, shape (surfaces, wavelengths)."""
+def surfaces_of(found: Colors, space: WorkingSpace) -> Array:
+    """Albedos that stand for all of the scene's, 0 to 1, at `GRID`: shape (surfaces, values)."""
     by_rgb = rgb_spectra.reflectances(space)
     albedos = [each.reading for each in found.measured]
     albedos += [each.rgb @ by_rgb for each in found.colored if each.rgb is not None]
@@ -135,7 +120,22 @@ def surfaces(found: Colors, space: WorkingSpace) -> Array:
         albedos += list(_ANY @ by_rgb)
     albedos.append(np.full(illuminant_spectra.GRID.size, 0.5))
     picked = np.unique(np.linspace(0, len(albedos) - 1, _SEEN).astype(int))
-    return np.clip(np.stack(albedos)[picked], 0, 1)
+    return np.asarray(np.clip(np.stack(albedos)[picked], 0, 1))
+
+
+def choose(
+    found: Colors, lamps: Lamps, space: WorkingSpace, tolerance: float, **more: Any
+) -> Bands:
+    """Choose bands for what was found; further arguments as of `core.bands.choose`."""
+    observer = more.pop("observer", 2)
+    return bands.choose(
+        illuminant_spectra.GRID,
+        surfaces_of(found, space),
+        lamps.spectra,
+        illuminant_spectra.observer(observer),
+        tolerance,
+        **more,
+    )
 
 
 def of_bands(chosen: Bands) -> list[Pass]:

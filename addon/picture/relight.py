@@ -20,7 +20,6 @@ from ...core import bands
 from ...core.color import color_difference
 from ...core.errors import DomainError, InputError
 from ...core.numerics.arrays import Array
-from ...core.numerics.memoized import memoized
 from ..blender import working_space
 from ..colorimetry import cie_tables, illuminant_spectra
 from ..support import atomic_files
@@ -90,8 +89,14 @@ class Lights:
         observer
             2 or 10 degrees.
         """
-        arrays = (self.wavelengths, self.surfaces, np.asarray(spectrum, np.float64))
-        return _weights(*(each.tobytes() for each in arrays), observer)
+        found = bands.at(
+            illuminant_spectra.GRID,
+            self.wavelengths,
+            self.surfaces,
+            np.asarray(spectrum, np.float64)[np.newaxis],
+            illuminant_spectra.observer(observer),
+        )
+        return found.weights * found.lights.T, found.error
 
 
 class Desk:
@@ -113,6 +118,7 @@ class Desk:
         self.spectra = list(lights.spectra)
         self.intensities = [1.0] * len(lights.names)
         self._xyz: list[Array | None] = [None] * len(lights.names)
+        self._weights: list[tuple[Array, bands.Error] | None] = [None] * len(lights.names)
 
     def set_light(self, name: str, light: str | Array) -> None:
         """Give a lamp another spectrum; its luminance stays.
@@ -133,7 +139,7 @@ class Desk:
         number = self.lights.number(name)
         spectrum = light_spectra.find(light)[0] if isinstance(light, str) else np.asarray(light)
         self.spectra[number] = spectrum / illuminant_spectra.to_xyz(spectrum)[1]
-        self._xyz[number] = None
+        self._xyz[number] = self._weights[number] = None
 
     def set_intensity(self, name: str, times: float) -> None:
         """Let a lamp shine so many times as it did.
@@ -175,7 +181,7 @@ class Desk:
         found = np.zeros(3)
         for number, times in enumerate(self.intensities):
             bands_there = self.lights.parts[number][:, across, along].mean(axis=(1, 2))
-            weights, _ = self.lights.weights(self.spectra[number], self.observer)
+            weights, _ = self._weighed(number)
             found += times * (bands_there.astype(np.float64) @ weights)
         return found
 
@@ -196,17 +202,24 @@ class Desk:
             raise InputError(msg)
         xyz = np.moveaxis(self.xyz(), 0, -1).astype(np.float64)
         rgb = xyz @ illuminant_spectra.to_2_degrees(self.observer).T @ space.from_xyz.T
-        errors = [self.lights.weights(each, self.observer)[1] for each in self.spectra]
+        errors = [self._weighed(number)[1] for number in range(len(self.spectra))]
         worst = max(errors, key=lambda error: error.usual)
         shown = np.concatenate((rgb, self.lights.alpha[..., np.newaxis]), axis=-1)
         return SpectralPicture(
             shown, xyz, self.observer, self.lights.wavelengths, False, worst, True, None, {}, {}, ()
         )
 
+    def _weighed(self, number: int) -> tuple[Array, bands.Error]:
+        found = self._weights[number]
+        if found is None:
+            found = self.lights.weights(self.spectra[number], self.observer)
+            self._weights[number] = found
+        return found
+
     def _of(self, number: int) -> Array:
         found = self._xyz[number]
         if found is None:
-            weights, _ = self.lights.weights(self.spectra[number], self.observer)
+            weights, _ = self._weighed(number)
             part = self.lights.parts[number].reshape(len(weights), -1)
             found = self._xyz[number] = weights.T.astype(np.float32) @ part
         return found
@@ -303,18 +316,3 @@ def read(path: Path) -> Lights:
     names = tuple(str(name) for name in kept["names"])
     arrays = (kept[name] for name in ("spectra", "parts", "alpha", "wavelengths", "surfaces"))
     return Lights(names, *arrays, str(kept["space"]))
-
-
-@memoized(maxsize=64)
-def _weights(
-    wavelengths: bytes, surfaces: bytes, spectrum: bytes, observer: int
-) -> tuple[Array, bands.Error]:
-    grid = illuminant_spectra.GRID
-    found = bands.at(
-        grid,
-        np.frombuffer(wavelengths),
-        np.frombuffer(surfaces).reshape(-1, grid.size),
-        np.frombuffer(spectrum)[np.newaxis],
-        illuminant_spectra.observer(observer),
-    )
-    return found.weights * found.lights.T, found.error

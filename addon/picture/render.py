@@ -149,7 +149,7 @@ class Rendering(Job):
                 "layer": layer.name,
                 "frame": scene.frame_current,
                 "subframe": scene.frame_subframe,
-                "seed": scene.cycles.seed,
+                "seed": _seed(scene),
                 "samples": wanted.samples or scene.cycles.samples,
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
@@ -171,18 +171,16 @@ class Rendering(Job):
 
     def _decide(self, scene: Any) -> direct_light.Choice:
         """Choose the bands, and whether direct light has renders of its own."""
-        counted = self._wanted.bands is not None
-        lamps = len(self._lamps.spectra)
-        return direct_light.decide(scene, self._wanted.direct, lamps, counted, self._choose)
-
-    def _choose(self, direct: bool) -> Bands:
-        """Choose the bands, of light that met several surfaces where `direct` light is apart."""
         wanted = self._wanted
-        tolerance, most = wanted.tolerance, wanted.most
-        if wanted.bands is not None:
-            tolerance, most = 0.0, wanted.bands
-        more = {"most": most, "direct": direct, "observer": wanted.observer}
-        return passes.choose(self._found, self._lamps, self._space, tolerance, **more)
+        counted = wanted.bands is not None
+        tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
+
+        def choose(direct: bool) -> Bands:
+            more = {"most": most, "direct": direct, "observer": wanted.observer}
+            return passes.choose(self._found, self._lamps, self._space, tolerance, **more)
+
+        lamps = len(self._lamps.spectra)
+        return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
 
     def _of_bands(self) -> list[Pass]:
         return passes.of_bands(self._chosen)
@@ -247,7 +245,7 @@ class Rendering(Job):
             tuple(seconds),
             spectra.of(
                 channels,
-                passes.surfaces(self._found, self._space),
+                passes.surfaces_of(self._found, self._space),
                 self._lamps,
                 self._passes,
                 self._wavelengths,
@@ -302,6 +300,13 @@ def _layer(scene: Any) -> Any:
         msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
         raise MaterialError(msg)
     return used[0]
+
+
+def _seed(scene: Any) -> int:
+    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
+    cycles = scene.cycles
+    aside = scene.frame_current if cycles.use_animated_seed else 0
+    return int((cycles.seed + aside) % (1 << 31))
 
 
 def _evaluated(scene: Any, layer: Any) -> Any:

@@ -32,12 +32,12 @@ from .render import Rendering, Wanted
 
 SIZE = 480, 270
 """Pixels of the small pictures, at most."""
-SAMPLES = 8
+SAMPLES = 5
 """Of each of their pixels."""
 WIDE = "Linear Rec.2020"
 """Working space that is tried."""
 
-_IN_A_BLOCK = 128
+_IN_A_BLOCK = 80
 """Samples that a block of pixels has at least, where that takes no more than `_WIDEST`."""
 _WIDEST = 4
 """Pixels of a block's side at most."""
