@@ -229,8 +229,10 @@ class Thermal(Job):
             self._temperatures[thing.name] = kelvin
         attributes = getattr(thing.data, "attributes", {})
         layer = attributes.get(PROPERTY) if thing.type == "MESH" else None
-        by_vertex = own is None and layer is not None and layer.domain == "POINT"
-        if by_vertex:
+        by_vertex = False
+        values = np.zeros(0, np.float32)
+        if own is None and layer is not None and layer.domain == "POINT":
+            by_vertex = True
             values = np.empty(len(layer.data), np.float32)
             layer.data.foreach_get("value", values)
             for value in (values.min(), values.max()) if len(values) else ():

@@ -90,7 +90,7 @@ def variant(each: dict[str, Any]) -> tuple[Any, Any]:
 
     def put(emissivity: list[float], sent: list[float], number: int) -> None:
         diffuse.inputs["Color"].default_value = (*(1 - value for value in emissivity), 1)
-        if attribute is None:
+        if attribute is None or times is None:
             own = (e * s for e, s in zip(emissivity, sent, strict=True))
             glow.inputs["Color"].default_value = (*own, 1)
         else:

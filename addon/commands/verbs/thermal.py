@@ -102,8 +102,8 @@ def run(options: argparse.Namespace) -> int:
             f"warning: material {name!r} has no infrared data; its emissivity is taken as "
             f"{options.emissivity:g}"
         )
-    for name, kelvin in found.temperatures.items():
-        tell(f"Object {name!r}: {kelvin:g} K")
+    for name, own in found.temperatures.items():
+        tell(f"Object {name!r}: {own:g} K")
     thermal_file.write(found, options.output)
     kelvin = found.kelvin
     low, mean, high = float(kelvin.min()), float(kelvin.mean()), float(kelvin.max())
