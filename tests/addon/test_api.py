@@ -104,7 +104,7 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds spectra direct_words white",
+    "untranslated seconds spectra direct_words white touched",
     "Pixel": "column row wavelengths radiance xyz lab delta_e",
     "ThermalPicture": "band radiance kelvin assumed temperatures",
     "Lights": "names spectra parts alpha wavelengths surfaces space",

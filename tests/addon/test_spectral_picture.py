@@ -256,7 +256,8 @@ def test_a_color_of_rgb_has_the_spectrum_of_the_published_table(lit):
 
 
 def test_the_file_and_its_settings_are_as_they_were(lit):
-    _, _, before, after, _ = lit
+    _, picture, before, after, _ = lit
+    assert picture.touched is None
     assert before == after
 
 
@@ -554,6 +555,20 @@ def test_rules_are_told_and_what_has_none_is_named():
     assert [s.strength.round(6).tolist() for s in found.shining] == [
         pytest.approx([1, 1, 1], abs=5e-3)
     ]
+
+
+def test_what_stays_rgb_is_told_with_its_part_of_the_picture():
+    scene = from_above(4)
+    sun(scene)
+    film, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Thin Film Thickness"].default_value = 300
+    for column, each in enumerate((film, new_material("Gray", (0.5, 0.5, 0.5)), film)):
+        strip(column, each)
+    picture = api.spectral_picture(bands=3, direct=True, compare=False)
+    assert picture.touched == 0.5
+    told = "materials with something that stays RGB take 50 % of the picture"
+    assert told in list(files.told(picture))
+    assert picture.xyz[0, 1] == pytest.approx(0.5 * planck() @ functions(), rel=2e-4)
 
 
 def test_a_radius_counts_only_where_light_scatters():

@@ -339,3 +339,9 @@ def test_stopping_a_spectral_picture(scene):
     assert scene["folders"] == []
     assert scene["same"]
     assert scene["modal"] == []
+
+
+def test_choosing_a_light_spectrum(scene):
+    assert scene["before"] == "F11"
+    assert scene["chosen"] == ["MEASURED", "sodium.csv"]
+    assert scene["undone"] == "F11"
