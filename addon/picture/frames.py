@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -84,7 +84,7 @@ def each(
     progress: Callable[[int, int], None] | None = None,
     *,
     at_bands: bool = False,
-) -> Iterator[tuple[int, Any, list[Path]]]:
+) -> Generator[tuple[int, Any, list[Path]], None, None]:
     """Render and write frames; gives number, picture and files of each once they are there.
 
     Memory does not grow with the frames: each picture is let go before the next.

@@ -103,7 +103,7 @@ def row(name: str, options: argparse.Namespace) -> tuple[str, bool]:
 
     scene = demo_scenes.build(name)
     start = seconds()
-    verdict = api.picture_verdict(scene)
+    verdict = api.picture_verdict(scene, percentage=options.verdict_percentage)
     took = (seconds() - start) / (os.cpu_count() or 1)
     more = options.samples, options.percentage
     whole, white = truth(scene, TRUTH, *more), white_of(scene)
@@ -126,6 +126,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--percentage", type=int, default=25)
+    parser.add_argument("--verdict-percentage", type=int, help="of 480 × 270 pixels; 100")
     parser.add_argument("--scene", action="append", choices=demo_scenes.SCENES)
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
