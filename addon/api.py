@@ -8,7 +8,7 @@ From a file to files:
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
     spectral_picture → write_picture, picture_image; picture_verdict
-    picture_lights → relight → write_picture
+    picture_lights → relight → write_picture; thermal_picture → write_thermal
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -77,7 +77,7 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
-from .picture import chosen_light, light_spectra
+from .picture import chosen_light, light_spectra, thermal, thermal_file
 from .picture import files as picture_files
 from .picture import groups as picture_groups
 from .picture import pixel as picture_pixels
@@ -87,6 +87,7 @@ from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
 from .picture.pixel import Pixel
 from .picture.relight import Lights
+from .picture.thermal import ThermalPicture
 from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
@@ -141,6 +142,7 @@ __all__ = [
     "Spot",
     "SpotRead",
     "State",
+    "ThermalPicture",
     "Verdict",
     "assign",
     "bake",
@@ -180,9 +182,11 @@ __all__ = [
     "spots",
     "state",
     "texture_material",
+    "thermal_picture",
     "write",
     "write_emissivity",
     "write_picture",
+    "write_thermal",
 ]
 
 
@@ -1623,7 +1627,7 @@ def picture_verdict(
     tolerance
         ΔE00 within which 95 % of the picture shall be.
     samples, percentage
-        Of the small pictures; 8, and what comes to 480 × 270 pixels, if left out.
+        Of the small pictures; 5, and what comes to 480 × 270 pixels, if left out.
 
     Returns
     -------
@@ -1737,6 +1741,94 @@ def relight(
     desk = picture_relight.Desk(lights, observer)
     picture_relight.set_all(desk, spectra or {}, intensities or {})
     return desk.picture()
+
+
+def thermal_picture(
+    scene: bpy.types.Scene | None = None,
+    *,
+    band: tuple[float, float] = thermal.BAND,
+    parts: int = 3,
+    ambient: float = thermal.AMBIENT,
+    sky: float | None = None,
+    emissivity: float = thermal.EMISSIVITY,
+    materials: Mapping[str, Sample | float] | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> ThermalPicture:
+    """Render what a thermal camera sees of a scene.
+
+    An object's temperature is its custom property `rough_spectra_temperature`, kelvin, or an
+    attribute of this name of its vertices.
+
+    Parameters
+    ----------
+    scene, samples, percentage, progress
+        As for `spectral_picture`.
+    band
+        First and last wavelength of the camera, nanometers, from 700.
+    parts
+        Of the band, each with one emissivity a material, a multiple of 3: three a render.
+    ambient
+        Temperature of objects that have none, kelvin.
+    sky
+        That of what is seen where nothing is, kelvin; None for `ambient`.
+    emissivity
+        Of materials without infrared data.
+    materials
+        By name, a sample or an emissivity instead of what the material stores.
+
+    Returns
+    -------
+    `radiance`, W m⁻² sr⁻¹ in the band, and `kelvin`, the temperature of a black body that sends
+    as much, both of shape (rows, columns), from the bottom up; the `band`; the names of materials
+    whose emissivity was `assumed`; and `temperatures`, by the names of objects.
+
+    Raises
+    ------
+    RoughSpectraError
+        An argument or a temperature is none, the scene has no camera, or the second Blender failed.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> round(float(thermal_picture(scene, sky=300.0, samples=1).kelvin.mean()), 2)
+    300.0
+    """
+    _check_enabled()
+    wanted = thermal.Wanted(
+        band, parts, ambient, sky, emissivity, materials or {}, samples, percentage
+    )
+    return thermal.render(scene or bpy.context.scene, wanted, progress)
+
+
+def write_thermal(picture: ThermalPicture, path: str | os.PathLike[str]) -> None:
+    """Write a thermal picture as an EXR with the channels `radiance` and `kelvin`.
+
+    Parameters
+    ----------
+    picture
+        What `thermal_picture` gave.
+    path
+        Ends in .exr.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> warm = np.full((2, 3), 300.0)
+    >>> write_thermal(ThermalPicture((8000.0, 14000.0), warm, warm, (), {}), "warm.exr")
+    """
+    _check_enabled()
+    picture_files.check(Path(path))
+    thermal_file.write(picture, Path(path))
 
 
 def write_picture(

@@ -15,4 +15,9 @@ settings       how a scene's picture is rendered from the interface
 images         the last picture as images of the open file
 pixel          what a pixel of it is
 files          the picture as a file and as Blender's image
+verdict        whether RGB is enough, by small pictures, and if not, what is
+groups         each lamp's light apart
+relight        other lamps in a picture of which that was rendered
+frames         pictures of a range of frames
+thermal        what a thermal camera sees, with thermal_worker and thermal_file
 """

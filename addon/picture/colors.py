@@ -197,7 +197,7 @@ class _Search:
         self._called: dict[str, str] = {}
         self._chosen: dict[str, KnownLight] = {}
         self._found = Colors()
-        self._seen: set[tuple[str, str, str]] = set()
+        self._seen: set[tuple[tuple[str, str, str], str]] = set()
 
     def of(self, depsgraph: Any, scene: Any) -> Colors:
         lights: dict[Any, None] = {}
@@ -223,9 +223,9 @@ class _Search:
 
     def _title(self, kind: str, data: Any) -> str:
         """Give the name by which a datablock is told, and remember what it is called."""
-        title = f"{kind} {data.name!r}"
-        self._called[title] = str(data.name)
-        return title
+        name = title(kind, data)
+        self._called[name] = str(data.name)
+        return name
 
     def _choose(self, title: str, data: Any) -> None:
         """Remember the spectrum that a lamp or a world keeps, and that it has to be used."""
@@ -234,7 +234,7 @@ class _Search:
             self._chosen[title] = chosen
 
     def _material(self, material: Any) -> None:
-        of = _key("materials", material)
+        of = key("materials", material)
         name = self._title("Material", material)
         if not surface_of.uses_nodes(material):
             rgb = np.array(material.diffuse_color[:3], np.float64)
@@ -275,7 +275,7 @@ class _Search:
         return Measured(place, reading, surface.roughness, request.read_at, gloss)
 
     def _light(self, light: Any) -> None:
-        of = _key("lights", light)
+        of = key("lights", light)
         name = self._title("Light", light)
         if getattr(getattr(light, "cycles", None), "is_portal", False):
             return
@@ -296,7 +296,7 @@ class _Search:
         self._tree(tree, of, name, set(), color, kelvin)
 
     def _world(self, world: Any) -> None:
-        of = _key("worlds", world)
+        of = key("worlds", world)
         name = self._title("World", world)
         self._choose(name, world)
         tree = emission.tree(world)
@@ -314,14 +314,33 @@ class _Search:
         times: Array | None = None,
         kelvin: float | None = None,
     ) -> None:
-        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`."""
-        if of in self._seen:
+        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`.
+
+        The colors of a group are found once; what there is to tell of it is told of all its users.
+        """
+        if (of, name) in self._seen:
             return
-        self._seen.add(of)
+        is_known = any(of == other for other, _ in self._seen)
+        self._seen.add((of, name))
+        whole = self._found
+        if is_known:
+            self._found = Colors(told=whole.told, untranslated=whole.untranslated)
+        self._nodes(tree, of, name, taken, times, kelvin)
+        self._found = whole
+
+    def _nodes(
+        self,
+        tree: Any,
+        of: tuple[str, str, str],
+        name: str,
+        taken: set[Place],
+        times: Array | None,
+        kelvin: float | None,
+    ) -> None:
         for node in _reached(tree):
             if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
                 inner = node.node_tree
-                self._tree(inner, _key("node_groups", inner), name, set(), times, kelvin)
+                self._tree(inner, key("node_groups", inner), name, set(), times, kelvin)
             if not any(output.type == "SHADER" for output in node.outputs):
                 continue
             self._node(node, name)
@@ -441,6 +460,12 @@ def _source(socket: Any) -> Any | None:
     return None
 
 
-def _key(collection: str, data: Any) -> tuple[str, str, str]:
+def title(kind: str, data: Any) -> str:
+    """Give the name by which a datablock is told, such as "Material 'Wall'"."""
+    return f"{kind} {data.name!r}"
+
+
+def key(collection: str, data: Any) -> tuple[str, str, str]:
+    """Give where a datablock is found, as in `Place`."""
     library = data.library
     return collection, str(data.name), "" if library is None else str(library.filepath)

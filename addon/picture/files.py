@@ -111,6 +111,9 @@ def told(picture: SpectralPicture) -> Iterable[str]:
             f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
             f"{predicted.largest:.1f}"
         )
+    if picture.touched is not None:
+        share = 100 * picture.touched
+        yield f"materials with something that stays RGB take {share:.0f} % of the picture"
     found = picture.comparison
     if found is not None:
         column, row = found.where

@@ -78,6 +78,9 @@ class SpectralPicture:
         Why direct light was rendered apart, where that was decided for it.
     white
         XYZ of white by the observer under the scene's light, with a Y of 1, shape (3,).
+    touched
+        Part of the picture that shows materials of which something stayed red, green and blue;
+        None where there are none.
     """
 
     rgb: Array
@@ -94,6 +97,7 @@ class SpectralPicture:
     spectra: Spectra | None = None
     direct_words: str = ""
     white: Array | None = None
+    touched: float | None = None
 
 
 def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Array) -> Comparison:

@@ -279,9 +279,18 @@ def write(lights: Lights, path: Path) -> None:
     OutputError
         If it cannot be written.
     """
-    arrays = {name: np.asarray(getattr(lights, name)) for name in _FIELDS}
     with atomic_files.publication() as publication, publication.stage(path).open("wb") as file:
-        np.savez(file, format=np.array(_FORMAT), space=np.array(lights.space), **arrays)
+        np.savez(
+            file,
+            format=np.array(_FORMAT),
+            space=np.array(lights.space),
+            names=np.array(lights.names),
+            spectra=lights.spectra,
+            parts=lights.parts,
+            alpha=lights.alpha,
+            wavelengths=lights.wavelengths,
+            surfaces=lights.surfaces,
+        )
 
 
 def read(path: Path) -> Lights:
@@ -313,6 +322,12 @@ def read(path: Path) -> Lights:
     if not fits:
         msg = f"{path} holds no lights of a picture that fit together; render them again."
         raise InputError(msg)
-    names = tuple(str(name) for name in kept["names"])
-    arrays = (kept[name] for name in ("spectra", "parts", "alpha", "wavelengths", "surfaces"))
-    return Lights(names, *arrays, str(kept["space"]))
+    return Lights(
+        tuple(str(name) for name in kept["names"]),
+        kept["spectra"],
+        kept["parts"],
+        kept["alpha"],
+        kept["wavelengths"],
+        kept["surfaces"],
+        str(kept["space"]),
+    )

@@ -26,10 +26,8 @@ from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from ..colorimetry.rgb_space import WorkingSpace
 from . import colors, direct_light, light_spectra, passes, spectra
-from .colors import Colors
-from .passes import Lamps, Pass
+from .passes import Pass
 from .picture import SpectralPicture, compare
 
 MOST = 36
@@ -151,7 +149,7 @@ class Rendering(Job):
                 "layer": layer.name,
                 "frame": scene.frame_current,
                 "subframe": scene.frame_subframe,
-                "seed": scene.cycles.seed,
+                "seed": _seed(scene),
                 "samples": wanted.samples or scene.cycles.samples,
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
@@ -161,6 +159,7 @@ class Rendering(Job):
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
                 "groups": self._groups(depsgraph, scene),
+                "untranslated": self._materials_left(),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -171,7 +170,17 @@ class Rendering(Job):
         self.total = len(renders) + wanted.plain  # before the other Blender says so
 
     def _decide(self, scene: Any) -> direct_light.Choice:
-        return _decide(scene, self._found, self._lamps, self._space, self._wanted)
+        """Choose the bands, and whether direct light has renders of its own."""
+        wanted = self._wanted
+        counted = wanted.bands is not None
+        tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
+
+        def choose(direct: bool) -> Bands:
+            more = {"most": most, "direct": direct, "observer": wanted.observer}
+            return passes.choose(self._found, self._lamps, self._space, tolerance, **more)
+
+        lamps = len(self._lamps.spectra)
+        return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
 
     def _of_bands(self) -> list[Pass]:
         return passes.of_bands(self._chosen)
@@ -179,6 +188,22 @@ class Rendering(Job):
     def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
         """Give renders that are wanted after those of the picture."""
         return []
+
+    def _materials_left(self) -> list[list[str]]:
+        """Give the keys of materials of which something stays red, green and blue."""
+        left = self._found.untranslated
+        keys = [
+            colors.key("materials", material)
+            for material in bpy.data.materials
+            if colors.title("Material", material) in left
+        ]
+        return [list(each) for each in keys]
+
+    def _touched(self) -> float | None:
+        """Give the part of the picture that shows them."""
+        if not self._materials_left():
+            return None
+        return float(json.loads(self.output("touched.json").read_text(encoding="utf-8")))
 
     def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
         """Give what shines together, where pictures are wanted of each."""
@@ -228,6 +253,7 @@ class Rendering(Job):
             ),
             self._light.words,
             self._lamps.white_by(self._wanted.observer),
+            self._touched(),
         )
 
     @property
@@ -276,24 +302,18 @@ def _layer(scene: Any) -> Any:
     return used[0]
 
 
+def _seed(scene: Any) -> int:
+    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
+    cycles = scene.cycles
+    aside = scene.frame_current if cycles.use_animated_seed else 0
+    return int((cycles.seed + aside) % (1 << 31))
+
+
 def _evaluated(scene: Any, layer: Any) -> Any:
     if bpy.context.scene == scene and bpy.context.view_layer == layer:
         return bpy.context.evaluated_depsgraph_get()
     with bpy.context.temp_override(scene=scene, view_layer=layer):
         return bpy.context.evaluated_depsgraph_get()
-
-
-def _decide(
-    scene: Any, found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted
-) -> direct_light.Choice:
-    counted = wanted.bands is not None
-    tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
-
-    def choose(direct: bool) -> Bands:
-        more = {"most": most, "direct": direct, "observer": wanted.observer}
-        return passes.choose(found, lamps, space, tolerance, **more)
-
-    return direct_light.decide(scene, wanted.direct, len(lamps.spectra), counted, choose)
 
 
 def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:

@@ -32,12 +32,12 @@ from .render import Rendering, Wanted
 
 SIZE = 480, 270
 """Pixels of the small pictures, at most."""
-SAMPLES = 8
+SAMPLES = 5
 """Of each of their pixels."""
 WIDE = "Linear Rec.2020"
 """Working space that is tried."""
 
-_IN_A_BLOCK = 128
+_IN_A_BLOCK = 80
 """Samples that a block of pixels has at least, where that takes no more than `_WIDEST`."""
 _WIDEST = 4
 """Pixels of a block's side at most."""
@@ -218,7 +218,7 @@ class Judging(Rendering):
             chosen,
             comparisons[0],
             picture.untranslated,
-            self._touched(picture.untranslated),
+            picture.touched or 0.0,
             sum(picture.seconds),
         )
 
@@ -240,7 +240,7 @@ class Judging(Rendering):
     def _beside(self, depsgraph: Any, scene: Any) -> list[Pass]:
         self._others: list[Pass] = []
         wide = _wide(self._space)
-        if self._found.measured or self._found.untranslated:
+        if self._found.measured:
             self._report = analysis.analyze(depsgraph, scene)
         spaces = {"": self._space} | ({} if wide is None else {"space": wide})
         for kind, space in spaces.items():
@@ -273,12 +273,6 @@ class Judging(Rendering):
         if view is None:
             return np.asarray(self._lamps.spectra.sum(axis=0))
         return np.sum([light.share * np.array(light.spd) for light in view.lights], axis=0)
-
-    def _touched(self, untranslated: Mapping[str, tuple[str, ...]]) -> float:
-        if self._report is None:
-            return 0.0
-        share = self._report.pixels.items()
-        return sum(part for m, part in share if f"Material {m.name!r}" in untranslated)
 
 
 def judge(scene: Any, progress: Callable[[int, int], None] | None = None, **wanted: Any) -> Verdict:

@@ -35,6 +35,10 @@ _OLDER |= {"Dir": "Direct", "Col": "Color", "Emit": "Emission", "Env": "Environm
 """How Blender 4.5 shortens the names of passes in files, as in DiffDir."""
 
 
+_ENOUGH = 200_000
+"""Pixels by which the part of a picture is counted."""
+
+
 def main(job_path: Path) -> None:
     """Render all passes of the job."""
     job = json.loads(job_path.read_text(encoding="utf-8"))
@@ -68,7 +72,39 @@ def main(job_path: Path) -> None:
         seconds.append(time.perf_counter() - start)
         done += 1
         shared.report(folder, done, total)
+    if job["untranslated"]:
+        share = seen(scene, folder, job["layer"], job["untranslated"])
+        (folder / "touched.json").write_text(json.dumps(share), encoding="utf-8")
     (folder / "seconds.json").write_text(json.dumps(seconds), encoding="utf-8")
+
+
+def seen(scene: Any, folder: Path, layer: str, wanted: list[list[str]]) -> float:
+    """Render which material each pixel shows; gives the part that shows one of those wanted.
+
+    Parameters
+    ----------
+    scene, folder, layer
+        Where.
+    wanted
+        Keys of materials, as `owner` takes them.
+    """
+    for material in bpy.data.materials:
+        material.pass_index = 0
+    for of in wanted:
+        owner(of).pass_index = 1
+    scene.view_layers[layer].use_pass_material_index = True
+    render, cycles = scene.render, scene.cycles
+    cycles.samples, cycles.max_bounces = 1, 0
+    cycles.use_denoising = cycles.use_adaptive_sampling = False
+    pixels = render.resolution_x * render.resolution_y * (render.resolution_percentage / 100) ** 2
+    if pixels > _ENOUGH:
+        smaller = render.resolution_percentage * (_ENOUGH / pixels) ** 0.5
+        render.resolution_percentage = max(round(smaller), 1)
+    put_format(render, several=True)
+    path = folder / "render.exr"
+    shared.render_into(scene, path)
+    [index] = [pixels for name, pixels in channels(path).items() if "Index" in name]
+    return float((index > 0.5).mean())
 
 
 def prepare(job: dict[str, Any]) -> Any:
@@ -92,13 +128,7 @@ def prepare(job: dict[str, Any]) -> Any:
     if job["steady"]:
         keep_paths(scene.cycles)
     several = job["apart"] or bool(job.get("groups"))
-    if hasattr(render.image_settings, "media_type"):
-        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if several else "IMAGE"
-    render.image_settings.file_format = "OPEN_EXR_MULTILAYER" if several else "OPEN_EXR"
-    if not several:
-        render.image_settings.color_mode = "RGBA"
-    render.image_settings.color_depth = "32"
-    render.image_settings.exr_codec = "ZIP"
+    put_format(render, several)
     if job["apart"]:
         layer = scene.view_layers[job["layer"]]
         for name in ("diffuse", "glossy", "transmission"):
@@ -107,6 +137,17 @@ def prepare(job: dict[str, Any]) -> Any:
         layer.use_pass_emit = layer.use_pass_environment = True
         layer.cycles.use_pass_volume_direct = True
     return scene
+
+
+def put_format(render: Any, several: bool) -> None:
+    """Let files hold a picture, or `several` passes of it."""
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if several else "IMAGE"
+    render.image_settings.file_format = "OPEN_EXR_MULTILAYER" if several else "OPEN_EXR"
+    if not several:
+        render.image_settings.color_mode = "RGBA"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
 
 
 def keep_paths(cycles: Any) -> None:

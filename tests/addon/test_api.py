@@ -58,6 +58,9 @@ SIGNATURES = {
     "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
     "texture_material": "(made, name='')",
+    "thermal_picture": "(scene=None, *, band=(8000.0, 14000.0), parts=3, ambient=293.15, "
+    "sky=None, emissivity=0.95, materials=None, samples=None, percentage=None, progress=None)",
+    "write_thermal": "(picture, path)",
     "write_emissivity": "(found, base)",
     "write_picture": "(picture, path, spectra=None, *, at_bands=False)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
@@ -101,8 +104,9 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds spectra direct_words white",
+    "untranslated seconds spectra direct_words white touched",
     "Pixel": "column row wavelengths radiance xyz lab delta_e",
+    "ThermalPicture": "band radiance kelvin assumed temperatures",
     "Lights": "names spectra parts alpha wavelengths surfaces space",
     "Verdict": "rungs tolerance chosen comparison untranslated touched seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",

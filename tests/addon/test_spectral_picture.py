@@ -256,7 +256,8 @@ def test_a_color_of_rgb_has_the_spectrum_of_the_published_table(lit):
 
 
 def test_the_file_and_its_settings_are_as_they_were(lit):
-    _, _, before, after, _ = lit
+    _, picture, before, after, _ = lit
+    assert picture.touched is None
     assert before == after
 
 
@@ -556,6 +557,20 @@ def test_rules_are_told_and_what_has_none_is_named():
     ]
 
 
+def test_what_stays_rgb_is_told_with_its_part_of_the_picture():
+    scene = from_above(4)
+    sun(scene)
+    film, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Thin Film Thickness"].default_value = 300
+    for column, each in enumerate((film, new_material("Gray", (0.5, 0.5, 0.5)), film)):
+        strip(column, each)
+    picture = api.spectral_picture(bands=3, direct=True, compare=False)
+    assert picture.touched == 0.5
+    told = "materials with something that stays RGB take 50 % of the picture"
+    assert told in list(files.told(picture))
+    assert picture.xyz[0, 1] == pytest.approx(0.5 * planck() @ functions(), rel=2e-4)
+
+
 def test_a_radius_counts_only_where_light_scatters():
     scene = from_above(4)
     sun(scene)
@@ -612,6 +627,32 @@ def test_colors_in_groups_count_where_they_enter_a_shader():
     [found] = find().colored
     assert found.rgb is None
     assert found.place.of == ("node_groups", "Paint", "")
+
+
+def test_a_group_is_told_of_all_that_use_it_and_its_colors_count_once():
+    scene = from_above(4)
+    sun(scene)
+    group = bpy.data.node_groups.new("Film", "ShaderNodeTree")
+    group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    outside, coated = (
+        group.nodes.new("NodeGroupOutput"),
+        group.nodes.new("ShaderNodeBsdfPrincipled"),
+    )
+    coated.inputs["Base Color"].default_value = (0.8, 0.3, 0.1, 1)
+    coated.inputs["Thin Film Thickness"].default_value = 300
+    group.links.new(coated.outputs[0], outside.inputs[0])
+    for column, name in enumerate(("One", "Other")):
+        tree = new_material(name).node_tree
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+        strip(column, bpy.data.materials[name])
+    found = find()
+    [colored] = found.colored
+    assert colored.place.of == ("node_groups", "Film", "")
+    left = ["its thin film"]
+    assert found.untranslated == {"Material 'One'": left, "Material 'Other'": left}
+    assert found.told["Material 'One'"] == found.told["Material 'Other'"] == [colors.LINEAR]
 
 
 def test_two_lamps_of_one_color_are_one_spectrum():

@@ -176,3 +176,34 @@ def stopping_a_spectral_picture(found):
     found["folders"] = [path.name for path in Path(bpy.app.tempdir).parent.glob("rough-spectra-*")]
     found["same"] = _state() == before
     found["modal"] = [op.bl_idname for op in window().modal_operators]
+
+
+@scene
+def choosing_a_light_spectrum(found):
+    """In the Light tab: what the panel offers, a file, and undo."""
+    yield from _room()
+    tube = bpy.data.objects["Tube"]
+    bpy.context.view_layer.objects.active = tube
+    tube.select_set(True)
+    undo_step("Tube")
+    panel = area("PROPERTIES")
+    panel.tag_redraw()
+    yield 0.5  # the tab is there once it was drawn
+    panel.spaces.active.context = "DATA"
+    _panels("data", ours("addon.interface.panels.lights").ROUGHSPECTRA_PT_light)
+    yield 0.5
+    yield from find(panel, "spectrum", 0.7)
+    found["before"] = tube.data.rough_spectra.spectrum
+    path = f"{bpy.app.tempdir}sodium.csv"
+    Path(path).write_text("nm,W\n588.7,0\n589.2,40\n589.7,0\n", encoding="utf-8")
+    with over(panel):
+        OPS.open_light("EXEC_DEFAULT", True, filepath=path)
+    yield 0.5
+    group = bpy.data.lights["Tube"].rough_spectra
+    found["chosen"] = [group.spectrum, group.sample_name]
+    yield from find(panel, "rough_spectra.open_light", 0.7)
+    _grab("spectral-light")
+    yield from move(*middle(area("IMAGE_EDITOR")))
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = bpy.data.lights["Tube"].rough_spectra.spectrum

@@ -348,3 +348,9 @@ def test_first_hour(scene):
     assert scene["next"] == [{"drags": 1}, True]
     assert scene["several"] == [{"clicks": 2, "words": 1}, ["Brick"] * 3]
     assert scene["gloss"] == [{"drags": 1}, "looks right"]
+
+
+def test_choosing_a_light_spectrum(scene):
+    assert scene["before"] == "F11"
+    assert scene["chosen"] == ["MEASURED", "sodium.csv"]
+    assert scene["undone"] == "F11"

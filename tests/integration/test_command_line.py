@@ -29,6 +29,7 @@ VERBS = (
     "search",
     "spectral",
     "texture",
+    "thermal",
     "verdict",
 )
 
