@@ -137,6 +137,16 @@ def test_binary_avasoft_divides_by_the_white_reference():
     assert second.altered[1] == "1 band without a value was left out: 920 nm."
 
 
+def test_the_comment_of_an_spc_tells_the_geometry(tmp_path):
+    data = bytearray((FIXTURES / "galactic_spc" / "uneven.spc").read_bytes())
+    assert data[88:98] == b"Slit 2 nm\0"
+    data[88:98] = b"d/8 SCE  \0"
+    path = tmp_path / "wall.spc"
+    path.write_bytes(data)
+    (sample,) = readers.read(path)
+    assert (sample.instrument, sample.specular, sample.geometry) == ("de:8", "SCE", "d/8")
+
+
 def test_spc_in_all_its_layouts():
     """Held to the text export of CRAIC's software, and to another reader's numbers of 20 files."""
     nm = [400.0, 410.0, 420.0, 430.0, 440.0]
