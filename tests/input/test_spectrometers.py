@@ -245,7 +245,10 @@ def test_cary_reads_pairs_of_unequal_length_and_no_log():
     chalk, brick = readers.read(FIXTURES / "delimited" / "cary.csv")
     assert spectrum(chalk) == ("Chalk wall", [778.0, 779.0, 780.0], [0.125, 0.25, 0.5])
     assert spectrum(brick) == ("Brick", [779.0, 780.0], [0.25, 0.125])
-    assert chalk.notes == ("Columns not read: Base.",)
+    assert chalk.notes == (
+        "Columns not read: Base.",
+        "The file does not say the geometry; 45°a:0° is assumed.",
+    )
 
 
 def test_lambda():

@@ -310,3 +310,24 @@ def test_labels_and_remarks_of_jcamp(tmp_path, labels, instrument):
     [sample] = read(tmp_path, f"{head}\n##XYPOINTS=(XY..XY)\n{points}\n##END=\n")
     assert sample.instrument == instrument
     assert not any("does not say the geometry" in note for note in sample.notes)
+
+
+def test_the_device_of_any_format_counts_and_nothing_counts_as_45_0_in_silence(tmp_path):
+    lines = "STD_NAME=brick\nSTD_REFLPOINTS=7\nSTD_REFLLOW=400\nSTD_REFLINTERVAL=50\n"
+    text = f"[STANDARD_DATA 0]\n{lines}STD_R={values(30)}\nSTD_INSTRUMENT=CM-700d\n"
+    [sample] = read(tmp_path, text)
+    assert (sample.instrument, sample.device) == ("di:8", "CM-700d")
+    [sample] = read(tmp_path, text.replace("CM-700d", "CM-700d SCE"))
+    assert sample.instrument == "de:8"
+    [sample] = read(tmp_path, text.replace("CM-700d", "Q 1"))
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+    [sample] = read(tmp_path, "Brick,,\nWavelength (nm),%R,\n400,30,\n500,30,\n")
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+
+
+def test_a_range_or_a_factor_tells_the_scale_and_per_mille_is_refused(tmp_path):
+    for label in ("R (0-100)", "R x100"):
+        [sample] = read(tmp_path, down(f"wavelength,{label}"))
+        assert sample.values[0] == 0.003
+    with pytest.raises(InputError, match="per mille"):
+        read(tmp_path, down("wavelength,R (‰)"))
