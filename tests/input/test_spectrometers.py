@@ -137,6 +137,16 @@ def test_binary_avasoft_divides_by_the_white_reference():
     assert second.altered[1] == "1 band without a value was left out: 920 nm."
 
 
+def test_the_comment_of_an_spc_tells_the_geometry(tmp_path):
+    data = bytearray((FIXTURES / "galactic_spc" / "uneven.spc").read_bytes())
+    assert data[88:98] == b"Slit 2 nm\0"
+    data[88:98] = b"d/8 SCE  \0"
+    path = tmp_path / "wall.spc"
+    path.write_bytes(data)
+    (sample,) = readers.read(path)
+    assert (sample.instrument, sample.specular, sample.geometry) == ("de:8", "SCE", "d/8")
+
+
 def test_spc_in_all_its_layouts():
     """Held to the text export of CRAIC's software, and to another reader's numbers of 20 files."""
     nm = [400.0, 410.0, 420.0, 430.0, 440.0]
@@ -235,7 +245,10 @@ def test_cary_reads_pairs_of_unequal_length_and_no_log():
     chalk, brick = readers.read(FIXTURES / "delimited" / "cary.csv")
     assert spectrum(chalk) == ("Chalk wall", [778.0, 779.0, 780.0], [0.125, 0.25, 0.5])
     assert spectrum(brick) == ("Brick", [779.0, 780.0], [0.25, 0.125])
-    assert chalk.notes == ("Columns not read: Base.",)
+    assert chalk.notes == (
+        "Columns not read: Base.",
+        "The file does not say the geometry; 45°a:0° is assumed.",
+    )
 
 
 def test_lambda():

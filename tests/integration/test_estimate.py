@@ -63,7 +63,8 @@ def test_a_pair_by_names(main, measured, tmp_path):
     words = (measured, "--smooth", "Paper", "--rough", "Paper sanded", "--output", target)
     result = main("estimate", *words)
     assert result.status == 0
-    first, last = result.err.splitlines()
+    assumed, first, last = result.err.splitlines()
+    assert assumed.endswith("The file does not say the geometry; 45°a:0° is assumed.")
     assert first.startswith("rough: σ 2")
     assert "by noise (95 %)" in first
     assert f"over the models {', '.join(estimate.SPREAD)}" in first

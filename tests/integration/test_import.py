@@ -283,7 +283,9 @@ def test_import_verb_prints_ids_and_warns(main, folder, two, noisy, tmp_path):
     result = main("import", two, noisy, "--folder", tmp_path / "other")
     assert result.status == 0
     assert result.out.splitlines() == ["two/plaster", "two/chalk", "noisy/dark"]
-    warning, summary = result.err.splitlines()
+    unsaid = "The file does not say the geometry; 45°a:0° is assumed."
+    *assumed, warning, summary = result.err.splitlines()
+    assert assumed == [f"warning: {path}: {unsaid}" for path in (two, noisy)], "once a file"
     assert warning.startswith(f"warning: {noisy}: 'dark' is below 0 in one band")
     assert summary.startswith("3 samples added to the library")
     assert set(contents(tmp_path / "other")) == {"two.json", "noisy.json", ".lock"}
@@ -305,7 +307,7 @@ def test_import_verb_adds_nothing_when_a_file_is_unusable(main, folder, two, bro
     assert own(folder) == ["mine/plaster", "mine/chalk"]
     result = main("import", two, "--collection", "a/b")
     assert result.status == 2
-    assert "'a-b'" in result.sentence
+    assert "'a-b'" in result.err.splitlines()[-1]
 
 
 def test_a_shared_library_file_is_imported_as_any_other(main, folder, two, tmp_path):

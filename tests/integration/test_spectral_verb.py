@@ -76,3 +76,12 @@ def test_what_is_refused_before_rendering(words, sentence, blend, tmp_path, main
     assert result.status == 2
     assert sentence in result.err
     assert not (tmp_path / "room.exr").exists()
+
+
+def test_a_farm_renders_pictures_of_its_scenes(blend, tmp_path, main):
+    words = f"spectral --output {tmp_path}/out/{{name}}.exr --bands 3 --samples 1 --no-comparison"
+    result = main("job", "--files", blend.parent, "--", words)
+    assert result.status == 0, result.err
+    file = openimageio().ImageInput.open(str(tmp_path / "out" / "scene.exr"))
+    assert (file.spec().width, file.spec().height) == (12, 8)
+    file.close()

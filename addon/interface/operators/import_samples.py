@@ -84,7 +84,8 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             return {"CANCELLED"}
         if asks:
             return self._review(batch)
-        said = [*batch.refused, *(sentence for each in batch.found for sentence in each.sentences)]
+        told = (sentence for each in batch.found for sentence in each.sentences)
+        said = [*batch.refused, *dict.fromkeys(told)]
         for sentence in said[:_MOST_SENTENCES]:
             self.report({"WARNING"}, sentence)
         if len(said) > _MOST_SENTENCES:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ....readings import json_document
 from ....readings.document import Predicted, Reading
 from ...sample import Sample
@@ -63,7 +65,7 @@ def read(document: Document) -> list[Sample]:
 def _common(document: Document, number: int, part: Predicted) -> dict[str, Any]:
     """Return what a reading and the albedo behind it share."""
     return {
-        "wavelengths": part.wavelengths,
+        "wavelengths": np.array(part.wavelengths, dtype=np.float64),
         "sigma_degrees": part.sigma_degrees,
         "sigma_source": "as the material had it when it was baked",
         "source": str(document.path),
@@ -75,7 +77,7 @@ def _reading(entry: Reading, name: str, part: Predicted, common: dict[str, Any])
     return Sample(
         **common,
         name=name,
-        values=part.values,
+        values=np.array(part.values, dtype=np.float64),
         kind="reading",
         instrument=entry.instrument,
         geometry=entry.instrument,
@@ -90,7 +92,7 @@ def _albedo(name: str, part: Predicted, common: dict[str, Any]) -> Sample:
     return Sample(
         **common | {"position": f"{common['position']}, albedo"},
         name=f"{name} (albedo)",
-        values=part.albedo,
+        values=np.array(part.albedo, dtype=np.float64),
         kind="albedo",
         quantity="reflectance of a facet",
         notes=(_OF_FACETS,),

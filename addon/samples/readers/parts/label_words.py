@@ -75,7 +75,7 @@ _OF_ABSCISSA = re.compile(
 # "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
 _PERCENT = re.compile(
     r"(?<!\d)(?<!\d[ _-])"
-    r"(?:[%％]|(?<![a-z])(?:percent(?:age)?|pct|prozent|pourcent(?:age)?|procent|パーセント)(?![a-z]))",
+    r"(?:[%％]|\(0\s*(?:-|–|to|\.\.)\s*100\)|[x×*]\s*100(?!\d)|(?<![a-z])(?:percent(?:age)?|pct|prozent|pourcent(?:age)?|procent|パーセント)(?![a-z]))",
     re.IGNORECASE,
 )
 _ABOUT_VALUES = re.compile(

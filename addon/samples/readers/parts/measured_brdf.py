@@ -73,13 +73,12 @@ class MeasuredBrdf:
         of_middle = np.arctan2(middle[1], middle[0]) - (turn if self.is_isotropic else 0.0)
         place = (_across(middle), (of_middle + np.pi) / (2 * np.pi) % 1.0)
         corners = self._corners(turn, np.arccos(light[2]))
-        visible = sum(
+        densities = (
             weight * _normalized(self.visible[i, j].astype(np.float64)) for weight, i, j in corners
         )
-        x, y = _inverted(visible, place)
-        values = sum(
-            weight * _bilinear(self.spectra[i, j], (x, y)) for weight, i, j in corners
-        ).astype(np.float64)
+        point = _inverted(np.sum(list(densities), axis=0), place)
+        stored = [weight * _bilinear(self.spectra[i, j], point) for weight, i, j in corners]
+        values = np.sum(stored, axis=0, dtype=np.float64)
         if self.divided:
             lit = _bilinear(self.area, (_across(light), (turn + np.pi) / (2 * np.pi)))
             values *= _bilinear(self.normals, place) / (4.0 * lit)

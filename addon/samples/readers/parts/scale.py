@@ -73,6 +73,8 @@ def scale(document: Document, said: label_words.Comments, place: str, labels: li
     InputError
         The two disagree.
     """
+    if any("‰" in label for label in labels):
+        raise document.error(place, "its values are per mille, which are not read; export percent")
     percent = any(map(label_words.says_percent, labels))
     if percent and said.scale == 1.0:
         raise document.error(

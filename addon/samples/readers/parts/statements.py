@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from .....core.instruments import REGISTRY
@@ -158,6 +158,26 @@ def mentioned(text: str) -> Mapping[str, Any]:
         return ({"geometry": geometry} if geometry else {}) | _specular(specular)
     device = device_in_text(text)
     return {"device": device} if device else {}
+
+
+def measured_by(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
+    """Return geometry, specular component, condition and device that keys and texts of a file say.
+
+    Formats with keywords of their own ask for what theirs leave open: what a key names counts, and
+    else what a text mentions. The fields are those of `stated`.
+    """
+    own: dict[str, Any] = {}
+    free: dict[str, Any] = {}
+    for key, value in pairs:
+        for name, content in stated(key, value).items():
+            if name in _HOW:
+                own.setdefault(name, content)
+        for name, content in mentioned(value).items():
+            free.setdefault(name, content)
+    return own if own.keys() & GEOMETRIES else free | own
+
+
+_HOW = {*GEOMETRIES, "condition", "device"}
 
 
 def light(text: str) -> dict[str, Any]:
