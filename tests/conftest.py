@@ -93,7 +93,7 @@ def pytest_pyfunc_call():
 
 
 def _hide_the_test():
-    """Take the test out of the environment: a second Blender is kept while that stays alike."""
+    """Take the test's name from the environment: where that changes, no Blender is kept."""
     os.environ.pop("PYTEST_CURRENT_TEST", None)
 
 
