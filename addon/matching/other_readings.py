@@ -24,8 +24,8 @@ MISSED = 0.3
 def missed(request: Request, solution: Solution, space: WorkingSpace) -> str:
     """Say which readings a material misses, by how much; an empty sentence if none.
 
-    Of those that an instrument of ours has, of the rough surface. Dragged sliders have no time for
-    it: a sphere under gloss takes some milliseconds.
+    Of those that an instrument of ours has, of the rough surface. It takes a millisecond, and two
+    more for each sphere while gloss is dragged: what is missed has to be told then, too.
     """
     if request.scene is not None or request.sample.kind != "reading":
         return ""
@@ -47,5 +47,6 @@ def missed(request: Request, solution: Solution, space: WorkingSpace) -> str:
         return ""
     listed = ", ".join(f"ΔE00 {apart:.2f} at {where}" for apart, where in sorted(told)[::-1])
     return (
-        f"Of the set's other readings it misses {listed}; one color, roughness and gloss show all."
+        f"Of the set's other readings it misses {listed}: no one color, roughness and gloss has "
+        "all of them."
     )

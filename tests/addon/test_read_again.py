@@ -11,7 +11,7 @@ import pytest
 from rough_spectra.addon import api
 from rough_spectra.addon.blender import shader_nodes, working_space
 from rough_spectra.addon.colorimetry import tristimulus
-from rough_spectra.addon.material import state
+from rough_spectra.addon.material import derivation, state
 from rough_spectra.addon.samples import gloss_of_set, sets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.core import cycles
@@ -173,6 +173,10 @@ def test_readings_that_one_lobe_cannot_meet_are_named(extension):
     assert "45as-15" in named
     assert told.count("ΔE00") == len(named)
     assert told in api.renew([material])[0].warnings
+    material.rough_spectra.sigma = radians(35)  # as a slider does
+    dragged = derivation.get_stamp(material).warnings
+    assert [text for text in dragged if "other readings it misses" in text] == list(dragged)
+    assert tuple(api.renew([material])[0].warnings) == tuple(dragged)
     level = replace(main, others=tuple(replace(each, values=main.values) for each in others))
     [solution] = api.assign([(material, api.request(level, 0.0, read_at="45as45"))], gloss="none")
     assert not [text for text in solution.warnings if "other readings" in text]
