@@ -64,7 +64,9 @@ def gloss_read() -> None:
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path))
     thing.active_material.rough_spectra.read_at = "de:8"
     bpy.ops.rough_spectra.renew("EXEC_DEFAULT")
-    states.open_details(source=True)
+    for twin in states.open_details(source=True):
+        if "plots" in twin.__name__:  # all else fits into the window without them
+            twin.poll = classmethod(lambda _cls, _context: False)
 
 
 # Textures ----------------------------------------------------------------------------------------
@@ -77,6 +79,7 @@ def _textured() -> Any:
     thing = bpy.context.view_layer.objects.active
     layer = thing.data.uv_layers.new(name="UVMap")
     layer.uv.foreach_set("vector", [0, 0, 1, 0, 1, 1, 0, 1])
+    bpy.data.batch_remove(list(bpy.data.images))  # of earlier pictures
     texture = material.node_tree.nodes.new("ShaderNodeTexImage")
     texture.image = textures.image("bricks", textures.pictures()["bricks"])
     texture.location = (-620, 300)
@@ -150,7 +153,7 @@ def _look_at_all() -> None:
     window = bpy.context.window_manager.windows[0]
     with bpy.context.temp_override(window=window, area=area, region=region):
         bpy.ops.node.view_all()
-        bpy.ops.view2d.zoom_out(zoomfacx=-0.1, zoomfacy=-0.1)
+        bpy.ops.view2d.zoom_out(zoomfacx=-0.2, zoomfacy=-0.2)
     _arranged.append(True)
 
 
