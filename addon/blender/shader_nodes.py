@@ -59,6 +59,8 @@ __all__ = [
 _SET_ASIDE = "rough_spectra_set_aside"
 """Custom property of a node that another one took the place of, with its name then: a copy that
 somebody made of it has another name."""
+_MEASURED = "match it by measuring (Match by Measuring in the menu Rough Spectra)"
+"""What remains where no formula tells what a surface reads."""
 _NODE_DISTANCE = 300.0
 
 
@@ -119,7 +121,7 @@ def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> 
         msg = (
             f"Material {material.name!r}: its surface comes from {node.name!r} "
             f"({node.bl_label}), which Rough Spectra cannot set; link a {shaders.listed()} to the "
-            "material output."
+            f"material output, or {_MEASURED}."
         )
         raise MaterialError(msg)
     if shader != shaders.AUTO and node.bl_idname != wanted:
@@ -327,19 +329,20 @@ def _refuse_unpredictable(material: Any, node: Any, keep_gloss: bool = True) -> 
             continue
         if name in sockets.gloss.values():
             msg = (
-                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, or "
-                "choose Diffuse as the shader."
+                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, "
+                f"choose Diffuse as the shader, or {_MEASURED}."
             )
             raise MaterialError(msg)
         if name not in sockets.neutral:
             msg = (
                 f"{where}: {name} is in use, which turns its gloss in a way that no formula here "
-                "counts; set it to 0 or unlink it, or remove the gloss."
+                f"counts; set it to 0 or unlink it, remove the gloss, or {_MEASURED}."
             )
             raise MaterialError(msg)
         msg = (
             f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-            f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
+            f"for; set it to {sockets.neutral[name]:g}, choose Diffuse as the shader, or "
+            f"{_MEASURED}."
         )
         raise MaterialError(msg)
     for name in (*sockets.neutral, *(sockets.gloss.values() if counts else sockets.zeroed)):
