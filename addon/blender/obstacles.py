@@ -14,6 +14,8 @@ from .surface import disturbing_sockets, gloss_of, shader_node
 
 Kind = Literal["UNLINK", "CLEAR", "NEUTRAL"]
 """How an obstacle is removed: the link, the animation, or whatever is in use."""
+MEASURED = "match it by measuring (Match by Measuring in the menu Rough Spectra)"
+"""What remains where no formula tells what a surface reads."""
 
 
 class SocketError(MaterialError):
@@ -75,19 +77,20 @@ def refuse_unpredictable(material: Any, node: Any, keep_gloss: bool = True) -> N
             continue
         if name in sockets.gloss.values():
             msg = (
-                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, or "
-                "choose Diffuse as the shader."
+                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, "
+                f"choose Diffuse as the shader, or {MEASURED}."
             )
             raise SocketError(msg, "UNLINK", name)
         if name not in sockets.neutral:
             msg = (
                 f"{where}: {name} is in use, which turns its gloss in a way that no formula here "
-                "counts; set it to 0 or unlink it, or remove the gloss."
+                f"counts; set it to 0 or unlink it, remove the gloss, or {MEASURED}."
             )
             raise SocketError(msg, "NEUTRAL", name)
         msg = (
             f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-            f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
+            f"for; set it to {sockets.neutral[name]:g}, choose Diffuse as the shader, or "
+            f"{MEASURED}."
         )
         raise SocketError(msg, "NEUTRAL", name)
     for name in (*sockets.neutral, *(sockets.gloss.values() if counts else sockets.zeroed)):

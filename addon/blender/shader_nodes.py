@@ -20,7 +20,7 @@ from ...core.numerics.memoized import kept
 from ..matching import shaders
 from . import texture_scale
 from .links import comparable, link_to
-from .obstacles import curves, is_animated, refuse_unpredictable, texture_of
+from .obstacles import MEASURED, curves, is_animated, refuse_unpredictable, texture_of
 from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
 from .surface import (
     Surface,
@@ -120,7 +120,7 @@ def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> 
         msg = (
             f"Material {material.name!r}: its surface comes from {node.name!r} "
             f"({node.bl_label}), which Rough Spectra cannot set; link a {shaders.listed()} to the "
-            "material output."
+            f"material output, or {MEASURED}."
         )
         raise MaterialError(msg)
     if shader != shaders.AUTO and node.bl_idname != wanted:

@@ -208,8 +208,9 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     """
     try:
         place, request = _stored(material, material)
-        space, [solution] = _solve([(place, request)])
         work = [(place, request)]
+        space, solutions = _solve(work)
+        [solution] = _told_of_sets(work, solutions, space)
         [palette], [solution], [written] = textures.scaled(work, [solution], space, False)
     except RoughSpectraError as error:
         material.rough_spectra.error = str(error)
@@ -233,8 +234,7 @@ def _renew(
 ) -> list[Solution]:
     work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
     space, solutions = _solve(work)
-    if look_again:
-        solutions = _told_of_sets(work, solutions, space)
+    solutions = _told_of_sets(work, solutions, space)
     palettes, solutions, written = textures.scaled(work, solutions, space, look_again, looked)
     together = zip(work, written, palettes, pairs, strict=True)
     for (place, request), solution, palette, (_, source) in together:

@@ -19,8 +19,8 @@ from tools.manual import screenshots_states as states
 TILE = "\n".join(
     [
         "name,Gloss 60," + ",".join(f"R{nm} nm" for nm in states.BANDS),
-        "Tile (SCI),15.8," + ",".join(f"{0.20 + (nm - 400) / 1500:.3f}" for nm in states.BANDS),
-        "Tile (SCE),15.8," + ",".join(f"{0.17 + (nm - 400) / 1500:.3f}" for nm in states.BANDS),
+        "Tile (SCI),15.8," + ",".join(f"{0.209 + (nm - 400) / 1500:.3f}" for nm in states.BANDS),
+        "Tile (SCE),15.8," + ",".join(f"{0.2 + (nm - 400) / 1500:.3f}" for nm in states.BANDS),
     ]
 )
 """Invented numbers, for pictures alone."""
@@ -59,10 +59,14 @@ def gloss_too_much() -> None:
 @states.picture("panel")
 def gloss_read() -> None:
     """Show a material that got the gloss of its sample: a sphere with and without, and 60°."""
-    states._fresh()
+    thing = states._fresh()
     path = states._write("tile.csv", TILE)
     bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path))
-    states.open_details(source=True)
+    thing.active_material.rough_spectra.read_at = "de:8"
+    bpy.ops.rough_spectra.renew("EXEC_DEFAULT")
+    for twin in states.open_details(source=True):
+        if "plots" in twin.__name__:  # all else fits into the window without them
+            twin.poll = classmethod(lambda _cls, _context: False)
 
 
 # Textures ----------------------------------------------------------------------------------------
@@ -75,6 +79,7 @@ def _textured() -> Any:
     thing = bpy.context.view_layer.objects.active
     layer = thing.data.uv_layers.new(name="UVMap")
     layer.uv.foreach_set("vector", [0, 0, 1, 0, 1, 1, 0, 1])
+    bpy.data.batch_remove(list(bpy.data.images))  # of earlier pictures
     texture = material.node_tree.nodes.new("ShaderNodeTexImage")
     texture.image = textures.image("bricks", textures.pictures()["bricks"])
     texture.location = (-620, 300)
@@ -110,9 +115,13 @@ def texture_scaled() -> None:
     _choose()
 
 
-@states.picture("nodes", ready=_is_scaled)
+_arranged: list[bool] = []
+
+
+@states.picture("nodes", ready=lambda: bool(_arranged))
 def texture_nodes() -> None:
     """Show the node that scales a texture, between it and the shader."""
+    _arranged.clear()
     _textured()
     area = states._wide_area()
     area.ui_type = "ShaderNodeTree"
@@ -120,26 +129,32 @@ def texture_nodes() -> None:
     space.show_region_ui = space.show_region_toolbar = False
     space.overlay.show_context_path = False
     bpy.context.preferences.themes[0].node_editor.grid_levels = 0
+    bpy.context.preferences.view.smooth_view = 0
     _choose()
     bpy.app.timers.register(_arrange, first_interval=0.5)
 
 
 def _arrange() -> float | None:
-    """Put the nodes side by side, once all are there, so that they fill the editor."""
+    """Put the nodes side by side, once all are there and drawn, so that they fill the editor."""
     if not _is_scaled():
         return 0.2
     tree = _material().node_tree
     kinds = ("TEX_IMAGE", "MIX", "BSDF_PRINCIPLED", "OUTPUT_MATERIAL")
     for place, kind in enumerate(kinds):
         node = next(n for n in tree.nodes if n.type == kind)
-        node.select, node.location = False, (300 * place, 0)
+        node.select, node.location = False, (290 * place, 0)
+    bpy.app.timers.register(_look_at_all, first_interval=1.0)
+    return None
+
+
+def _look_at_all() -> None:
     area = states._wide_area()
     region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(
-        window=bpy.context.window_manager.windows[0], area=area, region=region
-    ):
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window, area=area, region=region):
         bpy.ops.node.view_all()
-    return None
+        bpy.ops.view2d.zoom_out(zoomfacx=-0.2, zoomfacy=-0.2)
+    _arranged.append(True)
 
 
 # Instruments -------------------------------------------------------------------------------------
