@@ -3,10 +3,12 @@
 """The small balls of a list: of the color, roughness and gloss that an assignment gives."""
 
 import math
+import types
 
 import numpy as np
 import pytest
 from rough_spectra.addon.blender import working_space
+from rough_spectra.addon.interface.operators import find_nearest
 from rough_spectra.addon.matching import own_gloss, solve
 from rough_spectra.addon.preview import figures, list_icons
 from rough_spectra.addon.preview.figures import data
@@ -50,3 +52,12 @@ def test_what_looks_alike_shares_an_icon(monkeypatch):
     monkeypatch.setattr(list_icons, "_BOUND", 2)
     list_icons.icon_ids(wanted[:1])
     assert len(list_icons._previews()) == 2
+
+
+def test_a_name_in_the_list_of_colors_ends_with_a_word():
+    item = types.SimpleNamespace(name="Brick", sample="everyday/brick")
+    assert find_nearest._told(item) == "Brick (everyday)"
+    item.name, item.sample = "ColorChecker 19 White 9.5 (.05 D)", "colorchecker/19-white-9-5"
+    assert find_nearest._told(item) == "ColorChecker 19 White 9.5 (.05 D)"
+    item.name = "Wall of the old town hall, east side, second floor"
+    assert find_nearest._told(item) == "Wall of the old town hall, east side,…"

@@ -98,7 +98,12 @@ def test_finding_by_color(scene):
     assert scene["undone"]["sample"] == name
 
 
-BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
+BLENDERS_OWN = (
+    "Could not get a list of mounted file-systems",
+    # Cycles renders previews of materials in a thread that calls Python, and Blender counts such
+    # calls of all threads in one plain number (`py_call_level`): now and then one gets lost.
+    "Python context internal state bug",
+)
 TOLD = (" σ 20°: ", "The texture is scaled so that its mean")
 """What a user is told of the samples in a library that a scene builds, and of a texture."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"

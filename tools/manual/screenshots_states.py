@@ -430,6 +430,7 @@ def _is_measured_here() -> bool:
 def measured_here() -> None:
     """Show what was read of a spot on a surface."""
     _assigned()
+    open_details()
     above = {"origin": (0.3, 0.2, 5.0), "direction": (0.0, 0.0, -1.0)}
     _press("rough_spectra.measure_here", **above)
 

@@ -24,6 +24,7 @@ _is_partial = False
 """Whether only the presets are in the list."""
 
 _UNKNOWN = "NONE"
+_CHART = "colorchecker"
 
 
 def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int, int]]:
@@ -41,7 +42,10 @@ def _fill() -> None:
     from ...preview import list_icons
     from ...samples import preset_index
 
-    entries, _is_partial = _entries()
+    found, _is_partial = _entries()
+    # Things to make walls of before patches of a chart. Yours come last: they are added while the
+    # list is open, and what is in it keeps its number.
+    entries = sorted(found, key=lambda each: (not each.is_preset, each.collection == _CHART))
     _before[:] = _items
     glosses = preset_index.glosses_of_presets()
     pictures = list_icons.icon_ids(
