@@ -14,7 +14,7 @@ from ...core.errors import MaterialError
 from ...core.numerics.arrays import Array
 from ..colorimetry import illuminant_spectra, rgb_spectra
 from . import passes
-from .colors import Shining
+from .colors import Shining, key
 from .direct_light import Choice
 from .passes import Lamps, Pass
 from .relight import ILLUMINANTS, Lights
@@ -184,11 +184,6 @@ def _own(each: Shining, white: Array) -> Array:
 def _shown(thing: Any) -> list[tuple[str, str, str]]:
     """Give collection, name and library of all that an object may shine by."""
     if thing.type == "LIGHT":
-        return [_key("lights", thing.data)]
+        return [key("lights", thing.data)]
     slots = [slot.material for slot in thing.material_slots]
-    return [_key("materials", each) for each in slots if each is not None]
-
-
-def _key(collection: str, data: Any) -> tuple[str, str, str]:
-    library = data.library
-    return collection, str(data.name), "" if library is None else str(library.filepath)
+    return [key("materials", each) for each in slots if each is not None]
