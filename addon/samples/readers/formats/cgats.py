@@ -102,7 +102,7 @@ def emission(document: Document) -> tuple[NDArray[np.float64], NDArray[np.float6
     InputError
         The tables are damaged, or do not hold one spectrum that they call an emission.
     """
-    found = []
+    found: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
     for table in cgats_tables.tables(document):
         columns = cgats_columns.find(document, table)
         if not (columns.spectra and cgats_words.is_light(table)):
