@@ -197,7 +197,7 @@ class _Search:
         self._called: dict[str, str] = {}
         self._chosen: dict[str, KnownLight] = {}
         self._found = Colors()
-        self._seen: set[tuple[str, str, str]] = set()
+        self._seen: set[tuple[tuple[str, str, str], str]] = set()
 
     def of(self, depsgraph: Any, scene: Any) -> Colors:
         lights: dict[Any, None] = {}
@@ -314,10 +314,29 @@ class _Search:
         times: Array | None = None,
         kelvin: float | None = None,
     ) -> None:
-        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`."""
-        if of in self._seen:
+        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`.
+
+        The colors of a group are found once; what there is to tell of it is told of all its users.
+        """
+        if (of, name) in self._seen:
             return
-        self._seen.add(of)
+        is_known = any(of == other for other, _ in self._seen)
+        self._seen.add((of, name))
+        whole = self._found
+        if is_known:
+            self._found = Colors(told=whole.told, untranslated=whole.untranslated)
+        self._nodes(tree, of, name, taken, times, kelvin)
+        self._found = whole
+
+    def _nodes(
+        self,
+        tree: Any,
+        of: tuple[str, str, str],
+        name: str,
+        taken: set[Place],
+        times: Array | None,
+        kelvin: float | None,
+    ) -> None:
         for node in _reached(tree):
             if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
                 inner = node.node_tree

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a lamp was measured to send: of TM-27 (``.spdx``), a spectral image, or a plain table."""
+"""What a lamp was measured to send: of TM-27 (``.spdx``), CGATS, a spectral image, or a table."""
 
 from __future__ import annotations
 

@@ -629,6 +629,32 @@ def test_colors_in_groups_count_where_they_enter_a_shader():
     assert found.place.of == ("node_groups", "Paint", "")
 
 
+def test_a_group_is_told_of_all_that_use_it_and_its_colors_count_once():
+    scene = from_above(4)
+    sun(scene)
+    group = bpy.data.node_groups.new("Film", "ShaderNodeTree")
+    group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    outside, coated = (
+        group.nodes.new("NodeGroupOutput"),
+        group.nodes.new("ShaderNodeBsdfPrincipled"),
+    )
+    coated.inputs["Base Color"].default_value = (0.8, 0.3, 0.1, 1)
+    coated.inputs["Thin Film Thickness"].default_value = 300
+    group.links.new(coated.outputs[0], outside.inputs[0])
+    for column, name in enumerate(("One", "Other")):
+        tree = new_material(name).node_tree
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+        strip(column, bpy.data.materials[name])
+    found = find()
+    [colored] = found.colored
+    assert colored.place.of == ("node_groups", "Film", "")
+    left = ["its thin film"]
+    assert found.untranslated == {"Material 'One'": left, "Material 'Other'": left}
+    assert found.told["Material 'One'"] == found.told["Material 'Other'"] == [colors.LINEAR]
+
+
 def test_two_lamps_of_one_color_are_one_spectrum():
     scene = from_above(4)
     first, second = sun(scene), sun(scene)

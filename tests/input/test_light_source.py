@@ -69,6 +69,41 @@ def test_what_is_no_light_is_refused_with_the_place(tmp_path, text, name, words)
         read(tmp_path, text, name)
 
 
+ARGYLL = """SPECT
+
+ORIGINATOR "Argyll CMS"
+MEAS_TYPE "EMISSION"
+SPECTRAL_BANDS "4"
+SPECTRAL_START_NM "400.000000"
+SPECTRAL_END_NM "700.000000"
+SPECTRAL_NORM "1.000000"
+
+NUMBER_OF_FIELDS 4
+BEGIN_DATA_FORMAT
+SPEC_400 SPEC_500 SPEC_600 SPEC_700
+END_DATA_FORMAT
+
+NUMBER_OF_SETS 1
+BEGIN_DATA
+12.5 140.25 300.0 7.75
+END_DATA
+"""
+
+
+def test_an_illuminant_of_argyll_is_read_whatever_its_scale(tmp_path):
+    found = read(tmp_path, ARGYLL, "lamp.sp")
+    assert found.wavelengths.tolist() == [400, 500, 600, 700]
+    assert found.power / found.power[0] == pytest.approx([1, 11.22, 24, 0.62])
+    ambient = ARGYLL.replace("EMISSION", "AMBIENT")
+    assert read(tmp_path, ambient, "ambient.sp").power.tolist() == found.power.tolist()
+    with pytest.raises(InputError, match="holds no spectrum of light"):
+        read(tmp_path, ARGYLL.replace("EMISSION", "REFLECTIVE"), "paper.sp")
+    twice = ARGYLL.replace("SETS 1", "SETS 2").replace("END_DATA\n", "1 2 3 4\nEND_DATA\n")
+    twice = twice.replace("SPEC_700\n1 2 3 4\nEND_DATA_FORMAT", "SPEC_700\nEND_DATA_FORMAT")
+    with pytest.raises(InputError, match="holds 2 spectra of light"):
+        read(tmp_path, twice, "two.sp")
+
+
 def test_two_lights_in_one_file_are_one_too_many(tmp_path):
     inner = LAMP[LAMP.index("  <SpectralDistribution>") : LAMP.index("</IESTM2714>")]
     with pytest.raises(InputError, match="holds 2 spectra of light"):

@@ -23,14 +23,14 @@ class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
 
     filepath: StringProperty(
         name="File",
-        description="TM-27 (.spdx), or a table of wavelengths and power",
+        description="TM-27 (.spdx), ArgyllCMS (.sp), or a table of wavelengths and power",
         subtype="FILE_PATH",
         options={"SKIP_SAVE"},
     )
     filter_glob: StringProperty(
         name="Filter",
         description="Files that the browser shows",
-        default="*.spdx;*.csv;*.txt;*.tsv;*.xml;*.exr",
+        default="*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr",
         options={"HIDDEN"},
     )
 

@@ -52,12 +52,7 @@ def fault(document: Document, table: Table) -> Exception | None:
         return document.not_reflectance(
             f"signature {table.signature}", _SIGNATURES[table.signature]
         )
-    pairs = _pairs(table)
-    said = [(key, table.last(key)) for key in _MODE_KEYS]
-    said += [("MEASUREMENT_GEOMETRY", table.last("MEASUREMENT_GEOMETRY"))]
-    said += [("MEASUREMENT_SOURCE", pairs[key]) for key in _MODE_PAIRS if key in pairs]
-    source = table.last("MEASUREMENT_SOURCE").lstrip()
-    said += [("MEASUREMENT_SOURCE", source[:12])]  # "Emission …" before any pair
+    said = _said(table)
     for key, text in said:
         if _TRANSMISSION.search(text):
             return document.not_reflectance(_place(table, key), "transmittance")
@@ -72,6 +67,23 @@ def fault(document: Document, table: Table) -> Exception | None:
             "if it is reflectance",
         )
     return None
+
+
+def is_light(table: Table) -> bool:
+    """Return whether a table says that it is of light."""
+    by_signature = _SIGNATURES.get(table.signature) == "emission"
+    said = any(_EMISSION.search(text) for _, text in _said(table))
+    return by_signature or said or "LUMINANCE_XYZ_CDM2" in table.keys
+
+
+def _said(table: Table) -> list[tuple[str, str]]:
+    """Return keywords, and what they say of how it was measured."""
+    pairs = _pairs(table)
+    said = [(key, table.last(key)) for key in _MODE_KEYS]
+    said += [("MEASUREMENT_GEOMETRY", table.last("MEASUREMENT_GEOMETRY"))]
+    said += [("MEASUREMENT_SOURCE", pairs[key]) for key in _MODE_PAIRS if key in pairs]
+    source = table.last("MEASUREMENT_SOURCE").lstrip()
+    return [*said, ("MEASUREMENT_SOURCE", source[:12])]  # "Emission …" before any pair
 
 
 def read(table: Table) -> Words:
