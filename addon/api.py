@@ -1633,9 +1633,10 @@ def picture_verdict(
     -------
     Whether RGB is `enough`; the `sentence`; the `rungs`, from RGB as it is over the working space
     and the materials' match to passes of three bands, each with `kind`, `words`, `renders`,
-    `mean`, `usual`, `largest` (ΔE00) and `seconds`; the `chosen` one, which is the first within
-    the tolerance, or None; the `comparison` of RGB with the spectral picture, in blocks of pixels;
-    what stayed RGB (`untranslated`), and which part of the picture that has `touched`.
+    `mean`, `usual`, `largest` (ΔE00) and `seconds`; the `chosen` one, which is RGB within the
+    tolerance, else the first that surely is, or None; the `comparison` of RGB with the spectral
+    picture, in blocks of pixels; what stayed RGB (`untranslated`), and which part of the picture
+    that has `touched`.
 
     Raises
     ------
@@ -1735,7 +1736,14 @@ def relight(
 
     Examples
     --------
-    See `picture_lights`.
+    >>> import numpy as np
+    >>> from rough_spectra.addon.colorimetry import illuminant_spectra
+    >>> nm, day = illuminant_spectra.GRID, illuminant_spectra.cie("D65")
+    >>> gray, parts = np.full((1, nm.size), 0.5), np.full((1, 3, 2, 2), 0.5, np.float32)
+    >>> at = nm[[18, 36, 54]]
+    >>> lights = Lights(("Lamp",), day[None], parts, np.ones((2, 2)), at, gray, "Linear Rec.709")
+    >>> round(float(relight(lights, {"Lamp": "A"}, {"Lamp": 2.0}).xyz[0, 0, 1]), 3)
+    1.0
     """
     _check_enabled()
     desk = picture_relight.Desk(lights, observer)

@@ -45,6 +45,9 @@ _FINER = 4.0
 """By how much less than the tolerance the small spectral picture is off, as far as bands go."""
 _BANDS = 12
 """Bands of it at most."""
+_SURE = 0.85
+"""Part of the tolerance within which what is recommended has to be: that much small pictures and
+predictions may be off."""
 _DARK = 1e-3
 """Part of the light in a channel below which no color is matched to it."""
 
@@ -96,7 +99,7 @@ class Verdict:
     tolerance
         ΔE00 within which 95 % of the picture are to be.
     chosen
-        The first rung within it, or None.
+        RGB if it is within it, else the first rung that surely is, or None.
     comparison
         Of the small pictures, blocks of pixels.
     untranslated
@@ -211,7 +214,8 @@ class Judging(Rendering):
             comparisons.append(found)
             rungs.append(Rung(kind, 1, found.mean, found.usual, found.largest, once + each_takes))
         rungs += self._of_passes(once, each_takes)
-        chosen = next((rung for rung in rungs if rung.usual <= self._tolerance), None)
+        sure = [rung for rung in rungs if rung.usual <= _SURE * self._tolerance]
+        chosen = rungs[0] if rungs[0].usual <= self._tolerance else next(iter(sure), None)
         return Verdict(
             tuple(rungs),
             self._tolerance,
@@ -233,7 +237,7 @@ class Judging(Rendering):
             error = bands.error
             seconds = once + count * each_takes
             found.append(Rung("passes", count, error.mean, error.usual, error.largest, seconds))
-            if error.usual <= self._tolerance:
+            if error.usual <= _SURE * self._tolerance:
                 break
         return found
 

@@ -119,7 +119,7 @@ def test_what_is_matched_to_the_one_light_is_right_as_far_as_its_channels_reach(
 def test_the_first_rung_within_the_tolerance_is_the_verdict(judged):
     found, *_ = judged
     assert not found.enough
-    assert found.chosen is next(r for r in found.rungs if r.usual <= 1)
+    assert found.chosen is next(r for r in found.rungs if r.usual <= 0.85)
     assert found.sentence.startswith("RGB is not enough (95 % of the picture within ΔE00 ")
     assert found.touched == 0
 
@@ -139,6 +139,6 @@ def test_passes_follow_until_the_tolerance(judged):
     found, *_ = judged
     passes = [rung for rung in found.rungs if rung.kind == "passes"]
     assert [rung.renders for rung in passes] == [*range(1, len(passes) + 1)]
-    assert passes[-1].usual <= 1
-    assert all(rung.usual > 1 for rung in passes[:-1])
+    assert passes[-1].usual <= 0.85
+    assert all(rung.usual > 0.85 for rung in passes[:-1])
     assert all(a.seconds < b.seconds for a, b in pairwise(passes))
