@@ -158,12 +158,16 @@ def test_blender(name: str, environment: Environment, arguments: Sequence[str]) 
     own = {
         "BLENDER_USER_RESOURCES": CACHE / f"blender-user-{name}",
         "HYPOTHESIS_STORAGE_DIRECTORY": CACHE / f"hypothesis-{name}",
+        "PYTHONPYCACHEPREFIX": CACHE / f"bytecode-{name}",
     }
     for folder in own.values():
         folder.mkdir(parents=True, exist_ok=True)
     cache = f"cache_dir={CACHE / f'pytest-{name}'}"
     pytest = module(environment, "pytest", "--durations=10", "-o", cache, *arguments)
     settings = {key: str(folder) for key, folder in own.items()}
+    # The second Blenders of the tests read what the first has compiled, even where nobody else may
+    # keep bytecode.
+    settings["PYTHONDONTWRITEBYTECODE"] = ""
     if sys.stdout.isatty():
         settings["PY_COLORS"] = "1"  # for one whose output is kept until its turn
     return Step(f"tests, Blender {name}", pytest, ROOT, settings)

@@ -7,7 +7,8 @@ From a file to files:
     read, find → request → assign → state, renew, keep → bake → write
     read, find → emissivity → write_emissivity
     materials → export, for other renderers
-    spectral_picture → write_picture, picture_image
+    spectral_picture → write_picture, picture_image; picture_verdict
+    picture_lights → relight → write_picture; thermal_picture → write_thermal
 
 σ is in radians, wavelengths in nanometers, reflectance from 0 to 1, colors in the scene-linear RGB
 of the open file. Whatever the caller can mend is a `RoughSpectraError` whose text says where and
@@ -76,14 +77,23 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
+from .picture import chosen_light, light_spectra, thermal, thermal_file
 from .picture import files as picture_files
+from .picture import groups as picture_groups
+from .picture import pixel as picture_pixels
+from .picture import relight as picture_relight
 from .picture import render as picture_render
+from .picture import verdict as picture_judgement
 from .picture.picture import SpectralPicture
+from .picture.pixel import Pixel
+from .picture.relight import Lights
+from .picture.thermal import ThermalPicture
+from .picture.verdict import Verdict
 from .preview import emission_files
 from .readings import writers
 from .readings.document import Reading, Readings, SpotRead
 from .readings.emission import Emissivity, InBand
-from .samples import filter_response, gloss_of_set, library, readers, stated_white
+from .samples import filter_response, gloss_of_set, library, light_source, readers, stated_white
 from .samples import palette as palette_files
 from .samples import presets as preset_files
 from .samples.palette import Row
@@ -112,11 +122,13 @@ __all__ = [
     "InBand",
     "InLight",
     "InputError",
+    "Lights",
     "Loss",
     "Made",
     "MaterialError",
     "Measured",
     "OutputError",
+    "Pixel",
     "Reading",
     "Readings",
     "Request",
@@ -130,6 +142,8 @@ __all__ = [
     "Spot",
     "SpotRead",
     "State",
+    "ThermalPicture",
+    "Verdict",
     "assign",
     "bake",
     "compare",
@@ -147,14 +161,19 @@ __all__ = [
     "match_by_measuring",
     "materials",
     "measure_rough",
+    "measured_light",
     "metamerism",
     "nearest",
     "palette",
     "paused",
     "picture_image",
+    "picture_lights",
+    "picture_pixel",
+    "picture_verdict",
     "presets",
     "read",
     "read_filter",
+    "relight",
     "renew",
     "request",
     "rough_sample",
@@ -163,9 +182,11 @@ __all__ = [
     "spots",
     "state",
     "texture_material",
+    "thermal_picture",
     "write",
     "write_emissivity",
     "write_picture",
+    "write_thermal",
 ]
 
 
@@ -1507,7 +1528,7 @@ def spectral_picture(
     tolerance: float = TOLERANCE,
     bands: int | None = None,
     observer: int = 2,
-    direct: bool = False,
+    direct: bool | None = None,
     compare: bool = True,
     samples: int | None = None,
     percentage: int | None = None,
@@ -1533,15 +1554,16 @@ def spectral_picture(
         2 or 10 degrees.
     direct
         Whether light that met one surface alone is rendered apart and is exact, at the cost of one
-        more render for each spectrum of light.
+        more render for each spectrum of light. None chooses what needs fewer renders.
     compare
         Whether the ordinary picture is rendered, too, and compared.
     samples, percentage
         Of the renders, instead of the scene's own.
     lights
         By the names of lamps, worlds and materials that emit one color, the spectrum that it has:
-        a CIE illuminant such as "F11", or the path of a table of wavelengths and power on any
-        scale. Its luminance stays that of its color.
+        a CIE illuminant such as "F11", or the path of a TM-27 file (.spdx), of a table of
+        wavelengths and power on any scale, or of a spectral image. Its luminance stays that of its
+        color.
     progress
         Called with renders done and renders in all.
 
@@ -1551,7 +1573,8 @@ def spectral_picture(
     the bottom up; `xyz`; the `wavelengths` of the bands; the `predicted` error (`mean`, `usual`,
     which is 95 %, and `largest`), and whether it is `enough`; the `comparison` with the ordinary
     picture: `delta_e`, `mean`, `usual`, `largest`, and `where`; by which `rules` each material,
-    lamp and world got its spectra; what stayed RGB (`untranslated`); and `seconds`.
+    lamp and world got its spectra; what stayed RGB (`untranslated`); `seconds`; and `spectra`,
+    whose `at(column, row)` is a pixel's radiance per nanometer from 360 to 780 nm every 10 nm.
 
     Raises
     ------
@@ -1560,7 +1583,7 @@ def spectral_picture(
     DomainError
         An argument is none of these.
     InputError
-        A table of `lights` cannot be read.
+        A file of `lights` cannot be read.
     OutputError
         The second Blender failed.
     CancelledError
@@ -1584,7 +1607,237 @@ def spectral_picture(
     return picture_render.render(scene or bpy.context.scene, wanted, progress)
 
 
-def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> list[Path]:
+def picture_verdict(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE,
+    samples: int | None = None,
+    percentage: int | None = None,
+    lights: Mapping[str, str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Verdict:
+    """Say whether RGB is enough for a scene, and if not, the least that is.
+
+    A second Blender renders small pictures of a copy of the open file, and this call waits for it.
+
+    Parameters
+    ----------
+    scene, lights, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be.
+    samples, percentage
+        Of the small pictures; 5, and what comes to 480 × 270 pixels, if left out.
+
+    Returns
+    -------
+    Whether RGB is `enough`; the `sentence`; the `rungs`, from RGB as it is over the working space
+    and the materials' match to passes of three bands, each with `kind`, `words`, `renders`,
+    `mean`, `usual`, `largest` (ΔE00) and `seconds`; the `chosen` one, which is the first within
+    the tolerance, or None; the `comparison` of RGB with the spectral picture, in blocks of pixels;
+    what stayed RGB (`untranslated`), and which part of the picture that has `touched`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> picture_verdict(scene, samples=1).sentence
+    'RGB is enough: 95 % of the picture within ΔE00 0.00, the tolerance is 1.'
+    """
+    _check_enabled()
+    return picture_judgement.judge(
+        scene or bpy.context.scene,
+        progress,
+        tolerance=tolerance,
+        samples=samples,
+        percentage=percentage,
+        lights=lights,
+    )
+
+
+def picture_lights(
+    scene: bpy.types.Scene | None = None,
+    *,
+    tolerance: float = TOLERANCE / 2,
+    bands: int | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Lights:
+    """Render the light of each lamp apart, so that lamps can be changed without rendering.
+
+    Parameters
+    ----------
+    scene, bands, samples, percentage, progress
+        As for `spectral_picture`.
+    tolerance
+        ΔE00 within which 95 % of the picture shall be, in the scene's own light and in that of
+        the usual illuminants.
+
+    Returns
+    -------
+    Their `names`, `spectra`, `parts`, `alpha` and `wavelengths`, for `relight`.
+
+    Raises
+    ------
+    RoughSpectraError
+        As of `spectral_picture`; and where lamps cannot be told apart.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> lights = picture_lights(scene, bands=3, samples=1)
+    >>> lights.names, lights.parts.shape, relight(lights, {"Gray": "A"}).rgb.shape
+    (('Gray',), (1, 3, 8, 8), (8, 8, 4))
+    """
+    _check_enabled()
+    wanted = picture_render.Wanted(
+        tolerance, bands, plain=False, samples=samples, percentage=percentage, steady=True
+    )
+    return picture_groups.gather(scene or bpy.context.scene, wanted, progress)
+
+
+def relight(
+    lights: Lights,
+    spectra: Mapping[str, str] | None = None,
+    intensities: Mapping[str, float] | None = None,
+    observer: int = 2,
+) -> SpectralPicture:
+    """Give the picture with other lamps, without rendering; see `picture_lights`.
+
+    Parameters
+    ----------
+    lights
+        What `picture_lights` gave.
+    spectra
+        By name, the CIE illuminant that a lamp becomes, or the path of a table.
+    intensities
+        By name, how many times as bright it is.
+    observer
+        2 or 10 degrees.
+
+    Raises
+    ------
+    DomainError, InputError
+        There is no such lamp or light, or the open file has another working space.
+
+    Examples
+    --------
+    See `picture_lights`.
+    """
+    _check_enabled()
+    desk = picture_relight.Desk(lights, observer)
+    picture_relight.set_all(desk, spectra or {}, intensities or {})
+    return desk.picture()
+
+
+def thermal_picture(
+    scene: bpy.types.Scene | None = None,
+    *,
+    band: tuple[float, float] = thermal.BAND,
+    parts: int = 3,
+    ambient: float = thermal.AMBIENT,
+    sky: float | None = None,
+    emissivity: float = thermal.EMISSIVITY,
+    materials: Mapping[str, Sample | float] | None = None,
+    samples: int | None = None,
+    percentage: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> ThermalPicture:
+    """Render what a thermal camera sees of a scene.
+
+    An object's temperature is its custom property `rough_spectra_temperature`, kelvin, or an
+    attribute of this name of its vertices.
+
+    Parameters
+    ----------
+    scene, samples, percentage, progress
+        As for `spectral_picture`.
+    band
+        First and last wavelength of the camera, nanometers, from 700.
+    parts
+        Of the band, each with one emissivity a material, a multiple of 3: three a render.
+    ambient
+        Temperature of objects that have none, kelvin.
+    sky
+        That of what is seen where nothing is, kelvin; None for `ambient`.
+    emissivity
+        Of materials without infrared data.
+    materials
+        By name, a sample or an emissivity instead of what the material stores.
+
+    Returns
+    -------
+    `radiance`, W m⁻² sr⁻¹ in the band, and `kelvin`, the temperature of a black body that sends
+    as much, both of shape (rows, columns), from the bottom up; the `band`; the names of materials
+    whose emissivity was `assumed`; and `temperatures`, by the names of objects.
+
+    Raises
+    ------
+    RoughSpectraError
+        An argument or a temperature is none, the scene has no camera, or the second Blender failed.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> round(float(thermal_picture(scene, sky=300.0, samples=1).kelvin.mean()), 2)
+    300.0
+    """
+    _check_enabled()
+    wanted = thermal.Wanted(
+        band, parts, ambient, sky, emissivity, materials or {}, samples, percentage
+    )
+    return thermal.render(scene or bpy.context.scene, wanted, progress)
+
+
+def write_thermal(picture: ThermalPicture, path: str | os.PathLike[str]) -> None:
+    """Write a thermal picture as an EXR with the channels `radiance` and `kelvin`.
+
+    Parameters
+    ----------
+    picture
+        What `thermal_picture` gave.
+    path
+        Ends in .exr.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> warm = np.full((2, 3), 300.0)
+    >>> write_thermal(ThermalPicture((8000.0, 14000.0), warm, warm, (), {}), "warm.exr")
+    """
+    _check_enabled()
+    picture_files.check(Path(path))
+    thermal_file.write(picture, Path(path))
+
+
+def write_picture(
+    picture: SpectralPicture,
+    path: str | os.PathLike[str],
+    spectra: str | os.PathLike[str] | None = None,
+    *,
+    at_bands: bool = False,
+) -> list[Path]:
     """Write a spectral picture as an EXR in the working space, and its map of ΔE00 beside it.
 
     Parameters
@@ -1593,6 +1846,11 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
         What `spectral_picture` gave, of the open file.
     path
         Ends in .exr; the map is called the same with `-delta-e`.
+    spectra
+        Of a spectral image, which ends in .spectral.exr, if that is wanted, too: radiance every
+        10 nm, in channels such as S0.440,000000nm. Don't open it with Blender.
+    at_bands
+        Whether it holds the radiance at the bands' wavelengths instead.
 
     Returns
     -------
@@ -1615,7 +1873,8 @@ def write_picture(picture: SpectralPicture, path: str | os.PathLike[str]) -> lis
     ['room.exr']
     """
     _check_enabled()
-    return picture_files.write(picture, Path(path))
+    beside = None if spectra is None else Path(spectra)
+    return picture_files.write(picture, Path(path), beside, at_bands=at_bands)
 
 
 def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
@@ -1641,6 +1900,81 @@ def picture_image(picture: SpectralPicture, name: str = "Spectral") -> Any:
     """
     _check_enabled()
     return picture_files.image(picture, name)
+
+
+def picture_pixel(picture: SpectralPicture, column: int, row: int) -> Pixel:
+    """Read a pixel of a spectral picture.
+
+    Parameters
+    ----------
+    picture
+        What `spectral_picture` gave.
+    column, row
+        From the bottom left.
+
+    Returns
+    -------
+    Its `wavelengths`, from 360 to 780 nm every 10 nm, and `radiance` per nanometer in the scene's
+    units; `xyz` by the picture's observer; `lab` against white at a radiance of 1 under the scene's
+    light; and `delta_e`, ΔE00 of the ordinary picture there, None without one.
+
+    Raises
+    ------
+    DomainError
+        There is no such pixel.
+
+    Examples
+    --------
+    >>> scene = bpy.context.scene
+    >>> scene.render.engine, scene.world = "CYCLES", bpy.data.worlds.new("Gray")
+    >>> scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    >>> scene.collection.objects.link(scene.camera)
+    >>> scene.render.resolution_x = scene.render.resolution_y = 8
+    >>> scene.cycles.use_denoising = False
+    >>> picture = spectral_picture(scene, bands=3, samples=1)
+    >>> pixel = picture_pixel(picture, 4, 4)
+    >>> pixel.radiance.shape, [round(abs(value), 1) for value in pixel.lab[1:]]
+    ((43,), [0.0, 0.0])
+    """
+    _check_enabled()
+    return picture_pixels.read(picture, column, row)
+
+
+def measured_light(light: bpy.types.Light | bpy.types.World, path: str | os.PathLike[str]) -> None:
+    r"""Let a lamp or a world have the spectrum of a file in spectral pictures; it is kept with it.
+
+    A CIE illuminant needs no function: ``light.rough_spectra.spectrum = "F11"``, and "COLOR" for
+    what fits its color.
+
+    Parameters
+    ----------
+    light
+        A lamp or a world.
+    path
+        A TM-27 file (.spdx), a table of wavelengths and power, or a spectral image.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or nothing of this light is seen.
+    MaterialError
+        The light is linked from another file.
+
+    Examples
+    --------
+    >>> _ = Path("lamp.csv").write_text("nm,W\n400,0.2\n500,0.5\n600,0.9\n700,1\n")
+    >>> lamp = bpy.data.lights.new("Lamp", "POINT")
+    >>> measured_light(lamp, "lamp.csv")
+    >>> lamp.rough_spectra.spectrum, lamp.rough_spectra.sample_name
+    ('MEASURED', 'lamp.csv')
+    """
+    _check_enabled()
+    if not light.is_editable:
+        msg = f"{light.name!r} is linked from another file; make it local first."
+        raise MaterialError(msg)
+    source = light_source.read(path)
+    light_spectra.measured(source)  # refuses what nobody sees
+    chosen_light.keep(light, source, str(path))
 
 
 def _checked(material: Any) -> Any:

@@ -12,7 +12,6 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -24,11 +23,9 @@ import bpy
 
 from ...core.errors import CancelledError, OutputError, OwnFaultError, RoughSpectraError
 from ..support import events
-from . import job_failure
+from . import job_failure, second_blender
 
 _POLL_SECONDS = 0.05
-_PATIENCE_SECONDS = 5.0
-"""How long a Blender that was asked to end may take before it is killed."""
 
 
 class Job:
@@ -57,6 +54,7 @@ class Job:
     def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
         self._folder: Path | None = None
         self._process: subprocess.Popen[bytes] | None = None
+        self._is_at_work = False
         self._traces = ExitStack()
         self.total = 0
         self.done = 0
@@ -66,7 +64,9 @@ class Job:
                 # Switching the extension off, or quitting Blender, ends what runs.
                 events.unregistering.subscribe(self.close)
                 self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
-                job = {"asked_by": os.getpid(), **prepare(self._folder)}
+                scene = bpy.context.scene
+                frame = (scene.frame_current, scene.frame_subframe)
+                job = {"asked_by": os.getpid(), "frame": frame, **prepare(self._folder)}
                 self._start(self._folder, worker, job)
                 undone.pop_all()
         except (OSError, RuntimeError) as error:
@@ -82,7 +82,7 @@ class Job:
         """Update `done` and `total`; returns whether the job has ended."""
         assert self._process is not None
         assert self._folder is not None
-        ended = self._process.poll() is not None
+        ended = self._process.poll() is not None or self._is_done()
         try:
             done, total = (self._folder / "progress").read_text(encoding="ascii").split()
             self.done, self.total = int(done), int(total)
@@ -119,8 +119,9 @@ class Job:
         assert self._process is not None
         assert self._folder is not None
         path = self._folder / name
-        if self._process.returncode != 0 or not path.exists():
-            raise self._failure(self._folder, self._process.returncode)
+        ended_well = self._process.returncode == 0 or self._is_done()
+        if not ended_well or not path.exists():
+            raise self._failure(self._folder, self._process.returncode or 0)
         return path
 
     def when_closed(self, act: Callable[[], None]) -> None:
@@ -128,18 +129,18 @@ class Job:
         self._traces.callback(act)
 
     def close(self) -> None:
-        """Stop the second Blender if it still runs, and remove its files and all other traces."""
-        if self._process is not None and self._process.poll() is None:
-            self._process.terminate()
-            try:
-                self._process.wait(_PATIENCE_SECONDS)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+        """Stop the second Blender if it still works, and remove its files and all other traces."""
+        if self._is_at_work and self._process is not None:
+            second_blender.give_back(self._process, self._is_done())
+            self._is_at_work = False  # by now it may be at work for another
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
         events.unregistering.unsubscribe(self.close)
         self._traces.close()
+
+    def _is_done(self) -> bool:
+        """Whether a Blender that is kept has done it; any other one ends."""
+        return self._folder is not None and (self._folder / second_blender.DONE).exists()
 
     def _failure(self, folder: Path, status: int) -> RoughSpectraError:
         """Say what became of the second Blender, and what to do."""
@@ -160,19 +161,5 @@ class Job:
     def _start(self, folder: Path, worker: Path, job: dict[str, Any]) -> None:
         job_path = folder / "job.json"
         job_path.write_text(json.dumps(job), encoding="utf-8")
-        with (folder / "log").open("wb") as log:
-            self._process = subprocess.Popen(
-                [*_blender(worker), str(job_path)],
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"},
-            )
-
-
-def _blender(worker: Path) -> list[str]:
-    """Command that runs a worker, in Blender's executable or in Python with the bpy module."""
-    if bpy.app.binary_path:
-        options = ["--background", "--factory-startup", "--python-exit-code", "1"]
-        return [bpy.app.binary_path, *options, "--python", str(worker), "--"]
-    return [sys.executable, "-P", str(worker)]
+        self._process = second_blender.start(worker, job_path)
+        self._is_at_work = True

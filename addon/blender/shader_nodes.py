@@ -20,6 +20,7 @@ from ...core.numerics.memoized import kept
 from ..matching import shaders
 from . import texture_scale
 from .links import comparable, link_to
+from .obstacles import MEASURED, curves, is_animated, refuse_unpredictable, texture_of
 from .sockets import OF_NODE, OF_SHADER, color_socket, roughness_socket
 from .surface import (
     Surface,
@@ -119,13 +120,13 @@ def find(material: Any, shader: str = shaders.AUTO, keep_gloss: bool = True) -> 
         msg = (
             f"Material {material.name!r}: its surface comes from {node.name!r} "
             f"({node.bl_label}), which Rough Spectra cannot set; link a {shaders.listed()} to the "
-            "material output."
+            f"material output, or {MEASURED}."
         )
         raise MaterialError(msg)
     if shader != shaders.AUTO and node.bl_idname != wanted:
         return _place_for(material, wanted)
-    _refuse_unpredictable(material, node, keep_gloss)
-    return SocketTarget(material, node.name, "", _texture(node))
+    refuse_unpredictable(material, node, keep_gloss)
+    return SocketTarget(material, node.name, "", texture_of(node))
 
 
 def write(
@@ -181,7 +182,7 @@ def can_shine(place: SocketTarget) -> bool:
         return bool(OF_NODE[place.make].gloss)
     node = place.material.node_tree.nodes[place.node_name]
     names = OF_NODE[node.bl_idname].gloss.values()
-    animated = (_is_animated(place.material.node_tree, node.inputs[name]) for name in names)
+    animated = (is_animated(place.material.node_tree, node.inputs[name]) for name in names)
     linked = (node.inputs[name].is_linked for name in names)
     return bool(names) and not any(linked) and not any(animated)
 
@@ -255,16 +256,6 @@ def _layout(node: Any) -> tuple[dict[str, int], int]:
 _layouts: dict[str, tuple[dict[str, int], int]] = kept(__name__, "_layouts")
 
 
-def _texture(node: Any | None) -> Any | None:
-    """Give the socket that a texture reaches before it is scaled; None without a texture."""
-    if node is None:
-        return None
-    color = color_socket(node)
-    if not color.is_linked or link_to(color).is_muted:
-        return None
-    return texture_scale.source(color)
-
-
 def unscale(material: Any) -> bool:
     """Let a material's texture reach the shader as it is; returns whether it was scaled.
 
@@ -306,86 +297,20 @@ def refuse_read_only(material: Any) -> None:
         raise MaterialError(msg)
 
 
-def _refuse_unpredictable(material: Any, node: Any, keep_gloss: bool = True) -> None:
-    where = f"Material {material.name!r}, node {node.name!r}"
-    if node.mute:
-        msg = f"{where} is muted; unmute it first."
-        raise MaterialError(msg)
-    sockets = OF_NODE[node.bl_idname]
-    for name in (sockets.color, sockets.roughness):
-        if name == sockets.color and _texture(node) is not None:
-            continue
-        if node.inputs[name].is_linked:
-            msg = f"{where}: {name} comes from another node; unlink it, so that it can be set."
-            raise MaterialError(msg)
-        if _is_animated(material.node_tree, node.inputs[name]):
-            msg = f"{where}: {name} is animated or driven; clear that, so that it can be set."
-            raise MaterialError(msg)
-    counts = keep_gloss and gloss_of(node) is not None
-    for name in disturbing_sockets(node):
-        if not keep_gloss and name not in (*sockets.neutral, *sockets.zeroed):
-            continue
-        if name in sockets.gloss.values():
-            msg = (
-                f"{where}: {name} comes from another node; unlink it, so that the gloss is one, or "
-                "choose Diffuse as the shader."
-            )
-            raise MaterialError(msg)
-        if name not in sockets.neutral:
-            msg = (
-                f"{where}: {name} is in use, which turns its gloss in a way that no formula here "
-                "counts; set it to 0 or unlink it, or remove the gloss."
-            )
-            raise MaterialError(msg)
-        msg = (
-            f"{where}: {name} is in use, which adds light that no diffuse reading accounts "
-            f"for; set it to {sockets.neutral[name]:g}, or choose Diffuse as the shader."
-        )
-        raise MaterialError(msg)
-    for name in (*sockets.neutral, *(sockets.gloss.values() if counts else sockets.zeroed)):
-        if _is_animated(material.node_tree, node.inputs[name]):
-            msg = f"{where}: {name} is animated or driven; clear that, or choose Diffuse."
-            raise MaterialError(msg)
-
-
-def _is_animated(tree: Any, socket: Any) -> bool:
-    if tree.animation_data is None:
-        return False
-    path = socket.path_from_id("default_value")
-    return any(curve.data_path == path for curve in curves(tree.animation_data))
-
-
-def curves(data: Any | None) -> list[Any]:
-    """Give drivers, and F-curves of the action and of every strip in the NLA."""
-    if data is None:
-        return []
-    from bpy_extras import anim_utils
-
-    slots = [(data.action, data.action_slot)]
-    slots += [
-        (strip.action, strip.action_slot) for track in data.nla_tracks for strip in track.strips
-    ]
-    found = list(data.drivers)
-    for action, slot in slots:
-        bag = None if action is None else anim_utils.action_get_channelbag_for_slot(action, slot)
-        found += [] if bag is None else list(bag.fcurves)
-    return found
-
-
 def _place_for(material: Any, kind: str) -> SocketTarget:
     """Give the place of a node of this type that is to take over the surface.
 
     The one that was set aside keeps what the user chose in it, and no tree grows with each change.
     One that the user linked anywhere since, or that cannot be set, is left alone.
     """
-    texture = _texture(shader_node(material))
+    texture = texture_of(shader_node(material))
     for node in material.node_tree.nodes if uses_nodes(material) else ():
         if node.bl_idname == kind and color_socket(node).is_linked:
             continue
         if node.bl_idname != kind or node.get(_SET_ASIDE) != node.name or not _is_loose(node):
             continue
         try:
-            _refuse_unpredictable(material, node)
+            refuse_unpredictable(material, node)
         except MaterialError:
             continue
         return SocketTarget(material, str(node.name), kind, texture)
@@ -437,7 +362,7 @@ def _carry_over(before: Any, node: Any) -> None:
     old = before.inputs[OF_NODE[before.bl_idname].normal]
     new = node.inputs[OF_NODE[node.bl_idname].normal]
     links = node.id_data.links
-    if _texture(before) is not None:
+    if texture_of(before) is not None:
         link = link_to(color_socket(before))
         links.new(link.from_socket, color_socket(node))
         links.remove(link)

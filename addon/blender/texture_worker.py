@@ -42,6 +42,7 @@ def main(job_path: Path, measuring: Any) -> None:
             side, shifts = SIDE, list(SHIFTS)
             mesh = measuring.square()
         scene = build(measuring, mesh, material, side)
+        measuring.show(scene, job["frame"])
         seen = []
         for x, y in shifts:
             # Of one ray a pixel, Cycles sends it through the middle.

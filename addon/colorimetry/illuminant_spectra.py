@@ -14,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ...core.color import color_difference
 from ...core.limits import E308_NM
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
@@ -64,6 +65,15 @@ def observer(degrees: int = 2) -> Array:
     """
     step = GRID[1] - GRID[0]
     return np.asarray(_to_fine() @ cie_tables.observer(degrees) / step)
+
+
+def to_2_degrees(degrees: int) -> Array:
+    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both, shape (3, 3)."""
+    if degrees == 2:
+        return np.eye(3)
+    light, step = cie("D65"), GRID[1] - GRID[0]
+    whites = [light @ observer(each) * step for each in (degrees, 2)]
+    return np.asarray(color_difference.adaptation(*whites))
 
 
 def to_xyz(spd: npt.ArrayLike) -> Array:

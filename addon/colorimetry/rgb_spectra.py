@@ -25,7 +25,7 @@ def reflectances(space: WorkingSpace) -> Array:
 
     Colors of wide spaces that Rec.709 has not may come out below 0 in places.
     """
-    return np.asarray(to_rec709(space).T @ _basis())
+    return np.asarray(to_rec709(space).T @ basis())
 
 
 def lights(space: WorkingSpace) -> Array:
@@ -34,7 +34,7 @@ def lights(space: WorkingSpace) -> Array:
     White is D65, but for the last digits of the working space's white.
     """
     white, _ = illuminant_spectra.like(space.white)
-    return np.asarray(_basis() * white)
+    return np.asarray(basis() * white)
 
 
 def to_rec709(space: WorkingSpace) -> Array:
@@ -42,7 +42,8 @@ def to_rec709(space: WorkingSpace) -> Array:
     return srgb.from_xyz(np.ones(3), np.linalg.inv(space.from_xyz))
 
 
-def _basis() -> Array:
+def basis() -> Array:
+    """Give the three spectra of red, green and blue of Rec.709, which add up to 1, (3, bands)."""
     table = colour().recovery.MSDS_BASIS_FUNCTIONS_sRGB_MALLETT2019
     grid = illuminant_spectra.GRID
     found = np.stack([np.interp(grid, table.wavelengths, each) for each in table.values.T])

@@ -164,13 +164,15 @@ def _terminable() -> Iterator[None]:
 def _carry_out(options: argparse.Namespace, told: _Told) -> int:
     """Do what the options say; what is expected to go wrong is told here."""
     from ...core.errors import CancelledError, OwnFaultError, RoughSpectraError
+    from ..blender import second_blender
 
     try:
         if options.blend is not None:
             _open(options.blend)
         else:
             _check_opened()
-        return int(options.run(options))
+        with second_blender.kept():  # a verb may have one job after the other
+            return int(options.run(options))
     except CancelledError as error:
         return told.failed(_INTERRUPTED, str(error))
     except OwnFaultError as error:

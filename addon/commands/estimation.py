@@ -9,7 +9,7 @@ import csv
 import io
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from ..samples import library, readers, sets
 from ..samples.sample import Sample
 from ..support.shown_text import to_cell
 from ..support.version import version
-from . import mapping
+from . import mapping, reader_notes
 
 SMOOTH = "smooth"
 """What the column `surface` calls a surface without roughness; all other words are roughnesses."""
@@ -119,7 +119,7 @@ def rows(path: Path, fields: Sequence[str]) -> Iterator[tuple[str, dict[str, str
                 known = ", ".join(instruments.REGISTRY)
                 msg = f"{where}: instrument is {cells['instrument']!r}; make it one of: {known}."
                 raise InputError(msg)
-            sample = replace(sample, instrument=cells["instrument"])
+            sample = reader_notes.read_by(sample, cells["instrument"])
         yield where, cells, sample
 
 

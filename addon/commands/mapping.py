@@ -29,6 +29,7 @@ from ..samples import library, readers, sets, stated_white
 from ..samples.sample import COLORED, Kind, Sample, in_units_of
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
+from . import reader_notes
 
 _SIGMA = Names("sigma_deg")
 _OPTIONS = Names("--sigma", "--rdq", "--sdq")
@@ -388,7 +389,7 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
         if cells["kind"]:
             sample = sample.taken_as(cast(Kind, cells["kind"]))
         if cells["instrument"]:
-            sample = replace(sample, instrument=cells["instrument"])
+            sample = reader_notes.read_by(sample, cells["instrument"])
         sample = stated_white.given(sample, cells["white"], cells["white_factor"])
     except InputError as error:
         raise InputError(f"{where}: {error}") from error

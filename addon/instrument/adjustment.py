@@ -17,11 +17,11 @@ import bpy
 import numpy as np
 
 from ...core.errors import MaterialError
-from ..blender import colors, shader_nodes, working_space
+from ..blender import colors, second_blender, shader_nodes, working_space
 from ..matching import color_search, solve
 from ..matching.color_search import MEASUREMENTS, Found
 from ..material import last_measurement, measured_match
-from . import arrangement
+from . import arrangement, unseen
 from .measure import SAMPLES, Measurement
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Adjustment:
-    """A search under way: one measurement after the other, each in a second Blender.
+    """A search under way: one measurement after the other, all of them in one second Blender.
 
     To whoever waits it is a `Job`: it has `total` and `done`, `poll`, `wait`, `close` and
     `when_closed`. The material itself is not touched; `found` says what color it is to get.
@@ -73,7 +73,10 @@ class Adjustment:
         self._search = color_search.search(
             self.target, start, lambda rgb: space.to_lab(rgb, request.illuminant)
         )
-        self._measure(next(self._search))
+        with ExitStack() as undone:
+            undone.enter_context(second_blender.kept())
+            self._measure(next(self._search))
+            self._traces = undone.pop_all()
 
     def material(self) -> Any:
         """Give the material as it is now.
@@ -224,7 +227,8 @@ def finish(adjustment: Adjustment) -> Adjusted:
     sentence = told(adjustment, material.name)
     if not found.has_say:
         raise MaterialError(sentence)
-    measured_match.write(material, adjustment.request, adjustment.place, found)
+    unlike = unseen.on_flat_samples(material)
+    measured_match.write(material, adjustment.request, adjustment.place, found, unlike)
     return Adjusted(
         found.color,
         found.reading,
@@ -232,7 +236,7 @@ def finish(adjustment: Adjustment) -> Adjusted:
         found.difference,
         found.is_met,
         found.measurements,
-        sentence,
+        "; ".join((sentence.removesuffix("."), *unlike)) if unlike else sentence,
     )
 
 

@@ -83,6 +83,7 @@ def main(job_path: Path) -> None:
     result = np.full((len(job["geometries"]), len(materials), 2, 3), np.nan)
     for part, alike in work:
         scene, stretch = build([materials[i] for i in part])
+        show(scene, job["frame"])
         for number in alike:
             how = (job["geometries"][number]["shots"], job["samples"], job["rays"], len(part))
             result[number, part] = measure(scene, stretch, folder / "render.exr", *how)
@@ -240,6 +241,17 @@ def build(materials: list[Any]) -> tuple[Any, Any]:
     cycles.auto_scrambling_distance, cycles.scrambling_distance = False, 0.0
     cycles.max_bounces = 0
     return scene, stretch
+
+
+def show(scene: Any, frame: tuple[int, float]) -> None:
+    """Let what is animated have the values that the user sees; a new scene shows its first frame.
+
+    `frame` is the number and the part of a frame after it. Of a scene that is asked for by name,
+    Blender renders the frame of the one that is open.
+    """
+    number, part = frame
+    for each in (bpy.context.scene, scene):
+        each.frame_set(number, subframe=part)
 
 
 def plain(scene: Any) -> Any:

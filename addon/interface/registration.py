@@ -9,20 +9,27 @@ import bpy
 from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
+from ..picture import chosen_light, settings
 from ..support import events
 from . import gltf_export, operators, shelf
-from .panels import menus, panels, shading
+from .panels import lights, menus, panels, pictures, shading
 
 _OPERATORS = operators.modules()
-_MODULES = (properties, preferences, *_OPERATORS, panels, shelf)
+_MODULES = (
+    *(properties, chosen_light, settings, preferences),
+    *_OPERATORS,
+    *(panels, lights, pictures, shelf),
+)
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
 
 def register() -> None:
-    """Register classes, the materials' property group and the command."""
+    """Register classes, the property groups of materials and lights, and the command."""
     for cls in classes:
         bpy.utils.register_class(cls)
     properties.register_pointer()
+    chosen_light.register_pointers()
+    settings.register_pointers()
     for module in _OPERATORS:
         if hasattr(module, "register_menu"):
             module.register_menu()
@@ -45,6 +52,8 @@ def unregister() -> None:
     for module in reversed(_OPERATORS):
         if hasattr(module, "unregister_menu"):
             module.unregister_menu()
+    settings.unregister_pointers()
+    chosen_light.unregister_pointers()
     properties.unregister_pointer()
     for cls in reversed(classes):
         bpy.utils.unregister_class(cls)

@@ -55,6 +55,11 @@ def readings(
     return round(included, 4), excluded, tuple(sorted(units.items()))
 
 
+def is_stated(sample: Sample) -> bool:
+    """Whether a sample says how it shines, be it not at all."""
+    return readings(sample) is not None or bool(sample.gloss_source and not sample.gloss)
+
+
 def key_of(included: float, excluded: float | None, units: tuple[tuple[int, float], ...]) -> str:
     """Return the name under which `preset_index` keeps what was found from readings."""
     return json.dumps([included, excluded, units])

@@ -29,6 +29,7 @@ def assign(
     glosses: Sequence[Gloss | None] = (),
     from_readings: bool = False,
     looked: textures.Looked | None = None,
+    look_again: bool = True,
 ) -> list[Solution]:
     """Assign measured spectra to materials, all of them or none.
 
@@ -47,7 +48,7 @@ def assign(
     from_readings
         Whether level and roughness of the gloss are set to what a sample's set says of them, in a
         Principled BSDF; see `read_gloss.of_all`.
-    looked
+    looked, look_again
         As of `textures.scaled`.
 
     Returns
@@ -88,7 +89,7 @@ def assign(
         for solution, (_, told) in zip(solutions, read, strict=True)
     ]
     solutions = _told_of_sets(work, solutions, space)
-    palettes, solutions, written = textures.scaled(work, solutions, space, looked=looked)
+    palettes, solutions, written = textures.scaled(work, solutions, space, look_again, looked)
     together = zip(work, written, palettes, nodes, read, given, strict=True)
     for (place, request), solution, palette, asked, (told_gloss, _), gloss in together:
         if not keep_gloss:
@@ -148,7 +149,7 @@ def follow_scene(views: Mapping[Any, SceneView]) -> list[Solution]:
     """
     requests = [_stored(material, material, view) for material, view in views.items()]
     space, solutions = _solve(requests)
-    palettes, solutions, written = textures.scaled(requests, solutions, space)
+    palettes, solutions, written = textures.scaled(requests, solutions, space, look_again=False)
     for (place, request), solution, palette in zip(requests, written, palettes, strict=True):
         node = _write(place, solution, palette)
         storage.store(place.material, request, place.material.rough_spectra.shader)
@@ -207,8 +208,9 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     """
     try:
         place, request = _stored(material, material)
-        space, [solution] = _solve([(place, request)])
         work = [(place, request)]
+        space, solutions = _solve(work)
+        [solution] = _told_of_sets(work, solutions, space)
         [palette], [solution], [written] = textures.scaled(work, [solution], space, False)
     except RoughSpectraError as error:
         material.rough_spectra.error = str(error)
@@ -232,8 +234,7 @@ def _renew(
 ) -> list[Solution]:
     work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
     space, solutions = _solve(work)
-    if look_again:
-        solutions = _told_of_sets(work, solutions, space)
+    solutions = _told_of_sets(work, solutions, space)
     palettes, solutions, written = textures.scaled(work, solutions, space, look_again, looked)
     together = zip(work, written, palettes, pairs, strict=True)
     for (place, request), solution, palette, (_, source) in together:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,6 +42,8 @@ class LastMeasurement:
         The object and the size of the spot, as in "Ball, 8 mm"; empty of a flat sample.
     spread
         ΔE00 from the reading below which 95 % of the spot lie; None of a flat sample.
+    unlike
+        What a flat sample does not show as the object does, in sentences; empty for most materials.
     """
 
     rgb: tuple[float, float, float]
@@ -50,6 +53,7 @@ class LastMeasurement:
     instrument: str = DEFAULT
     place: str = ""
     spread: float | None = None
+    unlike: tuple[str, ...] = ()
 
 
 def fingerprint(material: Any) -> str:
@@ -89,6 +93,7 @@ def note(
     instrument: str = DEFAULT,
     place: str = "",
     spread: float | None = None,
+    unlike: Sequence[str] = (),
 ) -> None:
     """Keep a measurement with its material.
 
@@ -98,7 +103,7 @@ def note(
         A `bpy.types.Material` that is not linked.
     of
         Its `fingerprint` when the measurement began.
-    rgb, delta_e, predicted, instrument, place, spread
+    rgb, delta_e, predicted, instrument, place, spread, unlike
         As in `LastMeasurement`.
     """
     told: dict[str, Any] = {
@@ -111,6 +116,8 @@ def note(
         told["instrument"] = instrument
     if place:
         told["place"], told["spread"] = place, spread
+    if unlike:
+        told["unlike"] = list(unlike)
     material.rough_spectra.measured = json.dumps(told)
 
 
@@ -122,14 +129,14 @@ def get(material: Any, known: Snapshot | None = None) -> LastMeasurement | None:
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
-    of, rgb, delta_e, predicted, instrument, place, spread = found
+    of, rgb, delta_e, *rest = found
     current = of == _fingerprint(known or snapshot.of(material))
-    return LastMeasurement(rgb, delta_e, current, predicted, instrument, place, spread)
+    return LastMeasurement(rgb, delta_e, current, *rest)
 
 
 _RGB = tuple[float, float, float]
-_Note = tuple[str, _RGB, float | None, float | None, str, str, float | None]
-"""Fingerprint, RGB, both ΔE00, the instrument, place and spread."""
+_Note = tuple[str, _RGB, float | None, float | None, str, str, float | None, tuple[str, ...]]
+"""Fingerprint, RGB, both ΔE00, the instrument, place, spread, and what is unlike the object."""
 
 
 @memoized(maxsize=64)
@@ -145,7 +152,8 @@ def _parsed(text: str) -> _Note | None:
         instrument = str(data.get("instrument", DEFAULT))
         if instrument not in REGISTRY:
             return None
-        place = str(data.get("place", ""))
-        return str(data["of"]), (red, green, blue), delta_e, predicted, instrument, place, spread
+        place, unlike = str(data.get("place", "")), tuple(map(str, data.get("unlike", ())))
+        of, rgb = str(data["of"]), (red, green, blue)
+        return of, rgb, delta_e, predicted, instrument, place, spread, unlike
     except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         return None

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,11 +19,13 @@ if TYPE_CHECKING:
     from ..matching.request import Request
 
 
-def write(material: Any, request: Request, place: Place, found: Found) -> None:
+def write(
+    material: Any, request: Request, place: Place, found: Found, unlike: Sequence[str] = ()
+) -> None:
     """Set the color, store the sample, and note the reading that was measured with it.
 
     The material then keeps what it shows: no formula tells what it reads, so that nothing may
-    derive it anew unasked.
+    derive it anew unasked. `unlike` is as of `last_measurement.LastMeasurement`.
 
     Raises
     ------
@@ -49,6 +52,7 @@ def write(material: Any, request: Request, place: Place, found: Found) -> None:
         _rgb(found.reading),
         found.difference,
         instrument=request.read_at,
+        unlike=unlike,
     )
 
 

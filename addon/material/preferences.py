@@ -81,6 +81,12 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
     )
 
+    flamenco_manager: StringProperty(
+        name="Flamenco Manager",
+        description="Address of a Flamenco manager to submit to, such as http://farm:8080; "
+        "nothing is sent to it before you submit",
+    )
+
     show_shelf: BoolProperty(
         name="Asset Shelf",
         description="Show measured materials below the 3D view, to drag onto objects",
@@ -93,7 +99,9 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
     )
 
     def draw(self, _context: Any) -> None:
-        """Draw all of them, in the order of use."""
+        """Draw all of them, in the order of use, and where to read on."""
+        from ..support import version  # reads the manifest, which no start has to
+
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -104,8 +112,15 @@ class RoughSpectraPreferences(bpy.types.AddonPreferences):
         column.prop(self, "read_at")
         column.prop(self, "tolerance")
         layout.prop(self, "library_folder", placeholder="With Blender's Extensions")
+        layout.prop(self, "flamenco_manager", placeholder="http://farm:8080")
         layout.prop(self, "show_shelf")
         layout.operator("rough_spectra.show_presets", icon="ASSET_MANAGER")
+        address = version.website()
+        if address:
+            layout.operator("wm.url_open", text="Manual", icon="HELP").url = address
+        else:
+            entry = layout.operator("wm.path_open", text="Read Me", icon="HELP")
+            entry.filepath = str(version.read_me())
 
 
 def defaults() -> Defaults:
@@ -122,6 +137,14 @@ def defaults() -> Defaults:
         folder,
         chosen.read_at or DEFAULT,  # empty where another version knew other instruments
     )
+
+
+def flamenco_manager() -> str:
+    """Return the address of the manager to submit to; empty without one."""
+    addon = bpy.context.preferences.addons.get(PACKAGE)
+    if addon is None or addon.preferences is None:
+        return ""
+    return str(addon.preferences.flamenco_manager).strip()
 
 
 def shows_shelf() -> bool:

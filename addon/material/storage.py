@@ -47,6 +47,8 @@ _NEWER = {"surface", "called", "gloss_source"}
 """Details that are written only where there are any: earlier materials are as they were."""
 _SENTENCES = ("notes", "altered")
 _SET = ("others", "gloss")
+_NOBODYS = (Gloss(), Gloss(ior=1.45))
+"""The gloss of a new node, and that of the cube with which Blender 4.5 begins: set by nobody."""
 _COLORS = {"lab", "xyz"}
 _TEXTS = set(_DETAILS) - _COLORS - {"observer"}
 _MENUS = (
@@ -136,7 +138,7 @@ def is_gloss_set(material: Any) -> bool:
     shown, own = shown_gloss(material), own_gloss(material)
     if shown is None:
         return own is not None
-    return not any(_same_gloss(shown, other) for other in (own, Gloss()) if other is not None)
+    return not any(_same_gloss(shown, other) for other in (own, *_NOBODYS) if other is not None)
 
 
 def _same_gloss(one: Gloss, other: Gloss) -> bool:

@@ -166,8 +166,10 @@ def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
         return Verdict("off", "too rough", "smoother")
     if surface is not None and surface.muted:
         return Verdict("off", "node is muted", "unmute")
-    if surface is not None and (surface.disturbing or surface.roughness_linked):
+    if surface is not None and surface.disturbing:
         return Verdict("open", "cannot be predicted", "measure")
+    if surface is not None and surface.roughness_linked:
+        return Verdict("off", "roughness is linked", "renew")
     if surface is not None and surface.linked:
         return Verdict("off", "texture not matched", "renew")
     if surface is None or surface.node != last.node:

@@ -26,9 +26,9 @@ from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import surface_spectra
 from ..material import settled, state, storage
 from ..scene import emission
+from . import chosen_light
+from .light_spectra import KnownLight
 
-KnownLight = tuple[Array, str]
-"""A spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is."""
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
 _GLOWS = {
     ("ShaderNodeEmission", "Color"): "Strength",
@@ -42,6 +42,12 @@ _BY_THREE = {
     ("ShaderNodeSubsurfaceScattering", "Radius"),
 }
 """Vectors that have a number for each of red, green and blue."""
+_PARTS = {
+    ("ShaderNodeBsdfPrincipled", "Subsurface Radius"): "Subsurface Weight",
+    ("ShaderNodeBsdfPrincipled", "Sheen Tint"): "Sheen Weight",
+    ("ShaderNodeBsdfPrincipled", "Coat Tint"): "Coat Weight",
+}
+"""Sockets of lobes that a node may be without, and those that say how much of them it has."""
 _EVEN = 1e-6
 """Spread of a color's channels below which it is gray, which is the same in all bands."""
 
@@ -165,12 +171,12 @@ def find(
         The working space.
     known
         By the names of lamps, worlds and materials, the spectrum that their light has, and what
-        that is; its luminance stays that of their color.
+        that is, whatever they keep themselves; its luminance stays that of their color.
 
     Raises
     ------
     MaterialError
-        If nothing of such a name shines with one color.
+        If nothing of such a name shines with one color, or a lamp keeps what is no spectrum.
     """
     search = _Search(space, known or {})
     found = search.of(depsgraph, scene)
@@ -189,8 +195,9 @@ class _Search:
         self._known = known
         self.unused = set(known)
         self._called: dict[str, str] = {}
+        self._chosen: dict[str, KnownLight] = {}
         self._found = Colors()
-        self._seen: set[tuple[str, str, str]] = set()
+        self._seen: set[tuple[tuple[str, str, str], str]] = set()
 
     def of(self, depsgraph: Any, scene: Any) -> Colors:
         lights: dict[Any, None] = {}
@@ -216,12 +223,18 @@ class _Search:
 
     def _title(self, kind: str, data: Any) -> str:
         """Give the name by which a datablock is told, and remember what it is called."""
-        title = f"{kind} {data.name!r}"
-        self._called[title] = str(data.name)
-        return title
+        name = title(kind, data)
+        self._called[name] = str(data.name)
+        return name
+
+    def _choose(self, title: str, data: Any) -> None:
+        """Remember the spectrum that a lamp or a world keeps, and that it has to be used."""
+        chosen = chosen_light.known(data)
+        if chosen is not None:
+            self._chosen[title] = chosen
 
     def _material(self, material: Any) -> None:
-        of = _key("materials", material)
+        of = key("materials", material)
         name = self._title("Material", material)
         if not surface_of.uses_nodes(material):
             rgb = np.array(material.diffuse_color[:3], np.float64)
@@ -262,10 +275,11 @@ class _Search:
         return Measured(place, reading, surface.roughness, request.read_at, gloss)
 
     def _light(self, light: Any) -> None:
-        of = _key("lights", light)
+        of = key("lights", light)
         name = self._title("Light", light)
         if getattr(getattr(light, "cycles", None), "is_portal", False):
             return
+        self._choose(name, light)
         color = np.array(light.color[:], np.float64)
         kelvin = None
         if light.use_temperature:
@@ -282,8 +296,9 @@ class _Search:
         self._tree(tree, of, name, set(), color, kelvin)
 
     def _world(self, world: Any) -> None:
-        of = _key("worlds", world)
+        of = key("worlds", world)
         name = self._title("World", world)
+        self._choose(name, world)
         tree = emission.tree(world)
         if tree is None:
             self._glow(Place(of, attribute="color"), name, np.array(world.color[:], np.float64))
@@ -299,14 +314,33 @@ class _Search:
         times: Array | None = None,
         kelvin: float | None = None,
     ) -> None:
-        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`."""
-        if of in self._seen:
+        """Look at the nodes that make shaders; `times` is a lamp's own color, of `kelvin`.
+
+        The colors of a group are found once; what there is to tell of it is told of all its users.
+        """
+        if (of, name) in self._seen:
             return
-        self._seen.add(of)
+        is_known = any(of == other for other, _ in self._seen)
+        self._seen.add((of, name))
+        whole = self._found
+        if is_known:
+            self._found = Colors(told=whole.told, untranslated=whole.untranslated)
+        self._nodes(tree, of, name, taken, times, kelvin)
+        self._found = whole
+
+    def _nodes(
+        self,
+        tree: Any,
+        of: tuple[str, str, str],
+        name: str,
+        taken: set[Place],
+        times: Array | None,
+        kelvin: float | None,
+    ) -> None:
         for node in _reached(tree):
             if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
                 inner = node.node_tree
-                self._tree(inner, _key("node_groups", inner), name, set(), times, kelvin)
+                self._tree(inner, key("node_groups", inner), name, set(), times, kelvin)
             if not any(output.type == "SHADER" for output in node.outputs):
                 continue
             self._node(node, name)
@@ -316,6 +350,8 @@ class _Search:
                 if place in taken or not (socket.type == "RGBA" or kind in _BY_THREE):
                     continue
                 if node.bl_idname == "ShaderNodeGroup" or not socket.enabled:
+                    continue
+                if kind in _PARTS and not _in_use(node, _PARTS[kind]):
                     continue
                 if kind in _GLOWS:
                     strength = node.inputs[_GLOWS[kind]]
@@ -351,6 +387,9 @@ class _Search:
                 return
         self._found.shining.append(Shining(place, None, own))
         self._found.tell(name, f"{LINEAR}, times that of D65")
+        if name in self._chosen:
+            _, words = self._chosen[name]
+            self._found.tell(name, f"not {words}, as it has many colors")
 
     def _glow(self, place: Place, name: str, rgb: Array, kelvin: float | None = None) -> None:
         xyz = np.linalg.solve(self._space.from_xyz, np.maximum(rgb, 0))
@@ -359,7 +398,10 @@ class _Search:
         known = self._known.get(self._called[name])
         if known is not None:
             self.unused.discard(self._called[name])
+        known = known or self._chosen.get(name)
         spectrum, words = known or illuminant_spectra.like(xyz / xyz[1], kelvin)
+        if known is not None and _are_apart(illuminant_spectra.to_xyz(spectrum), xyz):
+            words += ", though its RGB is another color"
         self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
         self._found.tell(name, words)
 
@@ -378,6 +420,12 @@ class _Search:
             self._found.leave(name, "its metal's IOR and extinction")
         if _in_use(node, "Thin Film Thickness"):
             self._found.leave(name, "its thin film")
+
+
+def _are_apart(xyz: Array, other: Array) -> bool:
+    """Whether two lights are seen to be of different colors."""
+    one, two = (illuminant_spectra.to_uv(each) for each in (xyz, other))
+    return float(np.linalg.norm(one - two)) > illuminant_spectra.NEAR_WHITE
 
 
 def _reached(tree: Any) -> list[Any]:
@@ -412,6 +460,12 @@ def _source(socket: Any) -> Any | None:
     return None
 
 
-def _key(collection: str, data: Any) -> tuple[str, str, str]:
+def title(kind: str, data: Any) -> str:
+    """Give the name by which a datablock is told, such as "Material 'Wall'"."""
+    return f"{kind} {data.name!r}"
+
+
+def key(collection: str, data: Any) -> tuple[str, str, str]:
+    """Give where a datablock is found, as in `Place`."""
     library = data.library
     return collection, str(data.name), "" if library is None else str(library.filepath)

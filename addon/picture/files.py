@@ -17,13 +17,16 @@ from ..blender import working_space
 from ..support import atomic_files
 from ..support.openimageio import openimageio
 from ..support.version import version
+from . import spectral_file
 from .picture import SpectralPicture
 
 ENDING = ".exr"
 
 
-def write(picture: SpectralPicture, path: Path) -> list[Path]:
-    """Write the picture and, where there is a comparison, its map of ΔE00 beside it.
+def write(
+    picture: SpectralPicture, path: Path, spectra: Path | None = None, *, at_bands: bool = False
+) -> list[Path]:
+    """Write the picture, its map of ΔE00 beside it where there is one, and spectra if asked for.
 
     Parameters
     ----------
@@ -31,6 +34,8 @@ def write(picture: SpectralPicture, path: Path) -> list[Path]:
         Of the open file.
     path
         Of an EXR; the map has `-delta-e` before the ending.
+    spectra, at_bands
+        Path and wavelengths of a spectral image, see `spectral_file.write`; None for none.
 
     Returns
     -------
@@ -39,9 +44,9 @@ def write(picture: SpectralPicture, path: Path) -> list[Path]:
     Raises
     ------
     OutputError
-        If the ending is another, or the files cannot be written. Both or none are.
+        If an ending is another, or the files cannot be written. All or none are.
     """
-    check(path)
+    check(path, spectra)
     files: list[tuple[Path, Array, tuple[str, ...]]] = [(path, picture.rgb, ("R", "G", "B", "A"))]
     if picture.comparison is not None:
         beside = path.with_name(f"{path.stem}-delta-e{path.suffix}")
@@ -49,21 +54,32 @@ def write(picture: SpectralPicture, path: Path) -> list[Path]:
     with atomic_files.publication() as publication:
         for target, pixels, names in files:
             _write(publication.stage(target), target, pixels[::-1], names, picture)
-    return [target for target, *_ in files]
+        if spectra is not None:
+            spectral_file.write(picture, publication.stage(spectra), spectra, at_bands=at_bands)
+    written = [target for target, *_ in files]
+    return written if spectra is None else [*written, spectra]
 
 
-def check(path: Path) -> None:
-    """Refuse a path that `write` would.
+def check(path: Path, spectra: Path | None = None) -> None:
+    """Refuse paths that `write` would.
 
     Raises
     ------
     OutputError
-        If the ending is another, or no file can be there.
+        If an ending is another, or no file can be there.
     """
+    if path.name.lower().endswith(spectral_file.ENDING):
+        msg = (
+            f"{path} is called like a spectral image, which Blender cannot open; give it another "
+            "name, and write the spectra beside it."
+        )
+        raise OutputError(msg)
     if path.suffix.lower() != ENDING:
         msg = f"{path} is no EXR by its name; let it end in {ENDING}."
         raise OutputError(msg)
     atomic_files.check_target(path)
+    if spectra is not None:
+        spectral_file.check(spectra)
 
 
 def image(picture: SpectralPicture, name: str) -> Any:
@@ -84,12 +100,20 @@ def told(picture: SpectralPicture) -> Iterable[str]:
     """Say in sentences what was rendered and what the comparison found."""
     bands = ", ".join(f"{nm:g}" for nm in picture.wavelengths)
     apart = ", direct light apart" if picture.direct else ""
+    if picture.direct_words:
+        apart += f", {picture.direct_words}"
     predicted = picture.predicted
-    yield (
-        f"{len(picture.wavelengths)} bands ({bands} nm){apart}; predicted ΔE00 to the whole "
-        f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
-        f"{predicted.largest:.1f}"
-    )
+    if not bands:
+        yield f"no bands{apart}"
+    else:
+        yield (
+            f"{len(picture.wavelengths)} bands ({bands} nm){apart}; predicted ΔE00 to the whole "
+            f"spectrum: mean {predicted.mean:.2f}, 95 % {predicted.usual:.2f}, at most "
+            f"{predicted.largest:.1f}"
+        )
+    if picture.touched is not None:
+        share = 100 * picture.touched
+        yield f"materials with something that stays RGB take {share:.0f} % of the picture"
     found = picture.comparison
     if found is not None:
         column, row = found.where
@@ -110,7 +134,7 @@ def _write(
     spec.attribute("compression", "zip")
     spec.attribute("Software", f"Rough Spectra {version()}")
     if len(names) > 1:
-        spec.attribute("chromaticities", "float[8]", _chromaticities())
+        spec.attribute("chromaticities", "float[8]", spectral_file.chromaticities())
     spec.attribute("roughSpectra:bands", " ".join(f"{nm:g}" for nm in picture.wavelengths))
     spec.attribute("roughSpectra:observer", f"{picture.observer} degrees")
     out = oiio.ImageOutput.create("openexr")
@@ -121,11 +145,3 @@ def _write(
         said = " ".join(out.geterror().split()) if out is not None else "no OpenEXR"
         msg = f"{target} cannot be written ({said}); free the disk or choose another place."
         raise OutputError(msg)
-
-
-def _chromaticities() -> tuple[float, ...]:
-    """Give x and y of red, green, blue and white of the working space, as EXR states them."""
-    space = working_space.current()
-    columns = np.linalg.inv(space.from_xyz)
-    xyz = np.vstack((columns.T, columns.sum(axis=1)))
-    return tuple((xyz[:, :2] / xyz.sum(axis=1, keepdims=True)).ravel().tolist())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a lamp sends, where that is known: an illuminant of the CIE, or a measured table.
+"""What a lamp sends, where that is known: an illuminant of the CIE, or what was measured.
 
 No Blender data here.
 """
@@ -14,27 +14,31 @@ import numpy as np
 from ...core.errors import DomainError, InputError
 from ...core.numerics.arrays import Array
 from ..colorimetry import cie_tables, illuminant_spectra
-from ..samples import filter_response
+from ..samples import light_source
+from ..samples.light_source import LightSource
+
+KnownLight = tuple[Array, str]
+"""A spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is."""
 
 _FINE = 0.25
 """Nanometers at which a table is read: a line of a lamp is narrower than a step of `GRID`."""
 
 
-def find(name: str) -> tuple[Array, str]:
-    """Give a spectrum at `illuminant_spectra.GRID` with a luminance of 1, and what it is.
+def find(name: str) -> KnownLight:
+    """Give what is known of a light.
 
     Parameters
     ----------
     name
-        A CIE illuminant, or the path of a table of wavelengths and of power on any scale, as
-        `filter_response.read` takes it; nothing shines outside of it.
+        A CIE illuminant, or the path of a file that `light_source.read` reads; nothing shines
+        outside of its wavelengths.
 
     Raises
     ------
     DomainError
         If it is neither, or nothing of it is seen.
     InputError
-        If the table cannot be read.
+        If the file cannot be read.
     """
     if name in cie_tables.ILLUMINANTS:
         return illuminant_spectra.cie(name), f"CIE {name}"
@@ -43,14 +47,25 @@ def find(name: str) -> tuple[Array, str]:
         choices = ", ".join(cie_tables.ILLUMINANTS)
         msg = f"{name!r} is neither a file nor an illuminant that is known: {choices}."
         raise DomainError(msg)
-    table = filter_response.read(path)
+    return measured(light_source.read(path))
+
+
+def measured(source: LightSource) -> KnownLight:
+    """Give the same of a spectrum that was measured.
+
+    Raises
+    ------
+    InputError
+        If nothing of it is seen.
+    """
     grid, step = illuminant_spectra.GRID, illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
     fine = np.arange(grid[0] - step, grid[-1] + step, _FINE)
-    power = np.interp(fine, np.asarray(table.wavelengths), np.asarray(table.response), 0, 0)
+    power = np.interp(fine, source.wavelengths, source.power, 0, 0)
     # As much as around each node, by its distance: no power is lost between them.
     near = np.maximum(1 - np.abs(fine[:, np.newaxis] - grid) / step, 0)
     spectrum = power @ near * _FINE / step
     luminance = illuminant_spectra.to_xyz(spectrum)[1]
     if not luminance > 0:
-        raise InputError(f"{path}: nothing of this light is seen; give wavelengths in nanometers.")
-    return spectrum / luminance, f"measured: {path.name}"
+        msg = f"{source.name}: nothing of this light is seen; give wavelengths in nanometers."
+        raise InputError(msg)
+    return spectrum / luminance, f"measured: {source.name}"

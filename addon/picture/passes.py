@@ -46,12 +46,16 @@ class Pass:
         From the channels to X, Y and Z, shape (3, 3).
     direct
         Whether it is of direct light alone.
+    from_rgb
+        From a surface's red, green and blue to the channels, shape (3, 3), where these are
+        themselves colors; None where it goes by their spectra.
     """
 
     taken: Array
     lamps: Array
     to_xyz: Array
     direct: bool = False
+    from_rgb: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +77,11 @@ class Lamps:
     @property
     def white(self) -> Array:
         """XYZ of all together by the 2° observer, with a Y of 1."""
-        xyz = illuminant_spectra.to_xyz(self.spectra.sum(axis=0))
+        return self.white_by(2)
+
+    def white_by(self, observer: int) -> Array:
+        """XYZ of all together by the observer of 2 or 10 degrees, with a Y of 1."""
+        xyz = self.spectra.sum(axis=0) @ illuminant_spectra.observer(observer)
         return np.asarray(xyz / xyz[1])
 
 
@@ -103,10 +111,8 @@ def lamps_of(found: Colors, space: WorkingSpace) -> Lamps:
     return Lamps(np.maximum(np.stack(spectra), 0), tuple(numbers))
 
 
-def choose(
-    found: Colors, lamps: Lamps, space: WorkingSpace, tolerance: float, **more: Any
-) -> Bands:
-    """Choose bands for what was found; further arguments as of `core.bands.choose`."""
+def surfaces_of(found: Colors, space: WorkingSpace) -> Array:
+    """Albedos that stand for all of the scene's, 0 to 1, at `GRID`: shape (surfaces, values)."""
     by_rgb = rgb_spectra.reflectances(space)
     albedos = [each.reading for each in found.measured]
     albedos += [each.rgb @ by_rgb for each in found.colored if each.rgb is not None]
@@ -114,11 +120,17 @@ def choose(
         albedos += list(_ANY @ by_rgb)
     albedos.append(np.full(illuminant_spectra.GRID.size, 0.5))
     picked = np.unique(np.linspace(0, len(albedos) - 1, _SEEN).astype(int))
-    surfaces = np.clip(np.stack(albedos)[picked], 0, 1)
+    return np.asarray(np.clip(np.stack(albedos)[picked], 0, 1))
+
+
+def choose(
+    found: Colors, lamps: Lamps, space: WorkingSpace, tolerance: float, **more: Any
+) -> Bands:
+    """Choose bands for what was found; further arguments as of `core.bands.choose`."""
     observer = more.pop("observer", 2)
     return bands.choose(
         illuminant_spectra.GRID,
-        surfaces,
+        surfaces_of(found, space),
         lamps.spectra,
         illuminant_spectra.observer(observer),
         tolerance,
@@ -157,9 +169,9 @@ def edits(
     by_rgb = rgb_spectra.reflectances(space)
     to_rec709 = rgb_spectra.to_rec709(space)
     # From red, green and blue of a surface to the channels.
-    mixing = [by_rgb @ each.taken for each in passes]
+    mixing = [by_rgb @ p.taken if p.from_rgb is None else p.from_rgb for p in passes]
     told = [
-        _edit(each.place, "colors", [_matched(each, by_rgb, one.taken) for one in passes])
+        _edit(each.place, "colors", [matched(each, by_rgb, one.taken) for one in passes])
         for each in found.measured
     ]
     for colored in found.colored:
@@ -183,8 +195,18 @@ def _of_light(
     return _edit(shining.place, "matrices", matrices)
 
 
-def _matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
-    """Color that reads in the channels as the spectrum does there, under the gloss as it is."""
+def matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
+    """Color that reads in the channels as the spectrum does there, under the gloss as it is.
+
+    Parameters
+    ----------
+    each
+        A surface.
+    by_rgb
+        Spectra of the working space's red, green and blue, as `rgb_spectra.reflectances` gives.
+    taken
+        As of `Pass`.
+    """
     wanted = each.reading @ taken
     if each.gloss is not None:
         tints = (each.gloss.tint, each.gloss.coat_tint)

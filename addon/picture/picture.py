@@ -12,6 +12,7 @@ import numpy as np
 from ...core.bands import Error
 from ...core.color import color_difference
 from ...core.numerics.arrays import Array
+from .spectra import Spectra
 
 _USUAL = 0.95
 _SEEN = 0.5
@@ -71,6 +72,15 @@ class SpectralPicture:
         By name, what of them stayed red, green and blue.
     seconds
         Of each render, the ordinary one first where there is one.
+    spectra
+        From which each pixel's spectrum comes.
+    direct_words
+        Why direct light was rendered apart, where that was decided for it.
+    white
+        XYZ of white by the observer under the scene's light, with a Y of 1, shape (3,).
+    touched
+        Part of the picture that shows materials of which something stayed red, green and blue;
+        None where there are none.
     """
 
     rgb: Array
@@ -84,6 +94,10 @@ class SpectralPicture:
     rules: Mapping[str, tuple[str, ...]]
     untranslated: Mapping[str, tuple[str, ...]]
     seconds: tuple[float, ...]
+    spectra: Spectra | None = None
+    direct_words: str = ""
+    white: Array | None = None
+    touched: float | None = None
 
 
 def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Array) -> Comparison:

@@ -19,18 +19,15 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...core.bands import Bands
-from ...core.color import color_difference
+from ...core.bands import Bands, Error
 from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from ..colorimetry.rgb_space import WorkingSpace
-from . import colors, light_spectra, passes
-from .colors import Colors
-from .passes import Lamps, Pass
+from . import colors, direct_light, light_spectra, passes, spectra
+from .passes import Pass
 from .picture import SpectralPicture, compare
 
 MOST = 36
@@ -50,7 +47,8 @@ class Wanted:
     observer
         2 or 10 degrees.
     direct
-        Whether direct light is rendered apart, one more render a lamp, and is exact.
+        Whether direct light is rendered apart, one more render a lamp, and is exact; None for
+        where it is the better way, see `direct_light`.
     plain
         Whether to render the ordinary picture too, and compare.
     samples, percentage
@@ -58,6 +56,11 @@ class Wanted:
     lights
         By the names of lamps, worlds and materials that emit, the CIE illuminant that they are, or
         the path of a table; see `light_spectra.find`.
+    most
+        Bands beyond which none are added for the tolerance.
+    steady
+        Whether all renders follow the same paths of light, whatever its colors: without russian
+        roulette, adaptive sampling and denoising.
 
     Raises
     ------
@@ -68,11 +71,13 @@ class Wanted:
     tolerance: float = TOLERANCE
     bands: int | None = None
     observer: int = 2
-    direct: bool = False
+    direct: bool | None = False
     plain: bool = True
     samples: int | None = None
     percentage: int | None = None
     lights: Mapping[str, str] = field(default_factory=dict)
+    most: int = MOST
+    steady: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -125,10 +130,12 @@ class Rendering(Job):
         depsgraph = _evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
-        self._chosen = _choose(self._found, self._lamps, self._space, wanted)
-        self._passes = passes.of_bands(self._chosen)
-        if wanted.direct:
+        self._light = self._decide(scene)
+        self._chosen = self._light.bands
+        self._passes = [] if self._light.is_all else self._of_bands()
+        if self._light.apart:
             self._passes += passes.of_direct(self._lamps, wanted.observer)
+        renders = [*self._passes, *self._beside(depsgraph, scene)]
 
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "scene.blend"
@@ -142,14 +149,17 @@ class Rendering(Job):
                 "layer": layer.name,
                 "frame": scene.frame_current,
                 "subframe": scene.frame_subframe,
-                "seed": scene.cycles.seed,
+                "seed": _seed(scene),
                 "samples": wanted.samples or scene.cycles.samples,
                 "percentage": wanted.percentage or scene.render.resolution_percentage,
                 "plain": wanted.plain,
-                "apart": wanted.direct,
-                "passes": len(self._passes),
-                "direct": [each.direct for each in self._passes],
-                "edits": passes.edits(self._found, self._lamps, self._passes, self._space),
+                "apart": self._light.apart,
+                "steady": wanted.steady,
+                "passes": len(renders),
+                "direct": [each.direct for each in renders],
+                "edits": self._edits(renders),
+                "groups": self._groups(depsgraph, scene),
+                "untranslated": self._materials_left(),
                 "reset": [
                     {"of": list(place.of), "attribute": place.attribute, "value": value}
                     for place, value in self._found.reset
@@ -157,6 +167,51 @@ class Rendering(Job):
             }
 
         super().__init__(Path(__file__).with_name("worker.py"), prepare)
+        self.total = len(renders) + wanted.plain  # before the other Blender says so
+
+    def _decide(self, scene: Any) -> direct_light.Choice:
+        """Choose the bands, and whether direct light has renders of its own."""
+        wanted = self._wanted
+        counted = wanted.bands is not None
+        tolerance, most = (0.0, wanted.bands) if counted else (wanted.tolerance, wanted.most)
+
+        def choose(direct: bool) -> Bands:
+            more = {"most": most, "direct": direct, "observer": wanted.observer}
+            return passes.choose(self._found, self._lamps, self._space, tolerance, **more)
+
+        lamps = len(self._lamps.spectra)
+        return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
+
+    def _of_bands(self) -> list[Pass]:
+        return passes.of_bands(self._chosen)
+
+    def _beside(self, _depsgraph: Any, _scene: Any) -> list[Pass]:
+        """Give renders that are wanted after those of the picture."""
+        return []
+
+    def _materials_left(self) -> list[list[str]]:
+        """Give the keys of materials of which something stays red, green and blue."""
+        left = self._found.untranslated
+        keys = [
+            colors.key("materials", material)
+            for material in bpy.data.materials
+            if colors.title("Material", material) in left
+        ]
+        return [list(each) for each in keys]
+
+    def _touched(self) -> float | None:
+        """Give the part of the picture that shows them."""
+        if not self._materials_left():
+            return None
+        return float(json.loads(self.output("touched.json").read_text(encoding="utf-8")))
+
+    def _groups(self, _depsgraph: Any, _scene: Any) -> list[dict[str, Any]]:
+        """Give what shines together, where pictures are wanted of each."""
+        return []
+
+    def _edits(self, renders: list[Pass]) -> list[dict[str, Any]]:
+        """Say what has to be set for the renders; see `passes.edits`."""
+        return passes.edits(self._found, self._lamps, renders, self._space)
 
     def result(self) -> SpectralPicture:
         """Put the renders together, once `poll` says that they are done.
@@ -167,8 +222,8 @@ class Rendering(Job):
             If the second Blender failed.
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
-        alpha, xyz = _together(self, self._passes)
-        adapted = xyz @ _to_2_degrees(self._wanted.observer).T
+        alpha, xyz, channels = _together(self, self._passes)
+        adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
         comparison = None
@@ -180,15 +235,32 @@ class Rendering(Job):
             shown,
             xyz,
             self._wanted.observer,
-            self._chosen.wavelengths,
-            self._wanted.direct,
-            self._chosen.error,
-            self._chosen.enough,
+            self._wavelengths,
+            self._light.apart,
+            Error(0.0, 0.0, 0.0) if self._light.is_all else self._chosen.error,
+            self._light.is_all or self._chosen.enough,
             comparison,
             {name: tuple(rules) for name, rules in self._found.told.items()},
             {name: tuple(left) for name, left in self._found.untranslated.items()},
             tuple(seconds),
+            spectra.of(
+                channels,
+                passes.surfaces_of(self._found, self._space),
+                self._lamps,
+                self._passes,
+                self._wavelengths,
+                self._wanted.observer,
+            ),
+            self._light.words,
+            self._lamps.white_by(self._wanted.observer),
+            self._touched(),
         )
+
+    @property
+    def _wavelengths(self) -> Array:
+        """Of the bands that are rendered."""
+        nm: Array = self._chosen.wavelengths
+        return nm[:0] if self._light.is_all else nm
 
 
 def render(
@@ -230,6 +302,13 @@ def _layer(scene: Any) -> Any:
     return used[0]
 
 
+def _seed(scene: Any) -> int:
+    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
+    cycles = scene.cycles
+    aside = scene.frame_current if cycles.use_animated_seed else 0
+    return int((cycles.seed + aside) % (1 << 31))
+
+
 def _evaluated(scene: Any, layer: Any) -> Any:
     if bpy.context.scene == scene and bpy.context.view_layer == layer:
         return bpy.context.evaluated_depsgraph_get()
@@ -237,41 +316,12 @@ def _evaluated(scene: Any, layer: Any) -> Any:
         return bpy.context.evaluated_depsgraph_get()
 
 
-def _choose(found: Colors, lamps: Lamps, space: WorkingSpace, wanted: Wanted) -> Bands:
-    tolerance, most = wanted.tolerance, MOST
-    if wanted.bands is not None:
-        tolerance, most = 0.0, wanted.bands
-    return passes.choose(
-        found,
-        lamps,
-        space,
-        tolerance,
-        most=most,
-        direct=wanted.direct,
-        observer=wanted.observer,
+def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
+    """Alpha (rows, columns, 1), XYZ (rows, columns, 3) and all channels of all renders."""
+    pixels = [np.load(job.output(f"pass-{number}.npy")) for number in range(len(renders))]
+    xyz = sum(
+        part[..., :3].astype(np.float64) @ each.to_xyz
+        for part, each in zip(pixels, renders, strict=True)
     )
-
-
-def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array]:
-    """Alpha (rows, columns, 1) and XYZ (rows, columns, 3) of all renders, one in memory a time."""
-    alpha = xyz = None
-    for number, each in enumerate(renders):
-        pixels = np.load(job.output(f"pass-{number}.npy"))
-        part = pixels[..., :3].astype(np.float64) @ each.to_xyz
-        if xyz is None:
-            alpha, xyz = pixels[..., 3:].astype(np.float64), part
-        else:
-            xyz += part
-    assert alpha is not None
-    assert xyz is not None
-    return alpha, xyz
-
-
-def _to_2_degrees(observer: int) -> Array:
-    """From XYZ of an observer to that of 2°, adapted so that D65 is white to both."""
-    if observer == 2:
-        return np.eye(3)
-    light = illuminant_spectra.cie("D65")
-    step = illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
-    whites = [light @ illuminant_spectra.observer(each) * step for each in (observer, 2)]
-    return np.asarray(color_difference.adaptation(*whites))
+    channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
+    return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels

@@ -35,6 +35,10 @@ _OLDER |= {"Dir": "Direct", "Col": "Color", "Emit": "Emission", "Env": "Environm
 """How Blender 4.5 shortens the names of passes in files, as in DiffDir."""
 
 
+_ENOUGH = 200_000
+"""Pixels by which the part of a picture is counted."""
+
+
 def main(job_path: Path) -> None:
     """Render all passes of the job."""
     job = json.loads(job_path.read_text(encoding="utf-8"))
@@ -42,6 +46,8 @@ def main(job_path: Path) -> None:
     shared.end_if_orphaned(job["asked_by"], folder)
     bpy.ops.wm.open_mainfile(filepath=str(folder / job["blend"]), load_ui=False, use_scripts=False)
     scene = prepare(job)
+    groups = job.get("groups", [])
+    gather(scene.view_layers[job["layer"]], scene, groups)
     total = job["passes"] + bool(job["plain"])
     seconds, done = [], 0
     if job["plain"]:
@@ -58,11 +64,47 @@ def main(job_path: Path) -> None:
         for put in setters:
             put(number)
         start = time.perf_counter()
-        take(scene, folder, f"pass-{number}", job["apart"], job["direct"][number])
+        name = f"pass-{number}"
+        if groups:
+            take_groups(scene, folder, name, groups)
+        else:
+            take(scene, folder, name, job["apart"], job["direct"][number])
         seconds.append(time.perf_counter() - start)
         done += 1
         shared.report(folder, done, total)
+    if job["untranslated"]:
+        share = seen(scene, folder, job["layer"], job["untranslated"])
+        (folder / "touched.json").write_text(json.dumps(share), encoding="utf-8")
     (folder / "seconds.json").write_text(json.dumps(seconds), encoding="utf-8")
+
+
+def seen(scene: Any, folder: Path, layer: str, wanted: list[list[str]]) -> float:
+    """Render which material each pixel shows; gives the part that shows one of those wanted.
+
+    Parameters
+    ----------
+    scene, folder, layer
+        Where.
+    wanted
+        Keys of materials, as `owner` takes them.
+    """
+    for material in bpy.data.materials:
+        material.pass_index = 0
+    for of in wanted:
+        owner(of).pass_index = 1
+    scene.view_layers[layer].use_pass_material_index = True
+    render, cycles = scene.render, scene.cycles
+    cycles.samples, cycles.max_bounces = 1, 0
+    cycles.use_denoising = cycles.use_adaptive_sampling = False
+    pixels = render.resolution_x * render.resolution_y * (render.resolution_percentage / 100) ** 2
+    if pixels > _ENOUGH:
+        smaller = render.resolution_percentage * (_ENOUGH / pixels) ** 0.5
+        render.resolution_percentage = max(round(smaller), 1)
+    put_format(render, several=True)
+    path = folder / "render.exr"
+    shared.render_into(scene, path)
+    [index] = [pixels for name, pixels in channels(path).items() if "Index" in name]
+    return float((index > 0.5).mean())
 
 
 def prepare(job: dict[str, Any]) -> Any:
@@ -81,14 +123,12 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.cycles.samples = job["samples"]
     scene.cycles.use_animated_seed = False
     scene.cycles.seed = job["seed"]
-    if hasattr(render.image_settings, "media_type"):
-        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if job["apart"] else "IMAGE"
-    kind = "OPEN_EXR_MULTILAYER" if job["apart"] else "OPEN_EXR"
-    render.image_settings.file_format = kind
-    if not job["apart"]:
-        render.image_settings.color_mode = "RGBA"
-    render.image_settings.color_depth = "32"
-    render.image_settings.exr_codec = "ZIP"
+    # Faint light is left out by chance, and whether it is faint depends on its color.
+    scene.cycles.light_sampling_threshold = 0
+    if job["steady"]:
+        keep_paths(scene.cycles)
+    several = job["apart"] or bool(job.get("groups"))
+    put_format(render, several)
     if job["apart"]:
         layer = scene.view_layers[job["layer"]]
         for name in ("diffuse", "glossy", "transmission"):
@@ -97,6 +137,25 @@ def prepare(job: dict[str, Any]) -> Any:
         layer.use_pass_emit = layer.use_pass_environment = True
         layer.cycles.use_pass_volume_direct = True
     return scene
+
+
+def put_format(render: Any, several: bool) -> None:
+    """Let files hold a picture, or `several` passes of it."""
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "MULTI_LAYER_IMAGE" if several else "IMAGE"
+    render.image_settings.file_format = "OPEN_EXR_MULTILAYER" if several else "OPEN_EXR"
+    if not several:
+        render.image_settings.color_mode = "RGBA"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+
+
+def keep_paths(cycles: Any) -> None:
+    """Let no path of light depend on its color: what two renders differ by is color alone."""
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.min_light_bounces = cycles.max_bounces
+    cycles.min_transparent_bounces = cycles.transparent_max_bounces
+    cycles.use_light_tree = False  # it picks lamps by what they send
 
 
 def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None = None) -> None:
@@ -119,6 +178,35 @@ def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None =
     scene.cycles.max_bounces = bounces
     pixels = layers(path, without_direct=direct is False) if apart else shared.read_exr(path)
     np.save(folder / f"{name}.npy", pixels[::-1].astype(np.float32))
+
+
+def gather(layer: Any, scene: Any, groups: list[dict[str, Any]]) -> None:
+    """Put what shines together into light groups, and take it out of those it is in."""
+    if not groups:
+        return
+    for thing in bpy.data.objects:
+        thing.lightgroup = ""
+    while layer.lightgroups:
+        layer.lightgroups.remove(layer.lightgroups[0])
+    for group in groups:
+        layer.lightgroups.add(name=group["name"])
+        for name, library in group["objects"]:
+            bpy.data.objects[name, library or None].lightgroup = group["name"]
+        if group["world"]:
+            scene.world.lightgroup = group["name"]
+
+
+def take_groups(scene: Any, folder: Path, name: str, groups: list[dict[str, Any]]) -> None:
+    """Render, and leave the light of each group, (groups, rows, columns, 4) from the bottom up."""
+    path = folder / "render.exr"
+    shared.render_into(scene, path)
+    found = channels(path)
+    alpha = found["Combined.A"]
+    pictures = [
+        np.stack([*(found[f"{each['name']}.{letter}"] for letter in "RGB"), alpha], axis=-1)
+        for each in groups
+    ]
+    np.save(folder / f"{name}.npy", np.stack(pictures)[:, ::-1].astype(np.float32))
 
 
 def layers(path: Path, without_direct: bool) -> Any:
@@ -150,7 +238,9 @@ def channels(path: Path) -> dict[str, Any]:
         pixels = np.asarray(pixels, np.float64).reshape(spec.height, spec.width, -1)
         for index, name in enumerate(spec.channelnames):
             kind, letter = name.split(".")[-2:]
-            found[f"{whole(kind)}.{letter}"] = pixels[..., index]
+            # The light of a group: its name is ours, and is left as it is.
+            kind = kind.removeprefix("Combined_") if "_" in kind else whole(kind)
+            found[f"{kind}.{letter}"] = pixels[..., index]
         number += 1
     file.close()
     return found

@@ -36,8 +36,6 @@ from .drawing import looks
 
 _BOUND = 64
 """Pictures kept; a sheet has about 0.3 MB at scale 1."""
-_SWATCH_BOUND = 4096
-_SWATCH_SIDE = 16
 _AT_ONCE = 0.012
 """Seconds of work in one go of the timer: less than a frame."""
 _WATCHED = 2.0
@@ -73,7 +71,6 @@ class _Wish(NamedTuple):
 
 _collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
-_swatches: OrderedDict[tuple[int, int, int], str] = OrderedDict()
 _pending: dict[_Wish, Basis] = {}
 _differences: dict[int, tuple[Basis, tuple[float, float, float]]] = {}
 
@@ -176,35 +173,6 @@ def _visible(material: Any) -> list[_Wish]:
     ]
 
 
-def swatch_icons(colors: Sequence[tuple[float, float, float]]) -> list[int]:
-    """Give icons of plain colors for lists, display-encoded sRGB; not to be called while drawing.
-
-    Equal colors share an icon. The 4,096 used last are kept.
-    """
-    from . import figures
-
-    keys = [(_byte(red), _byte(green), _byte(blue)) for red, green, blue in colors]
-    missing = list(dict.fromkeys(key for key in keys if key not in _swatches))
-    if missing:
-        look = theme.current(bpy.context.preferences)
-        wanted = [[c / 255 for c in key] for key in missing]
-        for key, canvas in zip(missing, figures.swatches(wanted, _SWATCH_SIDE, look), strict=True):
-            name = "swatch-{:02x}{:02x}{:02x}".format(*key)
-            preview = _previews().new(name)
-            upload(preview, canvas, small=True)
-            _swatches[key] = name
-    for key in keys:
-        _swatches.move_to_end(key)
-    while len(_swatches) > max(_SWATCH_BOUND, len(set(keys))):
-        _, name = _swatches.popitem(last=False)
-        del _previews()[name]
-    return [_previews()[_swatches[key]].icon_id for key in keys]
-
-
-def _byte(share: float) -> int:
-    return round(255 * min(max(share, 0.0), 1.0))
-
-
 def clear() -> None:
     """Forget all pictures."""
     global _collection
@@ -213,7 +181,6 @@ def clear() -> None:
     _pending.clear()
     _differences.clear()
     _pictures.clear()
-    _swatches.clear()
     if _collection is not None:
         previews.remove(_collection)
         _collection = None
@@ -221,7 +188,7 @@ def clear() -> None:
         events.unregistering.unsubscribe(clear)
 
 
-memoized.enlist(__name__, "_pictures", lambda: len(_pictures) + len(_swatches), clear)
+memoized.enlist(__name__, "_pictures", _pictures.__len__, clear)
 
 
 def _previews() -> Any:

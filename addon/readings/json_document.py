@@ -24,6 +24,8 @@ SCHEMA = 2
 READ = (1, 2)
 """Schemas that are read."""
 
+_LONGEST = 200  # characters of what is wrong with a file
+
 
 def to_json(readings: Readings) -> bytes:
     """Give the document that `from_json` reads; equal readings give equal bytes."""
@@ -64,7 +66,11 @@ def from_json(path: Path) -> Readings:
     InputError
         If the file is not such a document.
     """
-    data = user_files.read(path)
+    return of_bytes(path, user_files.read(path))
+
+
+def of_bytes(path: Path, data: bytes) -> Readings:
+    """Read what a file holds; otherwise as `from_json`, which reads the file, too."""
     try:
         document = json.loads(data.decode())
     except (ValueError, RecursionError) as error:
@@ -90,7 +96,7 @@ def from_json(path: Path) -> Readings:
             max(1, int(document.get("each", 1))),
         )
     except (AttributeError, KeyError, TypeError, ValueError) as error:
-        msg = f"{path} is damaged ({error!r}); bake it again."
+        msg = f"{path} is damaged ({repr(error)[:_LONGEST]}); bake it again."
         raise InputError(msg) from error
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...core.emissivity import Filter
 from ...core.errors import DomainError, InputError
+from ...core.numerics.arrays import Array
 from .readers import open_document
 from .readers.parts import band_order, label_words, scale, table_start, tables
 from .readers.parts.delimiter import find_delimiter
@@ -30,20 +31,35 @@ def read(path: str | os.PathLike[str]) -> Filter:
     InputError
         The file cannot be opened, has other columns, or holds no response.
     """
+    nm, response = table(path)
+    try:
+        return Filter(nm, response)
+    except DomainError as error:
+        raise InputError(f"{path}: {str(error).rstrip('.')}.") from None
+
+
+def table(path: str | os.PathLike[str]) -> tuple[Array, Array]:
+    """Return the two columns of such a file: nanometers, in order, and what stands beside them.
+
+    Raises
+    ------
+    InputError
+        The file cannot be opened, or has other columns.
+    """
     document = open_document(path)
     said = label_words.comments(document)
     start = table_start.find_start(document)
     delimiter, skip = find_delimiter(document, start)
-    table = tables.rows(document, delimiter, skip)
-    first = next(table)
+    rows = tables.rows(document, delimiter, skip)
+    first = next(rows)
     label = first.fields[0]
     try:
         float(label.replace(",", "."))
     except ValueError:
         pass
     else:
-        table, label = itertools.chain([first], table), ""
-    block = tables.numbers(document, table, _COLUMNS, (0, 1), decimal_comma=delimiter != ",")
+        rows, label = itertools.chain([first], rows), ""
+    block = tables.numbers(document, rows, _COLUMNS, (0, 1), decimal_comma=delimiter != ",")
     if not block.lines:
         raise document.error("", "no rows of numbers follow; export the table with its values")
     nm = scale.nanometers(document, said, block.values[:, 0], [label], is_seen=False)
@@ -54,7 +70,4 @@ def read(path: str | os.PathLike[str]) -> Filter:
             f"line {block.lines[0]}",
             "the wavelengths look like micrometers; call their column 'wavelength (µm)'",
         )
-    try:
-        return Filter(nm, np.asarray(block.values[order, 1]))
-    except DomainError as error:
-        raise InputError(f"{path}: {str(error).rstrip('.')}.") from None
+    return nm, np.asarray(block.values[order, 1])

@@ -16,6 +16,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from ...core.gloss import Gloss, from_numbers
 from .entry import Entry
 
 FOLDER = Path(__file__).resolve().parents[2] / "presets"
@@ -42,6 +43,16 @@ def glosses() -> dict[str, list[float]]:
     try:
         rows = _rows() or {}
         return dict(row["gloss"] for row in rows.values() if row["gloss"])
+    except _UNREADABLE:
+        return {}
+
+
+def glosses_of_presets() -> dict[str, Gloss]:
+    """Return the same by the ids of the presets."""
+    try:
+        rows = _rows() or {}
+        glossy = {name: row["gloss"][1] for name, row in rows.items() if row["gloss"]}
+        return {name: from_numbers(tuple(numbers)) for name, numbers in glossy.items()}
     except _UNREADABLE:
         return {}
 

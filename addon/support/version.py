@@ -23,6 +23,16 @@ def where_to_report() -> str:
     return str(known.get("website") or known["maintainer"])
 
 
+def website() -> str:
+    """Give the address that the manifest names, where the manual is; empty where it names none."""
+    return str(_manifest().get("website", ""))
+
+
+def read_me() -> Path:
+    """Give the page that comes with the extension: how it is used, and what it cannot do."""
+    return Path(__file__).parents[2] / "README.md"
+
+
 def _manifest() -> dict[str, Any]:
     path = Path(__file__).parents[2] / "blender_manifest.toml"
     return tomllib.loads(path.read_text(encoding="utf-8"))

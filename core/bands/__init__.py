@@ -9,8 +9,9 @@ choice        the fewest bands within a tolerance, and what is predicted of them
 paths         the products of spectra that light may meet
 wavelengths   which of them tell most
 fitting       weights, and what lamps send in the bands
+restoring     from the bands back to a whole spectrum
 """
 
-from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, choose, rgb
+from .choice import IN_A_PASS, MOST, MOST_RAISED, Bands, Error, at, choose, rgb
 
-__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "choose", "rgb"]
+__all__ = ["IN_A_PASS", "MOST", "MOST_RAISED", "Bands", "Error", "at", "choose", "rgb"]

@@ -232,6 +232,57 @@ def choose(
     )
 
 
+def at(
+    wavelengths: npt.ArrayLike,
+    bands: npt.ArrayLike,
+    albedos: npt.ArrayLike,
+    lights: npt.ArrayLike,
+    observer: npt.ArrayLike,
+    *,
+    most_raised: float = MOST_RAISED,
+    metric: Metric = "delta-e",
+) -> Bands:
+    """Fit weights for bands that are given, as when what they show is to be seen in other light.
+
+    Parameters
+    ----------
+    bands
+        Some of the wavelengths, shape (bands,).
+
+    Other parameters and errors as in `choose`.
+
+    Raises
+    ------
+    DomainError
+        If a band is none of the wavelengths.
+
+    Examples
+    --------
+    >>> nm = np.arange(400.0, 701.0, 10.0)
+    >>> red = 1 / (1 + np.exp((600 - nm) / 20))
+    >>> eye = np.exp(-(((nm[:, np.newaxis] - [600, 550, 450]) / [50, 45, 25]) ** 2))
+    >>> found = at(nm, nm[2::4], [0.8 * red], np.ones((1, nm.size)), eye)
+    >>> len(found.wavelengths), found.error.usual < 1
+    (8, True)
+    """
+    scene = _checked(wavelengths, albedos, lights, observer, None, 1.0, metric)
+    wanted = np.asarray(bands, np.float64)
+    taken = np.searchsorted(scene.nm, wanted).clip(0, scene.nm.size - 1).tolist()
+    if not (scene.nm[taken] == wanted).all():
+        msg = "The bands are not all among the wavelengths; give some of these."
+        raise DomainError(msg)
+    ways = scene.paths(_FITTED, _SEEDS[0])
+    parts = np.stack(ways.transport(scene.albedos)).sum(axis=0)
+    targets = scene.observed(parts)
+    metric_at = scene.metric_at(targets.sum(axis=0))
+    weights, sent = fitting.fit(
+        parts[..., taken], targets, metric_at, _start(scene, taken), scene.whites, most_raised
+    )
+    error = _Judge.of(scene).error(scene.albedos[:, taken], sent, weights, False)
+    raised = fitting.raised(weights, sent)
+    return Bands(scene.nm[taken], weights, sent, error, raised, False, False)
+
+
 def rgb(
     wavelengths: npt.ArrayLike,
     albedos: npt.ArrayLike,

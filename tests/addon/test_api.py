@@ -38,21 +38,31 @@ SIGNATURES = {
     "palette": "(path)",
     "paused": "()",
     "picture_image": "(picture, name='Spectral')",
+    "picture_pixel": "(picture, column, row)",
+    "measured_light": "(light, path)",
+    "picture_lights": "(scene=None, *, tolerance=0.5, bands=None, samples=None, percentage=None, "
+    "progress=None)",
+    "picture_verdict": "(scene=None, *, tolerance=1.0, samples=None, percentage=None, "
+    "lights=None, progress=None)",
     "presets": "(collection=None)",
     "read": "(path, region=None)",
     "read_filter": "(path)",
+    "relight": "(lights, spectra=None, intensities=None, observer=2)",
     "renew": "(materials)",
     "request": "(sample, sigma=None, *, kind=None, model='auto', illuminant='D65', observer=2, "
     "tolerance=1.0, rdq=None, sdq=None, white=None, white_factor=None, read_at='45a:0')",
     "rough_sample": "(kind, sigma=None, length=None, *, seed=0, cells=512, path=None)",
     "settle": "(material)",
-    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=False, "
+    "spectral_picture": "(scene=None, *, tolerance=1.0, bands=None, observer=2, direct=None, "
     "compare=True, samples=None, percentage=None, lights=None, progress=None)",
     "spots": "(thing, *, at=None, vertex_group=None, diameter=8.0, keep_neighbors=False)",
     "state": "(material)",
     "texture_material": "(made, name='')",
+    "thermal_picture": "(scene=None, *, band=(8000.0, 14000.0), parts=3, ambient=293.15, "
+    "sky=None, emissivity=0.95, materials=None, samples=None, percentage=None, progress=None)",
+    "write_thermal": "(picture, path)",
     "write_emissivity": "(found, base)",
-    "write_picture": "(picture, path)",
+    "write_picture": "(picture, path, spectra=None, *, at_bands=False)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
 }
 """Every function, and how it is called. A script somewhere calls it so: adding an argument with a
@@ -94,7 +104,11 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds",
+    "untranslated seconds spectra direct_words white touched",
+    "Pixel": "column row wavelengths radiance xyz lab delta_e",
+    "ThermalPicture": "band radiance kelvin assumed temperatures",
+    "Lights": "names spectra parts alpha wavelengths surfaces space",
+    "Verdict": "rungs tolerance chosen comparison untranslated touched seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",
 }
 """What the functions take and give, field by field in order."""

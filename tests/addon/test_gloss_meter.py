@@ -26,7 +26,8 @@ def black(make_material):
 
 def test_black_glass_reads_100_and_other_glass_what_fresnel_says(black):
     glass, crown, water = (black(f"n {n}", ior=n) for n in (1.567, 1.5, 1.33))
-    found = gloss.measured([glass, crown, water], working_space.current())
+    # Nothing is spread: few rays read what many do, in the fifth digit.
+    found = gloss.measured([glass, crown, water], working_space.current(), rays=1024)
     np.testing.assert_allclose(found[0], 100, atol=1)
     # Fresnel in his own words: squares of sines and tangents of sums.
     for row, n in ((1, 1.5), (2, 1.33)):
@@ -45,8 +46,9 @@ def test_gloss_falls_with_roughness_and_a_matte_tile_keeps_what_the_window_sees(
 ):
     rough = [black(f"r {r}", r) for r in (0.15, 0.3, 0.5)]
     tile = make_material("Tile", Color=(0.8, 0.8, 0.8, 1), Roughness=0.0)
-    found = gloss.measured([*rough, tile], working_space.current(), rays=4096)
-    assert (np.diff(found[:3], axis=0) < 0).all()
+    space = working_space.current()
+    assert (np.diff(gloss.measured(rough, space, rays=1024), axis=0) < 0).all()
+    [found] = gloss.measured([tile], space, rays=4096)
     for column, degrees in enumerate(gloss.ANGLES):
         # An even diffuser: its albedo, and the window's projected solid angle over π.
         meter = meters.find(degrees)
@@ -54,7 +56,7 @@ def test_gloss_falls_with_roughness_and_a_matte_tile_keeps_what_the_window_sees(
         area = 4 * math.asin(math.sin(along / 2) * math.sin(across / 2))  # of a spherical one
         share = 0.8 * area * math.cos(math.radians(degrees)) / math.pi
         expected = 100 * share / meters.black_glass(meter)
-        assert found[3, column] == pytest.approx(expected, rel=0.1, abs=0.01)
+        assert found[column] == pytest.approx(expected, rel=0.1, abs=0.01)
 
 
 def test_light_the_other_way_round_reads_the_same(black):

@@ -21,6 +21,7 @@ from rough_spectra.addon.preview.drawing import (
 from rough_spectra.addon.preview.figures import compose, data, plot
 from rough_spectra.core import feasible, reading
 from rough_spectra.core.color import color_difference
+from rough_spectra.core.gloss import Gloss
 
 DARK = looks.look((0.239, 0.239, 0.239), (0.902, 0.902, 0.902))
 LIGHT = looks.look((0.8, 0.8, 0.8), (0.102, 0.102, 0.102))
@@ -191,12 +192,14 @@ def test_a_figure_is_the_same_after_others_were_drawn(look, green):
         np.testing.assert_array_equal(compose.picture(figure, low, 200, look), first)
 
 
-def test_many_swatches_are_as_one():
-    colors = [(0.1, 0.2, 0.3), (0.9, 0.5, 0.0)]
-    many = figures.swatches(colors, 16, LIGHT)
-    for color, icon in zip(colors, many, strict=True):
-        np.testing.assert_array_equal(icon, figures.swatch(color, 16, LIGHT))
-        np.testing.assert_allclose(icon[8, 8] / 255, (*color, 1), atol=0.501 / 255)
+def test_many_balls_are_as_one():
+    colors, gloss = np.array([(0.1, 0.2, 0.3), (0.9, 0.5, 0.0)]), Gloss(roughness=0.2)
+    for side in (16, 120):
+        many = figures.balls(side, colors, 0.4, np.eye(3), gloss)
+        for color, canvas in zip(colors, many, strict=True):
+            one = figures.ball(side, color, 0.4, np.eye(3), gloss)
+            np.testing.assert_array_equal(canvas, one)
+        assert (many[..., 3] == many[0, ..., 3]).all()
 
 
 @LOOKS

@@ -194,15 +194,6 @@ def test_old_pictures_go(material, monkeypatch):
     assert len(icons._previews()) == 3
 
 
-def test_equal_swatches_share_an_icon(monkeypatch):
-    found = icons.swatch_icons([(1, 0, 0), (0, 1, 0), (1, 0, 0)])
-    assert len(found) == 3
-    assert len(icons._previews()) == 2
-    monkeypatch.setattr(icons, "_SWATCH_BOUND", 2)
-    icons.swatch_icons([(0, 0, 1)])
-    assert len(icons._previews()) == 2
-
-
 def test_both_themes_are_readable():
     """Blender's own light and dark theme, as they are shipped with this version."""
     from pathlib import Path

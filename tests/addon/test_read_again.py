@@ -11,7 +11,7 @@ import pytest
 from rough_spectra.addon import api
 from rough_spectra.addon.blender import shader_nodes, working_space
 from rough_spectra.addon.colorimetry import tristimulus
-from rough_spectra.addon.material import state
+from rough_spectra.addon.material import derivation, state
 from rough_spectra.addon.samples import gloss_of_set, sets
 from rough_spectra.addon.samples.sample import Sample
 from rough_spectra.core import cycles
@@ -151,6 +151,18 @@ def test_angles_tell_gloss_too():
     assert not gloss_of_set.tells(of(rough))
 
 
+def test_a_reading_that_is_missed_elsewhere_is_met_where_it_was_read(extension):
+    """Under gloss a sphere's reading is not met at 45°/0°, and what to do about it is said."""
+    shining = glossy(Gloss(level=0.5, roughness=0.3))
+    material = bpy.data.materials.new("T")
+    [solution] = api.assign([(material, api.request(shining))], gloss="read")
+    [told] = [text for text in solution.warnings if "readings it misses" in text]
+    assert told.endswith("; let it be read at de:8° Sphere to meet that one.")
+    material.rough_spectra.read_at = "de:8"
+    [solution] = api.renew([material])
+    assert not [text for text in solution.warnings if "readings it misses" in text]
+
+
 def test_readings_that_one_lobe_cannot_meet_are_named(extension):
     """Rough surfaces send more back to the light than Cycles' lobe; here by its own formula."""
     at = ("45as45", "45as-15", "45as15", "45as110")
@@ -173,6 +185,10 @@ def test_readings_that_one_lobe_cannot_meet_are_named(extension):
     assert "45as-15" in named
     assert told.count("ΔE00") == len(named)
     assert told in api.renew([material])[0].warnings
+    material.rough_spectra.sigma = radians(35)  # as a slider does
+    dragged = derivation.get_stamp(material).warnings
+    assert [text for text in dragged if "other readings it misses" in text] == list(dragged)
+    assert tuple(api.renew([material])[0].warnings) == tuple(dragged)
     level = replace(main, others=tuple(replace(each, values=main.values) for each in others))
     [solution] = api.assign([(material, api.request(level, 0.0, read_at="45as45"))], gloss="none")
     assert not [text for text in solution.warnings if "other readings" in text]

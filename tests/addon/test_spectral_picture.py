@@ -15,7 +15,18 @@ from rough_spectra.addon import api
 from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
-from rough_spectra.addon.picture import colors, light_spectra, passes, render
+from rough_spectra.addon.picture import (
+    chosen_light,
+    colors,
+    direct_light,
+    files,
+    light_spectra,
+    passes,
+    render,
+)
+from rough_spectra.addon.samples import light_source
+from rough_spectra.addon.samples.readers import open_document
+from rough_spectra.addon.samples.readers.formats import spectral_exr
 from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.cycles import gloss_reading, instrument_lobe
@@ -245,7 +256,8 @@ def test_a_color_of_rgb_has_the_spectrum_of_the_published_table(lit):
 
 
 def test_the_file_and_its_settings_are_as_they_were(lit):
-    _, _, before, after, _ = lit
+    _, picture, before, after, _ = lit
+    assert picture.touched is None
     assert before == after
 
 
@@ -281,6 +293,54 @@ def test_it_is_written_and_becomes_an_image(lit, tmp_path):
         api.write_picture(picture, tmp_path / "room.png")
 
 
+def test_without_bounces_no_band_is_rendered_and_all_is_exact(lit):
+    """`lit` again, whose light cannot meet a second surface: one render instead of two."""
+    _, known, *_ = lit
+    scene = from_above(4)
+    strip(0, new_material("Plain", (0.6, 0.2, 0.1)))
+    strip(1, new_material("Gray", (0.5, 0.5, 0.5)))
+    sun(scene)
+    scene.cycles.max_bounces = 0
+    picture = api.spectral_picture(compare=False)
+    assert (picture.direct, len(picture.seconds), picture.wavelengths.size) == (True, 1, 0)
+    assert list(files.told(picture)) == [
+        "no bands, direct light apart, there is no other, so every color is exact"
+    ]
+    plain = slice(len(PATCHES), len(PATCHES) + 3, 2)
+    assert picture.xyz[0, :2] == pytest.approx(known.xyz[0, plain], rel=1e-4)
+    assert (picture.predicted.largest, picture.enough) == (0, True)
+
+
+class Foretold:
+    """Bands as `choose` gives them, as far as deciding needs them."""
+
+    def __init__(self, count, enough):
+        self.wavelengths, self.enough = np.zeros(count), enough
+
+
+@pytest.mark.parametrize(
+    ("together", "apart", "lamps", "words"),
+    [
+        ((12, True), (6, True), 1, "as bands alone need 4 renders"),
+        ((9, True), (6, True), 3, None),  # 3 against 2 and three halves
+        ((6, True), (3, True), 2, None),
+        ((36, False), (9, True), 6, "bands alone are not within the tolerance"),
+        ((36, False), (36, False), 1, None),
+    ],
+)
+def test_direct_light_is_apart_where_that_needs_fewer_renders(together, apart, lamps, words):
+    scene = from_above(4)
+    found = {False: Foretold(*together), True: Foretold(*apart)}
+    choice = direct_light.decide(scene, None, lamps, False, found.__getitem__)
+    assert (choice.apart, choice.words, choice.is_all) == (words is not None, words or "", False)
+    assert choice.bands is found[choice.apart]
+    # Who says what to do, or how many bands, gets that; parts of a picture cannot be denoised.
+    assert not direct_light.decide(scene, False, lamps, False, found.__getitem__).apart
+    assert not direct_light.decide(scene, None, lamps, True, found.__getitem__).apart
+    scene.cycles.use_denoising = True
+    assert not direct_light.decide(scene, None, lamps, False, found.__getitem__).apart
+
+
 @pytest.mark.parametrize("space", ["Linear Rec.709", "Linear Rec.2020"])
 def test_a_white_furnace_is_neutral(space):
     """White of any kind in a white world, its light from a texture: neutral to 1e-4."""
@@ -310,6 +370,22 @@ def test_a_white_furnace_is_neutral(space):
     assert rgb == pytest.approx(np.repeat(rgb[:, 1:2], 3, axis=1), rel=1e-4)
     assert rgb == pytest.approx(1, rel=1e-3)
     assert all("three spectra" in rule for rule in picture.rules["World 'World'"])
+
+
+def test_faint_light_is_no_noise_of_color():
+    """Gray below a dim lamp: Cycles would leave out its light by chance, in each band otherwise."""
+    scene = from_above(16)
+    scene.cycles.use_light_tree, scene.cycles.light_sampling_threshold = False, 0.5
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    light = bpy.data.lights.new("Panel", "AREA")
+    light.size, light.energy = 4, 20
+    light.use_temperature, light.temperature = True, KELVIN
+    scene.collection.objects.link(bpy.data.objects.new("Panel", light))
+    bpy.data.objects["Panel"].location = (8, ROWS / 2, 5)
+    picture = api.spectral_picture(bands=6, samples=2)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.2
 
 
 def glowing(tree, socket):
@@ -352,7 +428,93 @@ def test_light_between_surfaces_is_that_of_the_spectrum():
     level = picture.xyz[0, 0, 1] / truth[1]
     assert level == pytest.approx(1, abs=5e-3)
     assert apart(picture.xyz[0, 0], level * truth, white) < 0.1
+    # And so is each wavelength's, from nine bands of some, and every band itself.
+    whole = every_10(level * bounces * planck())
+    assert picture.spectra.at(0, 0)[4:37] == pytest.approx(whole[4:37], rel=0.05)
+    held = picture.spectra
+    there = held.channels[0, 0].astype(float) @ held.to_bands
+    exact = level * bounces * planck()
+    assert there == pytest.approx(exact[(held.bands - NM[0]).astype(int)], rel=5e-3)
     assert picture.comparison.mean > 1  # which three channels are not
+
+
+TEN = np.arange(360.0, 781.0, 10.0)
+
+
+def every_10(spectrum):
+    """Means around every tenth nanometer, of values at 1 nm."""
+    near = np.maximum(1 - np.abs(NM[:, np.newaxis] - TEN) / 10, 0)
+    return spectrum @ (near / near.sum(axis=0))
+
+
+def test_where_direct_light_is_apart_its_three_channels_tell_spectra_roughly(lit):
+    """X, Y and Z of known surfaces: within a tenth of the lamp's light, root mean square."""
+    samples, picture, *_ = lit
+    lamp = every_10(planck())[4:37]  # 400 to 720 nm: beyond them nothing is seen, or known
+    missed = []
+    for column, sample in enumerate(samples):
+        values = wavelength_grid.resample(
+            sample.reflectance, sample.wavelengths, NM, method="cubic", ends="hold"
+        )
+        found = picture.spectra.at(column, 0)[4:37]
+        if column != 1:  # a rough one: not seen as its instrument does
+            missed.append((found - every_10(values * planck())[4:37]) / lamp.max())
+    assert np.sqrt(np.mean(np.square(missed))) < 0.1
+
+
+def test_a_spectral_image_is_read_again_and_has_the_colors_of_the_picture(lit, tmp_path):
+    """Every pixel's XYZ, summed from the file by the CIE's functions, is the picture's."""
+    _, picture, *_ = lit
+    path = tmp_path / "room.spectral.exr"
+    written = api.write_picture(picture, tmp_path / "room.exr", path)
+    assert [each.name for each in written] == ["room.exr", "room-delta-e.exr", path.name]
+    rows, columns = picture.xyz.shape[:2]
+    for column in range(columns):
+        nm, values = spectral_exr.emission(open_document(path, (column, rows - 1, 1, 1)))
+        assert nm.tolist() == TEN.tolist()
+        assert values == pytest.approx(picture.spectra.at(column, 0), rel=1e-5, abs=1e-9)
+        xyz = np.interp(NM, nm, values) @ functions()
+        assert xyz == pytest.approx(picture.xyz[0, column], rel=1e-4)
+        # Whoever just adds up every 10 nm is as near as bands are.
+        added = 10 * values @ functions()[::10]
+        white = planck() @ functions()
+        assert apart(added, picture.xyz[0, column], white) < 0.25
+    with pytest.raises(api.InputError, match=r"radiance \(an image of light"):
+        api.read(path)  # which is no reflectance
+    again = tmp_path / "again.spectral.exr"
+    api.write_picture(picture, tmp_path / "room.exr", again)
+    assert again.read_bytes() == path.read_bytes()
+
+
+def test_a_spectral_image_says_its_layout_and_units(lit, tmp_path):
+    from rough_spectra.addon.support.openimageio import openimageio
+
+    _, picture, *_ = lit
+    path = tmp_path / "room.spectral.exr"
+    api.write_picture(picture, tmp_path / "room.exr", path, at_bands=True)
+    file = openimageio().ImageInput.open(str(path))
+    spec = file.spec()
+    pixels = file.read_image(0, 0, 0, spec.nchannels, "float")
+    file.close()
+    assert spec.getattribute("spectralLayoutVersion") == "1.0"
+    assert "per nm" in spec.getattribute("emissiveUnits")
+    names = [f"S0.{nm:.0f},000000nm" for nm in picture.wavelengths]
+    assert [*spec.channelnames] == ["R", "G", "B", "A", *names]
+    assert pixels[::-1, :, :4] == pytest.approx(picture.rgb.astype(np.float32))
+
+
+@pytest.mark.parametrize(
+    ("path", "beside", "words"),
+    [
+        ("room.spectral.exr", None, "called like a spectral image"),
+        ("room.exr", "spectra.exr", "no spectral image by its name"),
+    ],
+)
+def test_names_of_files_that_mislead_are_refused(lit, path, beside, words, tmp_path):
+    _, picture, *_ = lit
+    with pytest.raises(api.OutputError, match=words):
+        api.write_picture(picture, tmp_path / path, beside and tmp_path / beside)
+    assert not list(tmp_path.iterdir())
 
 
 def tree_with(kind, **inputs):
@@ -395,6 +557,32 @@ def test_rules_are_told_and_what_has_none_is_named():
     ]
 
 
+def test_what_stays_rgb_is_told_with_its_part_of_the_picture():
+    scene = from_above(4)
+    sun(scene)
+    film, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Thin Film Thickness"].default_value = 300
+    for column, each in enumerate((film, new_material("Gray", (0.5, 0.5, 0.5)), film)):
+        strip(column, each)
+    picture = api.spectral_picture(bands=3, direct=True, compare=False)
+    assert picture.touched == 0.5
+    told = "materials with something that stays RGB take 50 % of the picture"
+    assert told in list(files.told(picture))
+    assert picture.xyz[0, 1] == pytest.approx(0.5 * planck() @ functions(), rel=2e-4)
+
+
+def test_a_radius_counts_only_where_light_scatters():
+    scene = from_above(4)
+    sun(scene)
+    material, node = tree_with("ShaderNodeBsdfPrincipled")
+    node.inputs["Base Color"].default_value = (0.5, 0.5, 0.5, 1)
+    strip(0, material)
+    assert not find().colored
+    node.inputs["Subsurface Weight"].default_value = 0.1
+    [found] = find().colored
+    assert node.inputs[found.place.socket].name == "Subsurface Radius"
+
+
 def test_nodes_that_reach_no_output_do_not_count():
     scene = from_above(4)
     sun(scene)
@@ -402,6 +590,20 @@ def test_nodes_that_reach_no_output_do_not_count():
     material.node_tree.nodes.new("ShaderNodeBsdfGlass").inputs["Color"].default_value = (1, 0, 0, 1)
     strip(0, material)
     assert not find().colored
+
+
+def test_colors_of_lobes_that_are_not_there_do_not_count():
+    """A gray Principled BSDF has a Subsurface Radius of three lengths, and a weight of 0."""
+    scene = from_above(4)
+    sun(scene)
+    material, node = tree_with("ShaderNodeBsdfPrincipled")
+    strip(0, material)
+    node.inputs["Coat Tint"].default_value = (1, 0.2, 0.1, 1)
+    assert not find().colored
+    node.inputs["Subsurface Weight"].default_value = 0.5
+    node.inputs["Coat Weight"].default_value = 0.5
+    places = [node.inputs[each.place.socket].name for each in find().colored]
+    assert places == ["Subsurface Radius", "Coat Tint"]
 
 
 def test_colors_in_groups_count_where_they_enter_a_shader():
@@ -427,6 +629,32 @@ def test_colors_in_groups_count_where_they_enter_a_shader():
     assert found.place.of == ("node_groups", "Paint", "")
 
 
+def test_a_group_is_told_of_all_that_use_it_and_its_colors_count_once():
+    scene = from_above(4)
+    sun(scene)
+    group = bpy.data.node_groups.new("Film", "ShaderNodeTree")
+    group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    outside, coated = (
+        group.nodes.new("NodeGroupOutput"),
+        group.nodes.new("ShaderNodeBsdfPrincipled"),
+    )
+    coated.inputs["Base Color"].default_value = (0.8, 0.3, 0.1, 1)
+    coated.inputs["Thin Film Thickness"].default_value = 300
+    group.links.new(coated.outputs[0], outside.inputs[0])
+    for column, name in enumerate(("One", "Other")):
+        tree = new_material(name).node_tree
+        node = tree.nodes.new("ShaderNodeGroup")
+        node.node_tree = group
+        tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+        strip(column, bpy.data.materials[name])
+    found = find()
+    [colored] = found.colored
+    assert colored.place.of == ("node_groups", "Film", "")
+    left = ["its thin film"]
+    assert found.untranslated == {"Material 'One'": left, "Material 'Other'": left}
+    assert found.told["Material 'One'"] == found.told["Material 'Other'"] == [colors.LINEAR]
+
+
 def test_two_lamps_of_one_color_are_one_spectrum():
     scene = from_above(4)
     first, second = sun(scene), sun(scene)
@@ -448,9 +676,69 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert shining.spectrum == pytest.approx(sd)
     luminance = np.linalg.solve(working_space.current().from_xyz, light.color)[1]
     assert shining.strength == pytest.approx([luminance] * 3)
-    assert found.told["Light 'Sun'"] == ["CIE F11"]
+    assert found.told["Light 'Sun'"] == ["CIE F11, though its RGB is another color"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
         colors.find(*args, {"Moon": light_spectra.find("F11")})
+
+
+def test_lamps_and_worlds_keep_their_spectra_in_the_file(tmp_path):
+    """The data itself, whole: the file it came from may be gone."""
+    path = tmp_path / "lamp.csv"
+    path.write_text("nm,power\n400,0.1\n555.123456789,0.7\n700,0.3\n", encoding="utf-8")
+    scene = from_above(4)
+    light = sun(scene)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.rough_spectra.spectrum = "F11"
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    chosen_light.keep(light, light_source.read(path), str(path))
+    wanted = light_spectra.find(str(path))
+    path.unlink()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    found = find()
+    assert list(found.told) == ["Light 'Sun'", "World 'World'"]
+    # A blackbody of 2856 K and gray, which F11 is next to neither.
+    other = ", though its RGB is another color"
+    assert list(found.told.values()) == [
+        [f"measured: lamp.csv{other}"],
+        [f"CIE F11{other}"],
+    ]
+    of_lamp, of_world = found.shining
+    assert of_lamp.spectrum.tolist() == wanted[0].tolist()
+    assert of_world.spectrum == pytest.approx(illuminant_spectra.cie("F11"))
+    # What is asked for by name comes first.
+    args = bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
+    named = colors.find(*args, {"Sun": light_spectra.find("D50")})
+    assert named.told["Light 'Sun'"] == [f"CIE D50{other}"]
+    bpy.data.lights["Sun"].temperature = 4000
+    bpy.context.view_layer.update()
+    named = colors.find(*args, {"Sun": light_spectra.find("F11")})
+    assert named.told["Light 'Sun'"] == ["CIE F11"]
+
+
+def test_a_world_of_many_colors_says_that_it_has_no_one_spectrum():
+    scene = from_above(4)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.rough_spectra.spectrum = "F11"
+    if scene.world.node_tree is None:
+        scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    glowing(tree, background.inputs["Color"])
+    rules = find().told["World 'World'"]
+    assert rules == [f"{colors.LINEAR}, times that of D65", "not CIE F11, as it has many colors"]
+
+
+@pytest.mark.parametrize(
+    ("stored", "words"), [("", "has none"), ("[1", "damaged"), ("[[1, 2], [0, 0]]", "damaged")]
+)
+def test_a_lamp_without_its_measured_spectrum_is_refused(stored, words):
+    light = sun(from_above(4))
+    light.rough_spectra.spectrum = "MEASURED"
+    light.rough_spectra.measured = stored
+    with pytest.raises(api.MaterialError, match=words):
+        find()
 
 
 def test_a_table_of_a_lamp_loses_none_of_its_lines(tmp_path):

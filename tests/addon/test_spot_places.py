@@ -7,7 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from rough_spectra.addon.instrument import bake, spot, surfaces, unseen
+from rough_spectra.addon.instrument import spot, surfaces, unseen
 from rough_spectra.addon.instrument.triangles import Triangles
 from rough_spectra.core.errors import DomainError, MaterialError
 
@@ -151,20 +151,39 @@ def test_the_nearest_place_is_that_of_a_search_among_many_places():
         assert distances[number].min() == pytest.approx(distances.min(), abs=0.02)
 
 
+def reach(material, socket):
+    """Let a socket of a node have a say in the color."""
+    tree = material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    add = tree.nodes.new("ShaderNodeVectorMath")
+    color = shader.inputs["Color"]
+    if color.is_linked:
+        tree.links.new(color.links[0].from_socket, add.inputs[0])
+    tree.links.new(socket, add.inputs[1])
+    tree.links.new(add.outputs[0], color)
+
+
 def test_what_the_second_blender_sees_otherwise_is_told(paint):
     tree = paint.node_tree
     group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
-    tree.nodes.new("ShaderNodeGroup").node_tree = group
-    seen = group.nodes.new("ShaderNodeCameraData")
-    group.links.new(seen.outputs["View Distance"], group.nodes.new("ShaderNodeMath").inputs[0])
+    group.interface.new_socket("Far", in_out="OUTPUT")
+    instance = tree.nodes.new("ShaderNodeGroup")
+    instance.node_tree = group
+    seen, end = (group.nodes.new(f"{kind}") for kind in ("ShaderNodeCameraData", "NodeGroupOutput"))
+    group.links.new(seen.outputs["View Distance"], end.inputs[0])
     texture = tree.nodes.new("ShaderNodeTexImage")
     texture.image = bpy.data.images.new("Painted", 2, 2)
     texture.image.pixels[0] = 0.5
-    tree.nodes.new("ShaderNodeScript")
-    told = " ".join(unseen.on_objects(paint))
-    assert "image 'Painted' has changes that are not saved" in told
-    assert "'Paint' follows the camera (Camera Data)" in told
-    assert "'Paint' has a script, which is not run" in told
+    script = tree.nodes.new("ShaderNodeScript")
+    assert unseen.on_objects(paint) == []  # they reach nothing
+    reach(paint, instance.outputs[0])
+    reach(paint, texture.outputs[0])
+    for told in (" ".join(unseen.on_objects(paint)), " ".join(unseen.on_flat_samples(paint))):
+        assert "image 'Painted' has changes that are not saved" in told
+        assert "'Paint' follows the camera (Camera Data)" in told
+        assert "script" not in told
+    if script.outputs:
+        reach(paint, script.outputs[0])
     texture.image.pack()
     assert "Painted" not in " ".join(unseen.on_objects(paint))
 
@@ -181,12 +200,60 @@ def test_what_a_flat_sample_lacks_is_told(tmp_path):
     for said, material in cases.items():
         told = unseen.on_flat_samples(material)
         assert any(said in sentence for sentence in told), said
-        assert all(sentence.endswith("; measure it on its object") for sentence in told)
+        assert all(sentence.endswith(f"; {unseen.INSTEAD}") for sentence in told)
     assert len(unseen.on_flat_samples(cases["shows one tile of "])) == 1
     assert unseen.on_flat_samples(spot_scene.colored("Even", (0.1, 0.1, 0.1))) == []
 
 
-def test_a_reading_of_a_flat_sample_carries_what_it_lacks():
-    [entry] = bake.bake([("", spot_scene.by_attribute("By attribute"))]).entries
-    assert entry.measured.rgb == (0, 0, 0)
-    assert "has no 'Paint'" in entry.warnings[0]
+@pytest.mark.parametrize(
+    ("kind", "output", "said"),
+    [
+        ("TexCoord", "Object", "has its own Object (Texture Coordinate)"),
+        ("TexCoord", "Generated", "has its own Generated (Texture Coordinate)"),
+        ("TexNoise", "Color", "has its own Generated (Noise Texture)"),
+        ("NewGeometry", "Position", "has its own Position (Geometry)"),
+        ("NewGeometry", "Pointiness", "has its own Pointiness (Geometry)"),
+        ("ObjectInfo", "Random", "has its own Random (Object Info)"),
+        ("AmbientOcclusion", "Color", "has another shape (Ambient Occlusion)"),
+        ("Attribute", "Color", "has no 'Dirt' (Attribute)"),
+        ("TexCoord", "UV", ""),
+        ("NewGeometry", "Incoming", ""),
+        ("ObjectInfo", "Material Index", ""),
+        ("TexImage", "Color", ""),
+    ],
+)
+def test_what_follows_the_object_is_told(paint, kind, output, said):
+    """It was read at the flat sample's place, as if it were the object's, without a word."""
+    node = paint.node_tree.nodes.new(f"ShaderNode{kind}")
+    if kind == "Attribute":
+        node.attribute_name = "Dirt"
+    socket = next(each for each in node.outputs if each.name == output)
+    assert unseen.on_flat_samples(paint) == []
+    reach(paint, socket)
+    told = unseen.on_flat_samples(paint)
+    assert told == ([] if not said else [told[0]])
+    assert not said or told[0].endswith(f"{said}; {unseen.INSTEAD}")
+    node.mute = True
+    assert unseen.on_flat_samples(paint) == []
+
+
+def test_textures_in_a_group_by_uvs_are_right_and_others_told_together(paint):
+    group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+    group.interface.new_socket("Color", in_out="OUTPUT")
+    end = group.nodes.new("NodeGroupOutput")
+    kinds = ("Noise", "Voronoi", "Wave", "Magic")
+    nodes = [group.nodes.new(f"ShaderNodeTex{kind}") for kind in kinds]
+    previous = nodes[0].outputs["Color"]
+    for node in nodes[1:]:
+        group.links.new(previous, node.inputs["Scale"])
+        previous = node.outputs["Color"]
+    group.links.new(previous, end.inputs[0])
+    instance = paint.node_tree.nodes.new("ShaderNodeGroup")
+    instance.node_tree = group
+    reach(paint, instance.outputs[0])
+    [told] = unseen.on_flat_samples(paint)
+    assert "has its own Generated (Magic Texture, Wave Texture, Voronoi Texture, …)" in told
+    at = group.nodes.new("ShaderNodeUVMap")
+    for node in nodes:
+        group.links.new(at.outputs[0], node.inputs["Vector"])
+    assert unseen.on_flat_samples(paint) == []

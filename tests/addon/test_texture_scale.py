@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 from rough_spectra.addon.blender import shader_nodes, texture_colors, texture_scale, working_space
+from rough_spectra.addon.colorimetry import illuminant_spectra
 from rough_spectra.addon.instrument import measure
+from rough_spectra.addon.matching import scene_view
 from rough_spectra.addon.matching import texture_scale as solving
 from rough_spectra.addon.matching.solve import Request
 from rough_spectra.addon.material import derive, state
@@ -15,6 +17,7 @@ from rough_spectra.addon.samples import presets
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.cycles import instrument_lobe
 from rough_spectra.core.errors import MaterialError
+from rough_spectra.core.numerics import direction_grid
 
 from tools.checks.textures import image, pictures
 
@@ -139,6 +142,20 @@ def test_dragging_scales_anew_without_looking_again(make_material, looks):
     derive.renew([material])
     assert looks == [1, 1]
     assert len(material.node_tree.nodes) == count
+
+
+def test_the_light_of_a_scene_scales_anew_without_looking_again(make_material, looks):
+    material = textured(make_material)
+    derive.assign([(material, request())])
+    before = tuple(b_of(scale_of(material)).default_value)
+    warm = illuminant_spectra.planck(2856.0)
+    light = scene_view.make_light("Lamp", "A", warm / illuminant_spectra.to_xyz(warm)[1], 1.0)
+    rows = np.column_stack(direction_grid.hemisphere(8)).tolist()
+    view = scene_view.SceneView("Scene", (light,), tuple((*row, 0, 1 / 8) for row in rows))
+    derive.follow_scene({material: view})
+    assert looks == [1]
+    assert state.state(material).kind == "fresh"
+    assert tuple(b_of(scale_of(material)).default_value) != before
 
 
 def test_another_texture_is_looked_at_while_dragging(make_material, looks):

@@ -29,6 +29,9 @@ NO_CACHES = {
     ("addon/preview/balls.py", "_pending"),
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
+    # What was rendered last, which is dear to make again.
+    ("addon/picture/images.py", "_held"),
+    ("addon/picture/images.py", "_picked"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
     ("addon/interface/shelf.py", "_asked"),
@@ -36,7 +39,7 @@ NO_CACHES = {
     ("addon/material/derivation.py", "_known"),
     # On the list as one, because Blender holds the pictures.
     ("addon/preview/icons.py", "_pictures"),
-    ("addon/preview/icons.py", "_swatches"),
+    ("addon/preview/list_icons.py", "_balls"),
     ("addon/preview/balls.py", "_rows"),
     ("addon/preview/icons.py", "_differences"),
     ("core/numerics/memoized.py", "_caches"),

@@ -7,6 +7,8 @@ number of seconds, or a function that says whether it may go on.
 """
 
 import json
+import os
+import subprocess
 import time
 import traceback
 from pathlib import Path
@@ -116,6 +118,14 @@ def write(text):
     for letter in text:
         key = "SPACE" if letter == " " else letter.upper()
         yield from press(key, letter)
+
+
+def grab(name):
+    """Save what the screen shows, where ROUGH_SPECTRA_PICTURES names a folder for it."""
+    folder = os.environ.get("ROUGH_SPECTRA_PICTURES")
+    if folder:
+        picture = Path(folder) / f"{name}.png"
+        subprocess.run(["import", "-window", "root", str(picture)], check=True)
 
 
 def find(where, wanted, across=0.6, kind="WINDOW"):

@@ -15,11 +15,13 @@ import scenes_background  # noqa: F401
 import scenes_comfort  # noqa: F401
 import scenes_files  # noqa: F401
 import scenes_gloss  # noqa: F401
+import scenes_hour  # noqa: F401
 import scenes_panel  # noqa: F401
 import scenes_quitting  # noqa: F401
 import scenes_rough  # noqa: F401
 import scenes_shelf  # noqa: F401
 import scenes_simple  # noqa: F401
+import scenes_spectral  # noqa: F401
 import scenes_spots  # noqa: F401
 import stage
 

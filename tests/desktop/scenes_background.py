@@ -3,13 +3,12 @@
 """What runs in a second Blender while the window stays in use."""
 
 import importlib
-import os
 import subprocess
 from pathlib import Path
 
 import bpy
 import other_extension
-from driver import area, click, find, middle, move, over, press, scene, window
+from driver import area, click, find, grab, middle, move, over, press, scene, window
 from stage import OPS, PACKAGE, empty_file, green_file, ours, state, wall
 
 _started = []
@@ -75,9 +74,7 @@ def measuring(found):
     # No long way over the panel: the measurement may well come to its end meanwhile.
     yield from move(*middle(area("PROPERTIES")))
     found["still_running"] = bool(jobs())
-    picture = os.environ.get("ROUGH_SPECTRA_GRAB")
-    if picture:
-        subprocess.run(["import", "-window", "root", picture], check=True)
+    grab("measuring")
     yield from move(*middle(area("TEXT_EDITOR")))
     yield 0.3
     drawn = _watch_result()
@@ -175,6 +172,9 @@ def switched_off_while_measuring(found):
         found["ran"] = [len(children()), len(jobs()), len(shown)]
         bpy.ops.preferences.addon_disable(module=PACKAGE)
         yield 0.5
+        # Blender frees the operator at once, but takes its empty place out of the list, where a
+        # script meets None, only when the next event comes.
+        yield from move(*middle(area("TEXT_EDITOR")))
         found["left"] = [len(children()), len(jobs()), [text for text in shown.values() if text]]
         found["modal"] = [op.bl_idname for op in window().modal_operators]
     finally:

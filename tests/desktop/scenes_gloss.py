@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gloss that is dragged, textures that are looked at, and other instruments."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 from driver import TICK, area, find, middle, move, over, press, scene, window
@@ -130,13 +132,18 @@ def _scale():
 
 @scene
 def choosing_for_a_texture(found):
-    """Choose a sample for a texture and stop; again, working meanwhile; and undo."""
+    """Import a sample onto a texture and stop; choose one, working meanwhile; and undo."""
     yield from empty_file()
     _textured()
+    path = Path(bpy.app.tempdir) / "gray.csv"
+    path.write_text("nm,Gray\n" + "\n".join(f"{nm},0.2" for nm in range(400, 701, 20)))
     yield 0.5
     for way in ("stopped", "whole"):
         with over(area("PROPERTIES")):
-            OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/22-neutral-5")
+            if way == "stopped":
+                OPS.import_samples("EXEC_DEFAULT", filepath=str(path), materials="ASSIGN")
+            else:
+                OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/22-neutral-5")
         yield lambda: bool(jobs())
         found[f"{way}_modal"] = [op.bl_idname for op in window().modal_operators]
         yield from move(*middle(area("TEXT_EDITOR")))
@@ -146,6 +153,8 @@ def choosing_for_a_texture(found):
             yield from press("ESC")
             yield 0.5
             found["left"] = [len(children()), len(jobs()), _scale(), wall().rough_spectra.spectrum]
+            folder = ours("addon.material.preferences").user_folder()
+            found["imported"] = (folder / "gray.json").exists()
     yield _ended
     yield 0.5
     found["scale"], found["kind"] = _scale(), state()["kind"]

@@ -10,9 +10,10 @@ from stage import ours
 _THRESHOLD = 24  # pixels after which a press has become a drag
 
 
-def _drag(start, end):
+def drag(start, end):
     """Press, move slowly until it is a drag, move on, and let go."""
     yield from move(*start)
+    yield 0.5  # the picture has to notice the pointer, else this selects objects
     window().event_simulate(type="LEFTMOUSE", value="PRESS", x=int(start[0]), y=int(start[1]))
     yield 0.1
     points = [(start[0], start[1] + step) for step in range(2, _THRESHOLD, 2)]
@@ -28,15 +29,19 @@ def _drag(start, end):
     yield 0.5
 
 
-def _cube():
-    """Give the middle of the cube in the window."""
-    view = area("VIEW_3D")
-    region = _region(view, "WINDOW")
-    seen = location_3d_to_region_2d(region, view.spaces.active.region_3d, (0, 0, 0))
+def on_screen(view, place):
+    """Give where in the window a 3D view shows a place."""
+    region = region_of(view, "WINDOW")
+    seen = location_3d_to_region_2d(region, view.spaces.active.region_3d, place)
     return region.x + seen.x, region.y + seen.y
 
 
-def _region(where, kind):
+def _cube():
+    return on_screen(area("VIEW_3D"), (0, 0, 0))
+
+
+def region_of(where, kind):
+    """Give the region of a kind in an area."""
     return next(region for region in where.regions if region.type == kind)
 
 
@@ -57,13 +62,13 @@ def dragging_from_the_shelf(found):
         known.import_method for known in libraries if known.path == str(shelf.folder())
     ]
     yield 3.0
-    pictures = _region(area("VIEW_3D"), "ASSET_SHELF")
+    pictures = region_of(area("VIEW_3D"), "ASSET_SHELF")
     first = pictures.x + 40, pictures.y + pictures.height // 2
     state = ours("addon.material.state")
     names = []
     for _ in range(2):
         before = _material().name
-        yield from _drag(first, _cube())
+        yield from drag(first, _cube())
         yield lambda before=before: _material().name != before
         names.append(_material().name)
     found["names"] = names
@@ -85,11 +90,11 @@ def _from_the_browser(found):
     space.show_region_toolbar = False
     space.params.asset_library_reference = ours("addon.assets.catalogs").ROOT
     yield 3.0
-    files = _region(browser, "WINDOW")
+    files = region_of(browser, "WINDOW")
     before = _material().name
     with over(browser):
         bpy.ops.view2d.reset()
-    yield from _drag((files.x + 50, files.y + files.height - 50), _cube())
+    yield from drag((files.x + 50, files.y + files.height - 50), _cube())
     yield lambda: _material().name != before
     found["browser"] = [bool(_material().rough_spectra.spectrum), _material().is_editable]
 

@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A spot of a surface, measured where the mouse clicks in the 3D view."""
 
-import os
-import subprocess
-
 import bpy
 from bpy_extras import view3d_utils
-from driver import TICK, area, click, find, move, over, press, scene, window
+from driver import TICK, area, click, find, grab, move, over, press, scene, window
 from scenes_background import jobs
 from stage import green_file, ours, wall
 
@@ -25,13 +22,6 @@ def _marks():
 
 def _modal():
     return [op.bl_idname for op in window().modal_operators]
-
-
-def _grab(name):
-    """Save what the screen shows, for the manual."""
-    folder = os.environ.get("ROUGH_SPECTRA_GRAB")
-    if folder:
-        subprocess.run(["import", "-window", "root", f"{folder}/{name}.png"], check=True)
 
 
 def _at(place):
@@ -62,7 +52,7 @@ def measuring_a_spot(found):
     yield from move(*_at(PLACE))
     yield from _wheel_up()
     yield 0.5
-    _grab("choosing")
+    grab("choosing")
     yield from click(*_at(PLACE))
     yield lambda: bool(jobs())
     found["running"] = _modal()
@@ -71,7 +61,7 @@ def measuring_a_spot(found):
     found["read"], found["marks"], found["after"] = _read(), _marks(), _modal()
     [mark] = [bpy.data.objects[name] for name in found["marks"]]
     found["place"] = list(mark.matrix_world.translation)
-    _grab("measured")
+    grab("measured")
     yield from move(*_at((-0.5, -0.5, 0.0)))
     yield from press("Z", ctrl=True)
     yield 0.5

@@ -28,10 +28,11 @@ def test_dragging_the_sockets(scene):
 
 
 def test_choosing_for_a_texture(scene):
-    for way in ("stopped", "whole"):
-        assert scene[f"{way}_modal"] == ["ROUGH_SPECTRA_OT_choose_sample"]
+    for way, name in (("stopped", "import_samples"), ("whole", "choose_sample")):
+        assert scene[f"{way}_modal"] == [f"ROUGH_SPECTRA_OT_{name}"]
         assert scene[f"{way}_ran"]
     assert scene["left"] == [0, 0, None, ""]
+    assert not scene["imported"]
     assert scene["kind"] == "fresh"
     # The wall shows the dark half alone.
     assert [0.25 * scale for scale in scene["scale"]] == pytest.approx(scene["plain"], rel=0.01)
@@ -97,7 +98,12 @@ def test_finding_by_color(scene):
     assert scene["undone"]["sample"] == name
 
 
-BLENDERS_OWN = ("Could not get a list of mounted file-systems",)
+BLENDERS_OWN = (
+    "Could not get a list of mounted file-systems",
+    # Cycles renders previews of materials in a thread that calls Python, and Blender counts such
+    # calls of all threads in one plain number (`py_call_level`): now and then one gets lost.
+    "Python context internal state bug",
+)
 TOLD = (" σ 20°: ", "The texture is scaled so that its mean")
 """What a user is told of the samples in a library that a scene builds, and of a texture."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
@@ -313,3 +319,43 @@ def test_measuring_a_spot(scene):
     assert scene["after"] == []
     assert scene["undone"] == [None, []]
     assert scene["left"] == [[], None, [], 0]
+
+
+def test_rendering_a_spectral_picture(scene):
+    assert scene["modal"] == ["ROUGH_SPECTRA_OT_render_spectral"]
+    assert scene["modal_after"] == scene["picking_after"] == []
+    assert scene["images"] == ["Spectral", "Spectral ΔE00"]
+    assert scene["shown"] == "Spectral"
+    assert scene["same"]
+    assert scene["told"][0].startswith("6 bands")
+    assert scene["rules"]["Light 'Tube'"] == ["CIE F11"]
+    assert scene["rules"]["Material 'Yellow'"] == ["measured: ColorChecker 16 Yellow"]
+    assert scene["picking"] == ["ROUGH_SPECTRA_OT_pick_pixel"]
+    assert scene["picked"] == scene["wanted"]
+    lightness, _, b = scene["lab"]
+    assert lightness > 20
+    assert b > 40  # which is yellow
+    assert scene["delta_e"] > 0
+    assert scene["undone"] == []
+
+
+def test_stopping_a_spectral_picture(scene):
+    assert scene["ran"]
+    assert scene["left"] == [0, 0, []]
+    assert scene["folders"] == []
+    assert scene["same"]
+    assert scene["modal"] == []
+
+
+def test_first_hour(scene):
+    """What `docs/first-material.md` counts."""
+    assert scene["first"] == [{"clicks": 4, "words": 1}, "Brick", 0.0, "looks right"]
+    assert scene["next"] == [{"drags": 1}, True]
+    assert scene["several"] == [{"clicks": 2, "words": 1}, ["Brick"] * 3]
+    assert scene["gloss"] == [{"drags": 1}, "looks right"]
+
+
+def test_choosing_a_light_spectrum(scene):
+    assert scene["before"] == "F11"
+    assert scene["chosen"] == ["MEASURED", "sodium.csv"]
+    assert scene["undone"] == "F11"

@@ -57,7 +57,7 @@ def test_blenders_that_run_at_once_share_no_folder_and_no_screen(stubbed, monkey
     monkeypatch.setenv("ROUGH_SPECTRA_BLENDER", "/opt/blender")
     assert dev.main(["test", "--only", "5.2", "--only", "4.5"]) == 0
     one, other = stubbed
-    for name in ("BLENDER_USER_RESOURCES", "HYPOTHESIS_STORAGE_DIRECTORY"):
+    for name in ("BLENDER_USER_RESOURCES", "HYPOTHESIS_STORAGE_DIRECTORY", "PYTHONPYCACHEPREFIX"):
         assert Path(one.settings[name]).is_dir()
         assert one.settings[name] != other.settings[name]
     caches = [word for step in stubbed for word in step.command if "cache_dir" in str(word)]

@@ -39,6 +39,17 @@ def table(head, numbers):
         ("Wavelength (Å),brick", NM * 10),
         ("wavelength in angstrom,brick", NM * 10),
         ("wavelength (um),brick", NM / 1000),
+        ("wavelength_um,brick", NM / 1000),
+        ("energy_eV,brick", H_C_OVER_E * 1e9 / NM),
+        ("frequency_THz,brick", 299792.458 / NM),
+        ("Wellenzahl,brick", 1e7 / NM),
+        ("cm^{-1},brick", 1e7 / NM),
+        ("inverse cm,brick", 1e7 / NM),
+        ("Ångström,brick", NM * 10),
+        ("# X units: THz\nx,brick", 299792.458 / NM),
+        ("# frequencies in THz\nx,brick", 299792.458 / NM),
+        ("X Units,THz\nx,brick", 299792.458 / NM),
+        ("XUNITS: 1/cm\nx,brick", 1e7 / NM),
     ],
 )
 def test_what_is_stated_becomes_nanometers(tmp_path, head, numbers):
@@ -53,6 +64,10 @@ def test_what_is_stated_becomes_nanometers(tmp_path, head, numbers):
     ("head", "numbers", "said"),
     [
         ("Frequency,brick", 299792.458 / NM, "a frequency or an energy without its unit"),
+        *(
+            (f"{head},brick", 299792.458 / NM, "a frequency or an energy without its unit")
+            for head in ("nu", "ν", "freq", "Frequenz", "fréquence", "周波数")
+        ),
         ("Raman shift (cm-1),brick", 1e7 / NM, "a Raman shift"),
         ("x,brick", 1e7 / NM, "14285.7 to 25000, have no unit"),
         ("wavelength,brick", NM * 10, "4000 to 7000, have no unit"),
@@ -123,3 +138,87 @@ def test_more_names_of_bands_in_cgats(tmp_path, label):
     (sample,) = read(tmp_path, text, "wall.txt")
     assert sample.wavelengths.tolist() == NM.tolist()
     assert sample.values.tolist() == [0.125, 0.25, 0.5, 0.75]
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        *(
+            "x,reflectance_percent",
+            "x,R_pct",
+            "x,Reflexion in Prozent",
+            "x,Reflectance(percentage)",
+        ),
+        *("# scale: 0-100\nx,R", "# in %\nx,R", "# Einheit: %\nx,R", "# units: Prozent\nx,R"),
+        *("Photometric mode: %R\nx,R", "# values in percent\nx,R"),
+    ],
+)
+def test_percent_that_is_dark_is_percent_in_every_spelling(tmp_path, head):
+    (sample,) = read(tmp_path, table(head, NM.tolist()))
+    assert sample.values.tolist() == [0.00125, 0.0025, 0.005, 0.0075]
+
+
+@pytest.mark.parametrize(
+    "head", ["x,50 % gray", "x,10_pct_gray", "# title: paint 5 % gray\nx,wall"]
+)
+def test_percent_of_something_else_is_no_scale(tmp_path, head):
+    (sample,) = read(tmp_path, table(head, NM.tolist()))
+    assert sample.values.tolist() == [0.125, 0.25, 0.5, 0.75]
+
+
+@pytest.mark.parametrize(
+    ("head", "said"),
+    [
+        *(
+            (f"x,{name}", "absorbance")
+            for name in ("A", "log10(1/R)", "-log R", "吸光度", "density")
+        ),
+        *((f"x,{name}", "transmittance") for name in ("T", "透過率")),
+        ("x,OD", "optical density"),
+        ("x,KS", "Kubelka-Munk"),
+        ("x,k (1/mm)", "coefficients"),
+        ("# absorbance\nx,wall", "absorbance"),
+        ("# y: log 1/R\nx,wall", "absorbance"),
+        ("# mode: transmittance\nx,wall", "transmittance"),
+        ("# values are transmittance\nx,wall", "transmittance"),
+        ("Photometric mode: Abs\nx,wall", "absorbance"),
+        ("Title,K/S of dyed cotton\nx,wall", "Kubelka-Munk"),
+    ],
+)
+def test_another_quantity_is_refused_wherever_it_is_named(tmp_path, head, said):
+    with pytest.raises(InputError, match=said):
+        read(tmp_path, table(head, NM.tolist()))
+
+
+def test_letters_beside_each_other_or_below_reflectance_are_samples(tmp_path):
+    (sample,) = read(tmp_path, table("# Reflectance of tiles\nx,A", NM.tolist()))
+    assert sample.name == "A"
+    path = tmp_path / "two.csv"
+    path.write_text("x,A,T\n400,0.1,0.2\n500,0.1,0.2\n")
+    assert [sample.name for sample in readers.read(path)] == ["A", "T"]
+
+
+@pytest.mark.parametrize(
+    ("head", "cells"),
+    [("name,unit", "ink,%"), ("Probe,Einheit", "ink,Prozent"), ("name,Y units", "ink,%R")],
+)
+def test_a_column_tells_the_unit_of_each_row(tmp_path, head, cells):
+    text = f"{head},400 nm,500 nm\n{cells},0.6,0.8\npaper,fraction,0.6,0.8\n"
+    ink, paper = read(tmp_path, text)
+    assert (ink.values.tolist(), paper.values.tolist()) == ([0.006, 0.008], [0.6, 0.8])
+    text = "name,geometry,unit,wavelength,value\n" + "".join(
+        f"ink,d/8 SCE,%,{nm},{value}\n" for nm, value in ((400, 0.6), (500, 0.8))
+    )
+    [ink] = read(tmp_path, text)
+    assert ink.values.tolist() == [0.006, 0.008]
+
+
+def test_rows_of_another_quantity_are_left_out_and_told(tmp_path):
+    head = "name,quantity,400 nm,500 nm\n"
+    rows = "ink,reflectance,0.6,0.8\nink,absorbance,0.1,0.2\nink transmittance,,0.6,0.8\n"
+    [ink] = read(tmp_path, head + rows)
+    assert ink.values.tolist() == [0.6, 0.8]
+    assert "line 3 on absorbance" in ink.notes[-1]
+    assert "line 4 on transmittance" in ink.notes[-1]
+    with pytest.raises(InputError, match="line 2: the values are absorbance"):
+        read(tmp_path, head + "ink,absorbance,0.1,0.2\n")

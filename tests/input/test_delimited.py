@@ -10,6 +10,7 @@ from rough_spectra.addon.samples import readers
 from rough_spectra.core.errors import InputError
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "delimited"
+UNSAID = "The file does not say the geometry; 45°a:0° is assumed."
 
 
 def read(tmp_path, text, encoding="utf-8"):
@@ -40,7 +41,7 @@ def test_samples_in_rows_percent_by_column_name():
         ("Brick dust", nm, [0.0625, 0.065, 0.0775, 0.09]),
     ]
     assert [sample.position for sample in samples] == ["line 2", "line 3"]
-    assert samples[0].notes == ("Columns not read: Batch.",)
+    assert samples[0].notes == (UNSAID, "Columns not read: Batch.")
 
 
 def test_comments_state_what_a_table_cannot():
@@ -235,7 +236,7 @@ def test_columns_beside_the_bands_say_what_they_say():
 def test_units_below_the_names_and_raw_columns_beside():
     (sample,) = readers.read(FOLDER / "units-below.txt")
     assert summary([sample]) == [("units-below", [400, 410], [0.125, 0.25])]
-    assert sample.notes == ("Columns not read: Dark, Reference, Sample.",)
+    assert sample.notes == (UNSAID, "Columns not read: Dark, Reference, Sample.")
 
 
 def test_rows_of_keys_above_the_numbers():
@@ -380,7 +381,7 @@ def test_a_column_of_reflectance_is_read_beside_those_of_radiance(tmp_path):
     )
     (sample,) = read(tmp_path, text)
     assert sample.values.tolist() == [0.25, 0.5]
-    assert sample.notes == ("Columns not read: Rad. (Ref.), Rad. (Target).",)
+    assert sample.notes == (UNSAID, "Columns not read: Rad. (Ref.), Rad. (Target).")
 
 
 def test_numbers_in_rows_of_data_are_no_bands(tmp_path):

@@ -167,7 +167,7 @@ def test_smooth_belongs_to_the_rough_one(tmp_path):
 def test_gloss_units_stand_beside_the_spectrum(tmp_path, head, cells):
     [sample] = read(tmp_path, table(("T", cells, 0.3), head=f"name,{head}"))
     assert sample.gloss == ((20.0, 1.5), (60.0, 23.5), (85.0, 60.0))
-    assert sample.notes == ()
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
 
 
 def test_gloss_without_an_angle_is_told(tmp_path):
@@ -210,7 +210,9 @@ def test_a_name_in_brackets_tells_a_single_reading(tmp_path):
     [sample] = read(tmp_path, table(("Tile (SCI)", 0.34)))
     assert (sample.name, sample.instrument, sample.specular) == ("Tile (SCI)", "di:8", "SCI")
     [sample] = read(tmp_path, table(("Tile SCI", 0.34)))
-    assert (sample.name, sample.instrument, sample.specular) == ("Tile SCI", "45a:0", "")
+    assert (sample.name, sample.instrument, sample.specular) == ("Tile SCI", "di:8", "SCI")
+    [sample] = read(tmp_path, table(("Tile sci", 0.34)))
+    assert (sample.name, sample.instrument, sample.specular) == ("Tile sci", "45a:0", "")
 
 
 def test_a_stated_geometry_is_not_overruled_by_a_name(tmp_path):

@@ -85,7 +85,6 @@ BEGIN = b">>>>>Begin Spectral Data<<<<<\n400\t1\n410\t1\n"
         (b"PK\x03\x04\x00 notes.txt \x00", ["archive", "unpack"]),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\x00", [".xls", "CSV"]),
         (b"\x0a\x0a\xfe\xfe\x00\x00", ["OPUS", "JCAMP"]),
-        (b"tensor_file\x00\x01\x00", ["RGL", "CSV"]),
         (b"\x89HDF\r\n\x1a\n\x00", ["HDF5", "CSV"]),
         (b"ENVI\nfile type = ENVI Standard\n", ["image", "Material from Image"]),
         (b"ENVI\nfile type = ENVI Spectral Library\n", ["without its file of numbers"]),
@@ -136,6 +135,16 @@ def test_binary_avasoft_divides_by_the_white_reference():
     assert spectrum(second) == ("two 2", [900.0, 910.0, 930.0, 940.0], [0.125, 0.25, 0.5, 0.0625])
     assert "white reference" in second.altered[0]
     assert second.altered[1] == "1 band without a value was left out: 920 nm."
+
+
+def test_the_comment_of_an_spc_tells_the_geometry(tmp_path):
+    data = bytearray((FIXTURES / "galactic_spc" / "uneven.spc").read_bytes())
+    assert data[88:98] == b"Slit 2 nm\0"
+    data[88:98] = b"d/8 SCE  \0"
+    path = tmp_path / "wall.spc"
+    path.write_bytes(data)
+    (sample,) = readers.read(path)
+    assert (sample.instrument, sample.specular, sample.geometry) == ("de:8", "SCE", "d/8")
 
 
 def test_spc_in_all_its_layouts():
@@ -236,7 +245,10 @@ def test_cary_reads_pairs_of_unequal_length_and_no_log():
     chalk, brick = readers.read(FIXTURES / "delimited" / "cary.csv")
     assert spectrum(chalk) == ("Chalk wall", [778.0, 779.0, 780.0], [0.125, 0.25, 0.5])
     assert spectrum(brick) == ("Brick", [779.0, 780.0], [0.25, 0.125])
-    assert chalk.notes == ("Columns not read: Base.",)
+    assert chalk.notes == (
+        "Columns not read: Base.",
+        "The file does not say the geometry; 45°a:0° is assumed.",
+    )
 
 
 def test_lambda():

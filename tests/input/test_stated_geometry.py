@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from rough_spectra.addon.samples import readers, sets
+from rough_spectra.core.errors import InputError
 
 FOLDER = Path(__file__).resolve().parents[1] / "fixtures" / "delimited"
 NM = (400, 450, 500, 550, 600, 650, 700)
@@ -170,3 +171,163 @@ def test_one_number_a_row_keeps_faults_at_their_line(tmp_path):
         read(tmp_path, head + "T,d/8,400,0.1\nT,d/8,410,high\n")
     plain = read(tmp_path, "wavelength,sample,reflectance\n400,1,0.5\n500,1,0.6\n")
     assert [s.values.tolist() for s in plain] == [[0.5, 0.6]], "raw counts beside the reflectance"
+
+
+@pytest.mark.parametrize(
+    ("words", "instrument"),
+    [
+        *(("d:8i", "di:8"), ("d:8e", "de:8"), ("D/8° (SCI)", "di:8"), ("diffuse/8 SPEX", "de:8")),
+        *(
+            ("SPIN", "di:8"),
+            ("SPEX", "de:8"),
+            ("RSIN", "di:8"),
+            ("RSEX", "de:8"),
+            ("SCI方式", "di:8"),
+        ),
+        *(("mit Glanz", "di:8"), ("ohne Glanz", "de:8"), ("Glanz eingeschlossen", "di:8")),
+        *(("Glanzfalle", "de:8"), ("spéculaire inclus", "di:8"), ("正反射光除去", "de:8")),
+        *(("spec. excl.", "de:8"), ("specular not included", "de:8"), ("Ulbricht", "di:8")),
+        *(
+            ("as110", "45as110"),
+            ("aspecular 25", "45as25"),
+            ("r45as25", "45as25"),
+            ("45c:0", "45a:0"),
+        ),
+    ],
+)
+@pytest.mark.parametrize(
+    "layout", ["# geometry: {}", "Geometry,{}", "# measured {}", "brick ({})", "Mode,{}"]
+)
+def test_makers_words_in_their_spellings_and_languages(tmp_path, words, instrument, layout):
+    said = layout.format(words)
+    if layout.startswith("brick"):
+        text = down(f"wavelength,{said}")
+    else:
+        text = f"{said}\n" + down("wavelength,brick")
+    [sample] = read(tmp_path, text)
+    assert sample.instrument == instrument
+
+
+def test_what_is_not_stated_is_named(tmp_path):
+    [sample] = read(tmp_path, down("wavelength,brick"))
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+    [sample] = read(tmp_path, down("# instrument: 45a:0\nwavelength,brick"))
+    assert sample.notes == ()
+    [sample] = read(tmp_path, down("# kind: albedo\nwavelength,brick"))
+    assert sample.notes == ()
+
+
+@pytest.mark.parametrize(
+    "head",
+    ["Probe,Messgeometrie", "échantillon,géométrie", "試料名,光学系", "name,Glanz", "name,正反射"],
+)
+def test_columns_in_other_languages(tmp_path, head):
+    rows = ("Wand,d/8 SCE", "Putz,d/8 SCI")
+    if head.startswith("name"):
+        rows = tuple(row.replace("d/8 ", "") for row in rows)
+    wall, plaster = read(tmp_path, table(head, *rows))
+    assert (wall.name, wall.instrument) == ("Wand", "de:8")
+    assert (plaster.name, plaster.instrument) == ("Putz", "di:8")
+
+
+@pytest.mark.parametrize(
+    ("above", "device", "instrument"),
+    [
+        ("# Konica Minolta CM-26d\n", "CM-26d", "di:8"),
+        ("# measured by X-Rite i1Pro 2\n", "i1Pro", "45a:0"),
+        ("# Spectrophotometer: Ci7800, SPEX\n", "Ci7800, SPEX", "de:8"),
+        ("# Instrument: HunterLab LabScan XE\n", "HunterLab LabScan XE", "0:45a"),
+        ("# the exact color of 5 walls\n", "", "45a:0"),
+    ],
+)
+def test_a_device_counts_wherever_it_is_named(tmp_path, above, device, instrument):
+    [sample] = read(tmp_path, above + down("wavelength,brick"))
+    assert (sample.device, sample.instrument) == (device, instrument)
+
+
+def test_columns_of_angles_alone_and_of_makers_marks(tmp_path):
+    [car] = read(tmp_path, down("wavelength,-15,15,25,45,75,110"))
+    assert {s.instrument for s in car.readings} == {f"45as{a}" for a in (-15, 15, 25, 45, 75, 110)}
+    assert len(read(tmp_path, down("wavelength,15,25,45"))) == 3, "may be samples 15, 25 and 45"
+    [car] = read(tmp_path, down("wavelength,car r45as15,car r45as110"))
+    assert levels([car]) == {"45as15": 0.3, "45as110": 0.32}
+    [tile] = read(tmp_path, down("wavelength,Tile RSIN,Tile RSEX"))
+    assert (tile.name, levels([tile])) == ("Tile", SPHERES)
+
+
+def test_a_name_tells_the_condition(tmp_path):
+    assert [s.condition for s in read(tmp_path, down("wavelength,T M0,T (M1)"))] == ["M0", "M1"]
+
+
+CGATS = """CGATS.17
+{}
+NUMBER_OF_FIELDS 9
+BEGIN_DATA_FORMAT
+SAMPLE_ID SAMPLE_NAME {}
+END_DATA_FORMAT
+NUMBER_OF_SETS 1
+BEGIN_DATA
+1 brick {}
+END_DATA
+"""
+
+
+@pytest.mark.parametrize(
+    ("keys", "instrument"),
+    [
+        *(('SPECULAR "excluded"', "de:8"), ("# geometry: d/8 SCE", "de:8")),
+        *(('INSTRUMENTATION "CM-26d SCE"', "de:8"), ('INSTRUMENTATION "CM-26d"', "di:8")),
+        *(('DESCRIPTOR "brick, 45as25"', "45as25"), ('INSTRUMENT_GEOMETRY "45as15"', "45as15")),
+        ('MEASUREMENT_GEOMETRY "0/45"\nDESCRIPTOR "unlike SCE"', "0:45a"),
+    ],
+)
+def test_keywords_and_remarks_of_cgats(tmp_path, keys, instrument):
+    names = " ".join(f"SPECTRAL_NM{nm}" for nm in NM)
+    text = CGATS.format(keys, names, values(0.3).replace(",", " "))
+    [sample] = read(tmp_path, text)
+    assert sample.instrument == instrument
+    assert not any("does not say the geometry" in note for note in sample.notes)
+    [sample] = read(tmp_path, text.replace(keys, 'MEASUREMENT_MODE "M1"\nUNITS "percent"'))
+    assert (sample.condition, sample.values[0]) == ("M1", 0.003)
+    with pytest.raises(InputError, match="absorbance"):
+        read(tmp_path, text.replace(keys, 'MEAS_TYPE "Absorbance"'))
+
+
+@pytest.mark.parametrize(
+    ("labels", "instrument"),
+    [
+        ("##SPECTROMETER/DATA SYSTEM=CM-700d, SCE", "de:8"),
+        ("##INSTRUMENTAL PARAMETERS=d/8 SPIN", "di:8"),
+        ("$$ measured with d/8 SCE", "de:8"),
+        ("##$GEOMETRY=0/45", "0:45a"),
+        ("##COMMENTS=specular excluded, d/8", "de:8"),
+        ("##SAMPLING PROCEDURE=45as110\n##COMMENTS=not SCE", "45as110"),
+    ],
+)
+def test_labels_and_remarks_of_jcamp(tmp_path, labels, instrument):
+    points = "\n".join(f"{nm}, 0.3" for nm in NM)
+    head = f"##TITLE=brick\n##JCAMP-DX=4.24\n{labels}\n##XUNITS=NANOMETERS\n##YUNITS=REFLECTANCE"
+    [sample] = read(tmp_path, f"{head}\n##XYPOINTS=(XY..XY)\n{points}\n##END=\n")
+    assert sample.instrument == instrument
+    assert not any("does not say the geometry" in note for note in sample.notes)
+
+
+def test_the_device_of_any_format_counts_and_nothing_counts_as_45_0_in_silence(tmp_path):
+    lines = "STD_NAME=brick\nSTD_REFLPOINTS=7\nSTD_REFLLOW=400\nSTD_REFLINTERVAL=50\n"
+    text = f"[STANDARD_DATA 0]\n{lines}STD_R={values(30)}\nSTD_INSTRUMENT=CM-700d\n"
+    [sample] = read(tmp_path, text)
+    assert (sample.instrument, sample.device) == ("di:8", "CM-700d")
+    [sample] = read(tmp_path, text.replace("CM-700d", "CM-700d SCE"))
+    assert sample.instrument == "de:8"
+    [sample] = read(tmp_path, text.replace("CM-700d", "Q 1"))
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+    [sample] = read(tmp_path, "Brick,,\nWavelength (nm),%R,\n400,30,\n500,30,\n")
+    assert sample.notes == ("The file does not say the geometry; 45°a:0° is assumed.",)
+
+
+def test_a_range_or_a_factor_tells_the_scale_and_per_mille_is_refused(tmp_path):
+    for label in ("R (0-100)", "R x100"):
+        [sample] = read(tmp_path, down(f"wavelength,{label}"))
+        assert sample.values[0] == 0.003
+    with pytest.raises(InputError, match="per mille"):
+        read(tmp_path, down("wavelength,R (‰)"))

@@ -93,13 +93,28 @@ ODDITIES = {
 def test_measurement_file_with_an_oddity_is_read_and_told_of(oddity, blend, main, tmp_path):
     content, *words = ODDITIES[oddity]
     source = tmp_path / "measured.csv"
-    source.write_text(content, encoding="utf-8")
+    source.write_text(f"{content}# geometry: 45/0\n", encoding="utf-8")
     done = main("assign", "--blend", blend, "--by-name", source)
     assert done.status == 0
     told = [line for line in done.err.splitlines() if line.startswith("warning: ")]
     assert len(told) == bool(words)
     for word in words:
         assert word in told[0]
+
+
+def test_what_a_reader_assumes_is_told_unless_the_user_says_it(blend, main, tmp_path):
+    source = spectrum_csv(tmp_path / "measured.csv", "paper", "paper 2")
+    assumed = f"warning: {source}: The file does not say the geometry; 45°a:0° is assumed."
+    done = main("assign", "--blend", blend, "--by-name", source, "--create")
+    assert [line for line in done.err.splitlines() if "geometry" in line] == [assumed]
+    mapping = tmp_path / "mapping.csv"
+    for instrument, told in (("", [assumed]), ("di:8", [])):
+        mapping.write_text(
+            f"material,sample,file,instrument\npaper,paper,{source},{instrument}\n", "utf-8"
+        )
+        done = main("assign", "--blend", blend, "--mapping", mapping)
+        assert done.status == 0
+        assert [line for line in done.err.splitlines() if "geometry" in line] == told
 
 
 def test_measurement_file_that_is_missing(blend, main, tmp_path):

@@ -223,6 +223,39 @@ def test_json_is_read_back_whole(baked):
     )
 
 
+def test_json_is_read_back_as_samples(baked, main, tmp_path):
+    from rough_spectra.addon.matching import solve
+    from rough_spectra.addon.material import storage
+    from rough_spectra.addon.samples import readers
+
+    samples = {sample.name: sample for sample in readers.read(baked.path("json"))}
+    predicted = [entry for entry in baked.document["readings"] if entry["predicted"]]
+    assert len(predicted) > 3
+    for entry in predicted:
+        part = entry["predicted"]
+        name = ": ".join(text for text in (entry["surface"], entry["material"]) if text)
+        reading, albedo = samples.pop(name), samples.pop(f"{name} (albedo)")
+        assert (reading.kind, albedo.kind) == ("reading", "albedo")
+        assert reading.values.tolist() == part["values"]
+        assert albedo.values.tolist() == part["albedo"]
+        for sample in (reading, albedo):
+            assert sample.wavelengths.tolist() == part["wavelengths"]
+            assert sample.sigma_degrees == part["sigma_degrees"]
+        assert (reading.instrument, reading.lab) == (entry["instrument"], tuple(part["lab"]))
+    assert samples == {}
+    # Materials that are made of the reading and of the albedo are predicted to read the same again.
+    names = ("Alpha", "Alpha (albedo)")
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    for name in names:
+        rgb_material(name)
+    [part] = [e["predicted"] for e in predicted if (e["material"], e["surface"]) == ("Alpha", "")]
+    words = ("--by-name", baked.path("json"), "--model", part["model"])
+    assert main("assign", *words, "--output", tmp_path / "again.blend").status == 0
+    for name in names:
+        again = solve.target_reading(storage.load(bpy.data.materials[name]))
+        assert again == pytest.approx(part["values"], abs=1e-6)
+
+
 def test_prediction_is_the_stored_spectrum_where_that_is_a_reading(baked):
     part = by_material(baked)[ODD_NAME]["predicted"]
     assert part["kind"] == "reading"

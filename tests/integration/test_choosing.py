@@ -234,3 +234,34 @@ def test_gloss_that_the_user_gave_a_material_before_stays():
     before = storage.shown_gloss(wall)
     choose("everyday/tarp-blue")
     assert storage.shown_gloss(wall) == before
+
+
+def test_a_sample_that_is_matte_takes_the_gloss_of_a_new_node_away_and_no_other():
+    from rough_spectra.addon.material import storage
+
+    bpy.ops.wm.read_factory_settings()
+    cube = bpy.data.objects["Cube"].active_material
+    assert storage.shown_gloss(cube) is not None
+    choose(GREEN)  # which says nothing of its gloss
+    assert storage.shown_gloss(cube) is not None
+    choose(BRICK)
+    assert storage.shown_gloss(cube) is None
+    cube.rough_spectra.gloss = 0.3
+    before = storage.shown_gloss(cube)
+    choose("everyday/concrete")
+    assert storage.shown_gloss(cube) == before
+
+
+def test_the_list_begins_with_everyday_materials_and_ends_with_yours(tmp_path, monkeypatch):
+    from rough_spectra.addon.interface.operators import choose_sample
+    from rough_spectra.addon.material import preferences
+
+    monkeypatch.setattr(preferences, "user_folder", lambda: tmp_path / "library")
+    path = tmp_path / "atelier.csv"
+    path.write_text("nm,Lime\n" + "\n".join(f"{nm},0.6" for nm in range(400, 701, 20)))
+    OPS.import_samples("EXEC_DEFAULT", filepath=str(path), collection="atelier")
+    choose_sample._fill()
+    listed = [identifier.partition("/")[0] for identifier, *_ in choose_sample._items]
+    assert list(dict.fromkeys(listed)) == ["everyday", "colorchecker", "atelier"]
+    monkeypatch.undo()
+    choose_sample._fill()

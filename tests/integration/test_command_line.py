@@ -25,9 +25,12 @@ VERBS = (
     "lab",
     "list",
     "merge",
+    "relight",
     "search",
     "spectral",
     "texture",
+    "thermal",
+    "verdict",
 )
 
 

@@ -63,7 +63,8 @@ def test_a_pair_by_names(main, measured, tmp_path):
     words = (measured, "--smooth", "Paper", "--rough", "Paper sanded", "--output", target)
     result = main("estimate", *words)
     assert result.status == 0
-    first, last = result.err.splitlines()
+    assumed, first, last = result.err.splitlines()
+    assert assumed.endswith("The file does not say the geometry; 45°a:0° is assumed.")
     assert first.startswith("rough: σ 2")
     assert "by noise (95 %)" in first
     assert f"over the models {', '.join(estimate.SPREAD)}" in first
@@ -215,6 +216,29 @@ def test_the_dialog_writes_sigma_with_its_source(sanded, measured):
     from rough_spectra.addon.material import state
 
     assert state.state(sanded).kind == "fresh"
+
+
+def test_a_texture_is_scaled_anew_without_looking_again(sanded, measured, monkeypatch):
+    """Its colors are known, and the window stood still while a second Blender looked."""
+    from rough_spectra.addon import api
+    from rough_spectra.addon.blender import texture_colors, texture_scale
+
+    looks = []
+
+    def seen(sockets):
+        looks.append(len(sockets))
+        return [np.random.default_rng(1).uniform(0.2, 0.5, (100, 3)) for _ in sockets]
+
+    monkeypatch.setattr(texture_colors, "seen", seen)
+    tree = sanded.node_tree
+    node = next(n for n in tree.nodes if n.type == "BSDF_DIFFUSE")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], node.inputs["Color"])
+    api.renew([sanded])
+    before = texture_scale.factors(texture_scale.node_of(node.inputs["Color"]))
+    words = {"source": "FILE", "filepath": str(measured), "name_in_file": "Paper"}
+    assert OPS.estimate_sigma("EXEC_DEFAULT", **words) == {"FINISHED"}
+    assert looks == [1]
+    assert list(texture_scale.factors(texture_scale.node_of(node.inputs["Color"]))) != list(before)
 
 
 def test_an_albedo_is_the_smooth_reading(measured):

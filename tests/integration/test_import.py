@@ -9,6 +9,7 @@ import shutil
 import bpy
 import pytest
 from rough_spectra.addon import api
+from rough_spectra.addon.blender import texture_colors, texture_scale
 from rough_spectra.addon.interface.operators import import_review, import_samples
 from rough_spectra.addon.material import preferences
 from rough_spectra.addon.samples import importing, library, readers
@@ -103,6 +104,27 @@ def test_operator_assigns_the_first_or_makes_materials_of_all(folder, two):
     assert bpy.data.materials["chalk"].rough_spectra.sample_name == "chalk"
     assert bpy.data.materials["chalk"].use_fake_user
     assert not folder.exists()
+
+
+def test_what_is_imported_onto_a_texture_is_looked_at_in_the_background(folder, two, monkeypatch):
+    """The window stood still meanwhile; and the material keeps the light that the user chose."""
+
+    def seen(_sockets):
+        raise AssertionError("somebody waits for the second Blender")
+
+    monkeypatch.setattr(texture_colors, "seen", seen)
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    tree, options = material.node_tree, {"filepath": str(two), "materials": "ASSIGN"}
+    OPS.import_samples("EXEC_DEFAULT", **options, sigma=math.radians(20))
+    material.rough_spectra.illuminant = "A"
+    shader = next(node for node in tree.nodes if node.type.startswith("BSDF"))
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], shader.inputs[0])
+    assert OPS.import_samples("EXEC_DEFAULT", **options, sigma=math.radians(30)) == {"FINISHED"}
+    assert texture_scale.node_of(shader.inputs[0]) is not None
+    assert material.rough_spectra.illuminant == "A"
+    assert math.degrees(material.rough_spectra.sigma) == pytest.approx(30, abs=1e-5)
+    assert own(folder) == ["two/plaster", "two/chalk"]
 
 
 def test_a_spectrum_without_a_color_makes_no_material_and_leaves_none(folder, tmp_path):
@@ -261,7 +283,9 @@ def test_import_verb_prints_ids_and_warns(main, folder, two, noisy, tmp_path):
     result = main("import", two, noisy, "--folder", tmp_path / "other")
     assert result.status == 0
     assert result.out.splitlines() == ["two/plaster", "two/chalk", "noisy/dark"]
-    warning, summary = result.err.splitlines()
+    unsaid = "The file does not say the geometry; 45°a:0° is assumed."
+    *assumed, warning, summary = result.err.splitlines()
+    assert assumed == [f"warning: {path}: {unsaid}" for path in (two, noisy)], "once a file"
     assert warning.startswith(f"warning: {noisy}: 'dark' is below 0 in one band")
     assert summary.startswith("3 samples added to the library")
     assert set(contents(tmp_path / "other")) == {"two.json", "noisy.json", ".lock"}
@@ -283,7 +307,7 @@ def test_import_verb_adds_nothing_when_a_file_is_unusable(main, folder, two, bro
     assert own(folder) == ["mine/plaster", "mine/chalk"]
     result = main("import", two, "--collection", "a/b")
     assert result.status == 2
-    assert "'a-b'" in result.sentence
+    assert "'a-b'" in result.err.splitlines()[-1]
 
 
 def test_a_shared_library_file_is_imported_as_any_other(main, folder, two, tmp_path):

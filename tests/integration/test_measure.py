@@ -2,8 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measuring a material in place: real renders, and a note that knows when it is out of date."""
 
+import json
+
 import bpy
 import pytest
+from rough_spectra.addon.blender import shader_nodes, texture_colors
+from rough_spectra.addon.instrument import measure
+from rough_spectra.addon.interface.panels import sentences, text
 from rough_spectra.addon.material import last_measurement
 
 from tests.integration.support import rgb_material
@@ -34,6 +39,50 @@ def test_the_reading_stands_beside_the_prediction_until_something_changes():
     assert not last_measurement.get(material).current
     material.rough_spectra.measured = '{"of": 3}'
     assert last_measurement.get(material) is None
+
+
+def test_what_a_flat_sample_lacks_is_told_wherever_it_is_measured(main, tmp_path):
+    """A color attribute reads as black there: the panel, the terminal and the JSON say so."""
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/14-green")
+    tree = material.node_tree
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    paint = tree.nodes.new("ShaderNodeVertexColor")
+    paint.layer_name = "Paint"
+    tree.links.new(paint.outputs["Color"], node.inputs["Color"])
+    lacks = "flat sample has no 'Paint' (Color Attribute); Measure Here, or bake --object"
+    assert OPS.measure("EXEC_DEFAULT") == {"FINISHED"}
+    found = last_measurement.get(material)
+    [said] = found.unlike
+    assert lacks in said
+    style = sentences.style(text.Format(400, False, 1.0, 11.0))
+    shown = sentences.measurement(None, found, style)
+    assert lacks in " ".join(line for each in shown for line, _ in each)
+    result = main("bake", "--material", "Wall", "--output", str(tmp_path / "wall"))
+    assert f"material 'Wall': a {lacks}" in result.err
+    [reading] = json.loads((tmp_path / "wall.json").read_text(encoding="utf-8"))["readings"]
+    assert any(lacks in warning for warning in reading["warnings"])
+    assert reading["measured"]["rgb"] == [0, 0, 0]
+
+
+def test_what_is_animated_is_seen_as_at_the_frame_of_the_scene():
+    """The second Blender showed its first frame, and read what nobody saw."""
+    material = rgb_material("Wall")
+    tree = material.node_tree
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    source = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    tree.links.new(source, node.inputs["Color"])
+    for frame, value in ((1, 0.1), (11, 0.2), (12, 0.4)):
+        source.default_value = (value, value, value, 1)
+        source.keyframe_insert("default_value", frame=frame)
+    for curve in shader_nodes.curves(tree.animation_data):
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    bpy.context.scene.frame_set(11, subframe=0.5)
+    assert measure.measure([material])[0, 0, 0] == pytest.approx([0.3] * 3, abs=1e-5)
+    [colors] = texture_colors.seen([node.inputs["Color"]])
+    assert colors == pytest.approx(0.3, abs=1e-5)
 
 
 def test_a_material_without_a_spectrum_is_measured_too():

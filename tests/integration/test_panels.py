@@ -13,9 +13,11 @@ import sys
 import types
 
 import bpy
+import numpy as np
 import pytest
+from rough_spectra.addon.blender import texture_colors
 from rough_spectra.addon.interface.panels import menus, panels, sentences, text
-from rough_spectra.addon.material import last_measurement, snapshot, storage
+from rough_spectra.addon.material import derive, last_measurement, snapshot, storage
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
 
@@ -195,6 +197,23 @@ def test_the_difference_is_of_what_the_node_holds_now(green):
     assert page[page.index(f"Predicted: ΔE00 {at_instrument:.2f}, visible") + 1].startswith("Meas")
     OPS.renew("EXEC_DEFAULT")
     assert "45°/0°: ΔE00 0.00, not visible" in drawn()
+
+
+def test_what_is_found_of_a_texture_is_said(green, monkeypatch):
+    """The box ended with the sentence that there is no one color to compare."""
+    colors = np.random.default_rng(1).uniform(0.05, 0.5, (400, 3))
+    monkeypatch.setattr(texture_colors, "seen", lambda sockets: [colors for _ in sockets])
+    tree = green.node_tree
+    node = next(node for node in tree.nodes if node.type == "BSDF_DIFFUSE")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], node.inputs["Color"])
+    [solution] = derive.renew([green])
+    page = " ".join(drawn())
+    assert len(solution.warnings) > 0
+    assert all(note in page for note in solution.warnings)
+    assert "its mean reads as the sample; its points are ΔE00 " in page
+    green.rough_spectra.illuminant = "A"
+    node.inputs["Roughness"].default_value = 0.123
+    assert "its mean reads" not in " ".join(drawn())  # edited by hand
 
 
 def test_what_is_said_of_the_instrument_follows_the_menu(green):

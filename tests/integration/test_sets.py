@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon.interface.operators import assign_file, import_review
 from rough_spectra.addon.interface.operators.library import matching_samples
+from rough_spectra.addon.material import storage
 from rough_spectra.addon.samples import gloss_of_set, importing, library, readers, sets
 from rough_spectra.addon.samples.sample import Sample
 
@@ -51,6 +52,21 @@ def test_every_reading_is_judged(path):
     assert not any("specular light included" in sentence for sentence in found.sentences)
     assert any("follows from its name" in sentence for sentence in found.sentences)
     assert import_review._about(found).endswith("2 readings")
+
+
+def test_materials_of_a_file_have_the_gloss_that_a_chosen_sample_brings(path):
+    """Of the same file, one way gave a shine and the other none."""
+    options = {"filepath": str(path), "add_to_library": False, "materials": "CREATE"}
+    bpy.ops.rough_spectra.import_samples("EXEC_DEFAULT", **options)
+    thing = bpy.data.objects.new("Wall", bpy.data.meshes.new("Wall"))
+    bpy.context.scene.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    bpy.ops.rough_spectra.assign_file("EXEC_DEFAULT", filepath=str(path), sample="Board")
+    chosen = storage.shown_gloss(thing.active_material)
+    assert chosen.level > 0.1
+    assert storage.shown_gloss(bpy.data.materials["Board"]) == chosen
+    assert storage.own_gloss(bpy.data.materials["Board"]) == chosen
+    assert storage.shown_gloss(bpy.data.materials["Tile"]).level > 0.1
 
 
 def test_gloss_is_derived_and_told(path):

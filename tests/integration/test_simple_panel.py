@@ -305,11 +305,20 @@ def test_renew_is_enabled_only_when_it_can_succeed():
     assert enabled_of(closed(), "rough_spectra.renew") == "enabled: False"  # not known yet
     renewal._work()
     assert enabled_of(closed(), "rough_spectra.renew") == "enabled: True"
-    node.inputs["Color"].driver_add("default_value", 0)
-    renewal._answers.clear()
+    tree = node.id_data
+    mix, output = tree.nodes.new("ShaderNodeMixShader"), tree.get_output_node("CYCLES")
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
     closed()
     renewal._work()
     assert enabled_of(closed(), "rough_spectra.renew") == "enabled: False"
+    with pytest.raises(RuntimeError, match="which Rough Spectra cannot set"):
+        OPS.renew()
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    node.inputs["Color"].driver_add("default_value", 0)
+    closed()
+    renewal._work()
+    buttons = [entry[0] for entry in closed() if isinstance(entry, tuple)]
+    assert "rough_spectra.renew" not in buttons
     with pytest.raises(RuntimeError, match="is animated or driven"):
         OPS.renew()
     # A driver changes no fact of the panel's, so that it is asked again after a while.
@@ -506,3 +515,67 @@ def test_what_cannot_be_written_is_refused_by_every_operator_alike(tmp_path):
         assert not OPS.keep.poll()
         assert not OPS.set_roughness.poll()
         assert OPS.make_local.poll()
+
+
+def keyed():
+    """An animation that brings another color, so that renewing is asked for and refused."""
+    edited()
+    shader(bpy.data.materials["Wall"]).inputs["Color"].keyframe_insert("default_value", frame=1)
+
+
+def driven():
+    edited()
+    shader(bpy.data.materials["Wall"]).inputs["Roughness"].driver_add("default_value")
+
+
+def rough_by_a_node():
+    tree = wall().node_tree
+    value = tree.nodes.new("ShaderNodeValue")
+    tree.links.new(value.outputs[0], shader(bpy.data.materials["Wall"]).inputs["Roughness"])
+
+
+OBSTACLES = {
+    "keyed": (keyed, "off: edited by hand", ("CLEAR", "Color"), "off: edited by hand"),
+    "driven": (driven, "off: edited by hand", ("CLEAR", "Roughness"), "off: edited by hand"),
+    "rough by a node": (
+        *(rough_by_a_node, "off: roughness is linked"),
+        *(("UNLINK", "Roughness"), "right: looks right"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", OBSTACLES)
+def test_a_remedy_takes_the_place_of_a_renewal_that_would_fail(name):
+    make, words, wanted, afterwards = OBSTACLES[name]
+    make()
+    closed()
+    renewal._work()
+    told, remedy = judged()
+    assert told == words
+    assert remedy[0] == "rough_spectra.remove_obstacle"
+    assert (remedy[1].kind, remedy[1].socket) == wanted
+    apply(remedy)
+    renewal._answers.clear()
+    told, remedy = judged()
+    assert told == afterwards
+    if remedy is not None:
+        apply(remedy)
+        assert judged()[0] == "right: looks right"
+
+
+def test_details_offer_what_their_sentence_names():
+    metallic()
+    node = shader(bpy.data.materials["Wall"])
+    node.inputs["Sheen Weight"].default_value = 0.5
+    for name in ("Metallic", "Sheen Weight"):
+        renewal._answers.clear()
+        drawn()
+        renewal._work()
+        page = drawn()
+        assert f"{name} is in use" in " ".join(page)
+        assert f"rough_spectra.remove_obstacle: Set {name} to 0" in page
+        assert judged()[1][0] == "rough_spectra.measure"
+        done = OPS.remove_obstacle("EXEC_DEFAULT", kind="NEUTRAL", socket=name)
+        assert done == {"FINISHED"}
+    assert not any("remove_obstacle" in text for text in drawn())
+    assert judged()[0] == "right: looks right"

@@ -6,7 +6,9 @@ import bpy
 import pytest
 from rough_spectra.addon.support.openimageio import openimageio
 
-from tests.integration.support import rgb_material
+from tests.integration.support import ROOT, rgb_material
+
+LAMP = ROOT / "tests" / "fixtures" / "spdx" / "lamp.spdx"
 
 
 @pytest.fixture
@@ -39,15 +41,17 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
         "--samples",
         "2",
         "--light",
-        "World=F11",
+        f"World={LAMP}",
+        "--spectral",
+        target.with_name("room.spectral.exr"),
     )
     result = main("spectral", *words)
     assert result.status == 0, result.err
     assert "Material 'Plain': a spectrum for its RGB, by three spectra" in result.err
-    assert "World 'World': CIE F11" in result.err
+    assert "World 'World': measured: lamp.spdx" in result.err
     assert "3 bands (" in result.err
     assert "the RGB picture is off by ΔE00" in result.err
-    assert "wrote room.exr, room-delta-e.exr" in result.err
+    assert "wrote room.exr, room-delta-e.exr, room.spectral.exr" in result.err
     for name, channels in (("room.exr", "RGBA"), ("room-delta-e.exr", "Y")):
         file = openimageio().ImageInput.open(str(target.with_name(name)))
         spec = file.spec()
@@ -64,6 +68,7 @@ def test_a_picture_and_its_map(blend, tmp_path, main):
         (("--light", "World=F99"), "'F99' is neither a file nor"),
         (("--scene", "Nowhere"), "There is no scene 'Nowhere'"),
         (("-o", "room.png"), "is no EXR by its name"),
+        (("--spectral", "room.exr"), "no spectral image by its name"),
     ],
 )
 def test_what_is_refused_before_rendering(words, sentence, blend, tmp_path, main):
@@ -71,3 +76,12 @@ def test_what_is_refused_before_rendering(words, sentence, blend, tmp_path, main
     assert result.status == 2
     assert sentence in result.err
     assert not (tmp_path / "room.exr").exists()
+
+
+def test_a_farm_renders_pictures_of_its_scenes(blend, tmp_path, main):
+    words = f"spectral --output {tmp_path}/out/{{name}}.exr --bands 3 --samples 1 --no-comparison"
+    result = main("job", "--files", blend.parent, "--", words)
+    assert result.status == 0, result.err
+    file = openimageio().ImageInput.open(str(tmp_path / "out" / "scene.exr"))
+    assert (file.spec().width, file.spec().height) == (12, 8)
+    file.close()

@@ -98,3 +98,24 @@ def test_the_scale_of_a_texture_is_removed(monkeypatch):
     assert "Rough Spectra Scale" not in tree.nodes
     assert shader.inputs[0].links[0].from_node.type == "TEX_NOISE"
     assert OPS.remove_scale("EXEC_DEFAULT") == {"CANCELLED"}
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 0, 0), reason="Blender has no wider working space")
+def test_a_wider_space_looks_at_textures_in_the_background(monkeypatch):
+    """An image has other colors there; the window stood still while somebody looked."""
+    from rough_spectra.addon import api
+    from rough_spectra.addon.blender import texture_colors, working_space
+    from rough_spectra.addon.material import state
+
+    monkeypatch.setattr(texture_colors, "seen", lambda sockets: [np.full((9, 3), 0.4)])
+    material = bpy.data.materials.new("Wall")
+    tree = material.node_tree
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], shader.inputs[0])
+    api.assign([(material, api.find("everyday/brick"))])
+    seen = []
+    monkeypatch.setattr(texture_colors, "seen", seen.append)
+    assert OPS.use_wide_gamut("EXEC_DEFAULT") == {"FINISHED"}
+    assert seen == []
+    assert working_space.working_space_name() == "ACEScg"
+    assert state.state(material).kind == "fresh"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from rough_spectra.addon.blender import background_job
+from rough_spectra.addon.blender import second_blender
 from rough_spectra.addon.instrument import measure, worker
 
 from tests.integration.conftest import START
@@ -122,7 +122,7 @@ def sprung(traps, script, monkeypatch):
     """Measure with a worker, and name the scripts that ran there."""
     materials, marks = traps
     command = [sys.executable, "-P", "-c", TRUSTING, str(script)]
-    monkeypatch.setattr(background_job, "_blender", lambda _worker: command)
+    monkeypatch.setattr(second_blender, "_blender", lambda _worker: command)
     values = measure.measure(materials)
     assert values.shape == (1, 2, 2, 3)
     return {name for name, mark in marks.items() if mark.exists()}

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure what the panel costs: first use, drawing among 500 materials, and dragging σ.
+"""Measure what the panel costs: first use, drawing among 500 materials, dragging σ and gloss.
 
-    python -m tools.benchmarks.bench_panel
+    python -m tools.benchmarks.bench_panel [--gloss]
+
+With --gloss, gloss alone.
 
 Needs the bpy module. Processor time, which other programs disturb less than wall time; the least
 and the median of many runs. Drawing goes onto a layout that does nothing, so that what is measured
@@ -12,6 +14,7 @@ beside each group stands what a fixed piece of plain Python took then.
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import statistics
 import time
@@ -40,6 +43,9 @@ class Nothing:
 
 def main() -> None:
     """Print a table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--gloss", action="store_true", help="drag the gloss alone")
+    options = parser.parse_args()
     extension = load_extension()
     import bpy
 
@@ -52,10 +58,15 @@ def main() -> None:
     row("first assignment", [first])
     material = thing.active_material
     row("first pictures", [timed(lambda: pictures(material, 1))])
+    if options.gloss:
+        shining(thing)
+        pace()
+        return
     drawing(thing)
     for model in models:
         dragging(material, model)
     others(material)
+    shining(thing)
     pace()
     print(bpy.ops.rough_spectra.analyze_scene("EXEC_DEFAULT"), "to the scene's lights")
     for model in models:
@@ -201,6 +212,51 @@ def dragging(material: Any, model: str, what: str = "", scales: Sequence[int] = 
 
         times = [timed(partial(drag, 0.1 + 1.3 * i / STEPS)) for i in range(STEPS)]
         row(f"drag σ, {what}{model}, scale {scale}", times[1:])
+
+
+def shining(thing: Any) -> None:
+    """Drag the gloss of Principled BSDFs, as sockets: the color below follows.
+
+    An update of the depsgraph is counted, too, of which Blender tells what was changed.
+    """
+    import bpy
+    from rough_spectra.addon.blender import surface
+    from rough_spectra.addon.matching.request import Request
+    from rough_spectra.addon.material import derive as assigning
+    from rough_spectra.addon.preview import icons
+    from rough_spectra.addon.samples import presets
+
+    before = thing.active_material
+    update = bpy.context.view_layer.update
+    material = bpy.data.materials.new("Shining")
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    thing.active_material = material
+    node = surface.shader_node(material)
+    node.inputs["Coat Weight"].default_value = 1.0
+    for preset, read_at in (
+        ("colorchecker/19-white-9-5", "45a:0"),
+        ("everyday/brick", "45a:0"),
+        ("everyday/brick", "45as-15"),
+        ("everyday/brick", "di:8"),
+    ):
+        assigning.assign([(material, Request(presets.load(preset), 0.35, read_at=read_at))])
+        for name in ("Roughness", "Specular IOR Level", "Coat Weight"):
+            kept = node.inputs[name].default_value
+            update()
+            icons.clear()
+            pictures(material, 2)
+
+            def drag(value: float, socket: Any = node.inputs[name]) -> None:
+                for picture in icons._pictures.values():
+                    picture.drawn = time.monotonic()
+                socket.default_value = value
+                update()
+
+            times = [timed(partial(drag, 0.1 + 0.8 * i / STEPS)) for i in range(STEPS)]
+            row(f"drag {name}, {preset.partition('/')[2]}, {read_at}", times[1:])
+            node.inputs[name].default_value = kept
+    thing.active_material = before
 
 
 def pace() -> None:

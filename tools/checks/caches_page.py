@@ -21,6 +21,7 @@ NO_FUNCTIONS = {
     "addon.preview.balls._rows": "spectrum and settings without σ, working space, side",
     "addon.preview.drawing.lines._kept": "points, width, dash, box, size",
     "addon.preview.icons._pictures": "material, figure, side; snapshot, look",
+    "addon.preview.list_icons._balls": "color, σ, gloss, side",
     "addon.samples.library._contents": "folder; names, sizes, times of its files",
     "addon.samples.library._files": "path; size, time",
 }

@@ -13,7 +13,10 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-from collections.abc import Mapping
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 
@@ -92,3 +95,79 @@ def run(tasks: list[dict[str, Any]], variables: Mapping[str, str]) -> list[int]:
 
 def _filled(word: str, variables: Mapping[str, str]) -> str:
     return re.sub(r"{(\w+)}", lambda found: variables.get(found[1], found[0]), word)
+
+
+class Manager:
+    """What a manager answers over HTTP, and the jobs that it was given.
+
+    Its job types are scripts; a job is taken if it has what the manager's schema `SubmittedJob`
+    asks for and settings that its type declares.
+    """
+
+    def __init__(self, scripts: Mapping[str, Path]) -> None:
+        self.scripts = scripts
+        self.jobs: list[dict[str, Any]] = []
+        self.asked: list[str] = []
+
+    def answer(self, path: str, job: dict[str, Any] | None) -> tuple[int, dict[str, Any]]:
+        """Give status and content of an answer."""
+        self.asked.append(path)
+        kind = path.removeprefix("/api/v3/jobs/type/")
+        if path == "/api/v3/version":
+            return 200, {"name": "Flamenco", "version": "3.7", "shortversion": "3.7"}
+        if kind in self.scripts:
+            return 200, {"name": kind, "etag": "one", "settings": []}
+        if path != "/api/v3/jobs" or job is None:
+            return 404, {"code": 404, "message": "no such thing"}
+        fault = self._fault(job)
+        if fault:
+            return 400, {"code": 400, "message": fault}
+        self.jobs.append(job)
+        return 200, {**job, "id": f"job-{len(self.jobs)}", "status": "queued"}
+
+    def _fault(self, job: dict[str, Any]) -> str:
+        needed = {"name": str, "type": str, "priority": int, "submitter_platform": str}
+        for key, kind in needed.items():
+            if not isinstance(job.get(key), kind):
+                return f"{key} is missing or of another type"
+        if job["type"] not in self.scripts:
+            return "job type unknown"
+        if job.get("type_etag", "one") != "one":
+            return "the job type was changed"
+        declared = re.findall(r'key: "(\w+)"', self.scripts[job["type"]].read_text("utf-8"))
+        unknown = job.get("settings", {}).keys() - set(declared)
+        return f"unknown settings {sorted(unknown)}" if unknown else ""
+
+
+@contextmanager
+def serving(manager: Manager) -> Iterator[str]:
+    """Serve a manager on a port of this machine; gives its address."""
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self._send(*manager.answer(self.path, None))
+
+        def do_POST(self) -> None:
+            length = int(self.headers["Content-Length"])
+            self._send(*manager.answer(self.path, json.loads(self.rfile.read(length))))
+
+        def _send(self, status: int, content: dict[str, Any]) -> None:
+            data = json.dumps(content).encode()
+            self.send_response(status)
+            self.send_header("Content-Type", "application/json")
+            self.send_header("Content-Length", str(len(data)))
+            self.end_headers()
+            self.wfile.write(data)
+
+        def log_message(self, *_: Any) -> None:
+            """Print nothing."""
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_address[1]}"
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()

@@ -33,7 +33,8 @@ ITSELF = (sys.executable, "-m", "tools.checks.fuzz")
 
 LONGEST = 64 * 1024
 _EACH = 16  # tracemalloc makes reading several times slower, so one input in so many is weighed
-_BESIDE = {"usgs": "usgs/*Wavelengths*"}  # files that a reader looks for in the folder of its own
+# Files that a reader looks for in the folder of its own, and how they have to be called.
+_BESIDE = {"usgs": ("usgs/*Wavelengths*", ""), "envi_library": ("envi_library/*.sli", "fuzzed.sli")}
 _MOST_WORDS = 2000  # of a dictionary
 
 
@@ -99,8 +100,9 @@ def _start(name: str, seeds: list[Path], seconds: int) -> subprocess.Popen[bytes
     (folder / "found").mkdir(exist_ok=True)
     for i, seed in enumerate(seeds):
         (corpus / f"seed-{i}-{seed.name}").write_bytes(seed.read_bytes())
-    for beside in FIXTURES.glob(_BESIDE[name]) if name in _BESIDE else ():
-        (folder / beside.name).write_bytes(beside.read_bytes())
+    pattern, called = _BESIDE.get(name, ("", ""))
+    for beside in FIXTURES.glob(pattern) if pattern else ():
+        (folder / (called or beside.name)).write_bytes(beside.read_bytes())
     words = _dictionary([seed.read_bytes() for seed in seeds])
     (folder / "words").write_text(words, encoding="ascii")
     with (folder / "log").open("wb") as log:

@@ -23,7 +23,11 @@ bpy.utils.expose_bundled_modules()
 
 import numpy as np  # noqa: E402
 
-from tools.manual import palette_png, screenshots_states  # noqa: E402
+from tools.manual import (  # noqa: E402
+    palette_png,
+    screenshots_readings,  # noqa: F401, it registers its states
+    screenshots_states,
+)
 
 ZIP, OUT, SCALE, WIDTH, THEME, GRAB, *NAMES = sys.argv[sys.argv.index("--") + 1 :]
 SETTLE_SECONDS = 1.5
@@ -134,7 +138,9 @@ def _cut(path: Path, part: str, window: Any) -> None:
         # Below the sidebar's panels a grid shows through.
         pixels = _panel(_within(pixels, region, window), 24, 3 * CONTRAST)
     elif part == "dialog":
-        pixels = _dialog(_within(pixels, wide, window))
+        pixels = _dialog(_within(pixels, wide, window), 4, 0)
+    elif part == "nodes":
+        pixels = _dialog(_within(pixels, wide, window), 40, 12)
     elif part == "status":
         below = min(area.y for area in window.screen.areas)
         pixels = pixels[window.height - below :, : round(STATUS_PIXELS * float(SCALE))]
@@ -159,10 +165,14 @@ def _panel(pixels: Any, left: int, contrast: int) -> Any:
     return pixels[: min(len(pixels), int(busy.max()) + 8 + round(12 * float(SCALE)))]
 
 
-def _dialog(pixels: Any) -> Any:
-    """Cut what is around the dialog in the empty text editor."""
+def _dialog(pixels: Any, left: int, around: int) -> Any:
+    """Cut what is around the dialog in the empty text editor; a wide one begins near the left.
+
+    `around` are pixels that stay on each side.
+    """
     margin = round(40 * float(SCALE))
-    pixels = pixels[margin:-margin, 4:-margin]  # a wide dialog begins near the left
+    pixels = pixels[margin:-margin, left:-margin]
     shown = np.abs(pixels.astype(int) - pixels[0, 0]).max(axis=-1) > 2
     rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
-    return pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    top, first = max(rows[0] - around, 0), max(columns[0] - around, 0)
+    return pixels[top : rows[-1] + 1 + around, first : columns[-1] + 1 + around]

@@ -44,7 +44,8 @@ class Picture:
     show
         Puts the window into the state.
     part
-        "panel", "sidebar", "dialog", "status", "preferences", "view" or "window": what is saved.
+        "panel", "sidebar", "dialog", "nodes", "status", "preferences", "view" or "window": what is
+        saved.
     ready
         Whether what takes its time is there.
     """
@@ -274,14 +275,33 @@ def not_derived() -> None:
 
 
 @picture("panel")
+def driven() -> None:
+    """Show a driver that keeps the color from being renewed, and the button that clears it."""
+    socket = _color_socket(_assigned())
+    socket.default_value = (0.4, 0.08, 0.08, 1)
+    socket.driver_add("default_value", 3)
+    open_details()
+
+
+@picture("panel")
+def metallic() -> None:
+    """Show metal that keeps the color from being predicted, and the buttons for it."""
+    material = _assigned()
+    material.rough_spectra.shader = "PRINCIPLED"
+    node = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Metallic"].default_value = 0.5
+    open_details()
+
+
+@picture("panel")
 def linked() -> None:
     """Show a material of another file."""
     material = _assigned()
-    path = str(_folder() / "library.blend")
+    path, name = str(_folder() / "library.blend"), material.name
     bpy.data.libraries.write(path, {material}, fake_user=True)
     thing = _fresh()
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
-        wanted.materials = ["Wall"]
+        wanted.materials = [name]
     thing.data.materials.append(wanted.materials[0])
 
 
@@ -410,6 +430,7 @@ def _is_measured_here() -> bool:
 def measured_here() -> None:
     """Show what was read of a spot on a surface."""
     _assigned()
+    open_details()
     above = {"origin": (0.3, 0.2, 5.0), "direction": (0.0, 0.0, -1.0)}
     _press("rough_spectra.measure_here", **above)
 

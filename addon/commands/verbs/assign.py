@@ -133,13 +133,14 @@ def run(options: argparse.Namespace) -> int:
     from ....core.instruments import spoken
     from ...blender.blend_file import destination, save
     from ...samples import stated_white
-    from .. import mapping
+    from .. import mapping, reader_notes
     from ..progress import counted
     from ..result import add
 
     destination(options.output)  # before the work that could not be saved
     assignments = mapping.pair(mapping.rows(options), options)
     solutions = mapping.assign(assignments, options.gloss)
+    reader_notes.tell_notes(each.request.sample for each in assignments)
     for each, solution in zip(assignments, solutions, strict=True):
         if remark := stated_white.remark(each.request.sample):
             inform(f"note: material {each.material.name!r}: {remark}")

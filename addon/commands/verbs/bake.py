@@ -249,6 +249,27 @@ def measure(
     progress = ProgressLine("measuring", count=len(mine))
     try:
         gloss = getattr(options, "gloss", False)
-        return api.bake(mine, with_measurement, progress, options.read_at, gloss)
+        result = api.bake(mine, with_measurement, progress, options.read_at, gloss)
     finally:
         progress.close()
+    if with_measurement:
+        _tell_unseen(mine, result)
+    return result
+
+
+def _tell_unseen(surfaces: Sequence[Any], result: Readings) -> None:
+    """Say what was not seen as the object shows it; the document has it among its warnings."""
+    from ...instrument import unseen
+    from ...instrument.spot import Spot
+
+    told: dict[str, None] = {}
+    for surface in surfaces:
+        if not isinstance(surface, Spot):
+            _, material = surface
+            for sentence in unseen.on_flat_samples(material):
+                told[f"material {material.name!r}: {sentence}"] = None
+    for entry in result.entries:
+        for sentence in entry.warnings if entry.spot is not None else ():
+            told[f"{entry.surface!r}, {entry.material!r}: {sentence}"] = None
+    for sentence in told:
+        tell(f"rough_spectra: {sentence}")

@@ -8,6 +8,7 @@ import argparse
 from pathlib import Path
 
 from ...support.shown_text import inform, tell
+from ..arguments import add_repeatability
 
 NAME = "estimate"
 SUMMARY = "estimate the roughness σ of surfaces from readings"
@@ -52,14 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=estimate.MODEL,
         help="the model that σ is estimated in; the others tell what it leaves open",
     )
-    parser.add_argument(
-        "--repeatability",
-        type=float,
-        default=100 * estimate.RELATIVE,
-        metavar="PERCENT",
-        help="standard deviation of repeated readings, percent of the reading; "
-        f"{100 * estimate.RELATIVE:g} without it, and {100 * estimate.ABSOLUTE:g} of white besides",
-    )
+    add_repeatability(parser)
     parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="the table, CSV")
 
 
@@ -69,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     from ....core.estimate import ABSOLUTE
     from ...matching import roughness
     from ...support import atomic_files
-    from .. import estimation
+    from .. import estimation, reader_notes
     from ..result import add
 
     target = atomic_files.check_target(options.output)
@@ -82,6 +76,7 @@ def run(options: argparse.Namespace) -> int:
             msg = f"Surface {surface.name!r}: {error}"
             raise DomainError(msg) from error
         found.append((surface, estimate))
+    reader_notes.tell_notes(sample for surface, _ in found for *_, sample in surface.samples)
     with atomic_files.publication() as files:
         files.write(target, estimation.table(found, relative, ABSOLUTE))
     for surface, estimate in found:

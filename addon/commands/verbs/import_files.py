@@ -47,9 +47,9 @@ def run(options: argparse.Namespace) -> int:
     if batch.refused and not options.keep_going:
         raise InputError(batch.refused[0])
     found = importing.relative_to(batch.found, options.white, options.white_factor)
-    for each in found:
-        for sentence in each.sentences:
-            tell(f"warning: {each.path}: {sentence}")
+    told = ((each.path, sentence) for each in found for sentence in each.sentences)
+    for path, sentence in dict.fromkeys(told):  # what is so of all samples of a file is said once
+        tell(f"warning: {path}: {sentence}")
     folder = options.folder or preferences.user_folder()
     added = importing.add(found, options.collection, folder) if found else []
     for each_added in added:

@@ -59,6 +59,7 @@ STEPS = (
     "addon.matching.assess",
     "addon.matching.own_gloss",
     "addon.preview.icons",
+    "addon.preview.list_icons",
     "addon.preview.figures.compose",
     "addon.preview.data",
     "addon.preview.sample_ball",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Choose a sample by name, with its color beside it, from presets and library."""
+"""Choose a sample by name, with a picture beside it, from presets and library."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ _is_partial = False
 """Whether only the presets are in the list."""
 
 _UNKNOWN = "NONE"
+_CHART = "colorchecker"
 
 
 def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int, int]]:
@@ -38,22 +39,31 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int
 
 def _fill() -> None:
     global _is_partial
-    from ...preview import icons
+    from ...preview import list_icons
+    from ...samples import preset_index
 
-    entries, _is_partial = _entries()
+    found, _is_partial = _entries()
+    # Things to make walls of before patches of a chart. Yours come last: they are added while the
+    # list is open, and what is in it keeps its number.
+    entries = sorted(found, key=lambda each: (not each.is_preset, each.collection == _CHART))
     _before[:] = _items
-    gray = (0.5, 0.5, 0.5)
-    swatches = icons.swatch_icons([entry.swatch or gray for entry in entries])
+    glosses = preset_index.glosses_of_presets()
+    pictures = list_icons.icon_ids(
+        [
+            list_icons.Pictured(each.swatch, each.sigma_degrees or 0.0, glosses.get(each.id))
+            for each in entries
+        ]
+    )
     count = Counter(entry.name for entry in entries)
     _items[:] = [
         (
             entry.id,
             entry.name if count[entry.name] == 1 else f"{entry.name} ({entry.collection})",
             _about(entry),
-            swatch,
+            picture,
             number,
         )
-        for number, (entry, swatch) in enumerate(zip(entries, swatches, strict=True))
+        for number, (entry, picture) in enumerate(zip(entries, pictures, strict=True))
     ] or [(_UNKNOWN, "No Samples", "Install the extension again", 0, 0)]
 
 

@@ -312,21 +312,19 @@ def aim(context: Any, scope: str) -> Aim:
     return Aim(materials, bare, makes)
 
 
-def assign_in_scope(
-    context: Any, scope: str, request: Request, shader: str
-) -> list[tuple[Any, Solution]]:
-    """Assign one request to all materials in scope, or to none; see `assign_sample`."""
-    return _assign(aim(context, scope), lambda _material: (request, shader), request.sample)
-
-
 def assign_sample(
-    operator: Any, aimed: Aim, sample: Sample, looked: Looked | None = None
+    operator: Any,
+    aimed: Aim,
+    sample: Sample,
+    looked: Looked | None = None,
+    sigma: float | None = None,
 ) -> list[tuple[Any, Solution]]:
     """Assign a sample by an operator's `AssignOptions`, to all that is meant or to nothing.
 
     Each material keeps its light, model, tolerance, shader and gloss, unless the operator was told
     otherwise, and its roughness if the user set it. An object without a material gets one that is
-    called as the sample; several share it. `looked` is as of `derive.assign`.
+    called as the sample; several share it. `looked` is as of `derive.assign`; `sigma`, radians,
+    counts instead of the operator's.
 
     Returns
     -------
@@ -338,7 +336,8 @@ def assign_sample(
         If it cannot be done; nothing was changed then.
     """
     told = operator.properties.is_property_set
-    sigma = operator.sigma if told("sigma") else None
+    if sigma is None and told("sigma"):
+        sigma = operator.sigma
 
     def wanted(material: Any | None) -> tuple[Request, str]:
         request, shader = replacing_request(material, sample, sigma)
@@ -388,19 +387,20 @@ def _assign(
 def _glosses(materials: Sequence[Any], sample: Sample) -> list[Gloss | None]:
     """Give the gloss that each material gets with a sample, or None: it stays as it is.
 
-    That of the sample, unless the user set one. One that an earlier sample brought goes with it.
+    That of the sample, unless the user set one. What a new node has goes where the sample says that
+    it is matte, and what an earlier sample brought goes with that.
     """
     from ....core.gloss import Gloss
     from ...matching import own_gloss
     from ...material import storage
 
-    own = own_gloss.of_sample(sample)
+    own, is_stated = own_gloss.of_sample(sample), own_gloss.is_stated(sample)
     matte = Gloss(level=0.0)
     found: list[Gloss | None] = []
     for material in materials:
         if storage.is_gloss_set(material):
             found.append(None)
-        elif own is None and storage.own_gloss(material) is not None:
+        elif own is None and (is_stated or storage.own_gloss(material) is not None):
             found.append(matte)
         else:
             found.append(own)

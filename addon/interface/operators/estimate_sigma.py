@@ -200,7 +200,8 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
                 raise DomainError(found.reason)
             sample = replace(request.sample, sigma_source=roughness.source(found, pairs))
             wanted = replace(request, sample=sample, sigma=found.sigma)
-            solutions = derive.assign([(material, wanted)], material.rough_spectra.shader)
+            shader = material.rough_spectra.shader
+            solutions = derive.assign([(material, wanted)], shader, look_again=False)
         except RoughSpectraError as error:
             common.report_error(self, error)
             return {"CANCELLED"}

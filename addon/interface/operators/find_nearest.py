@@ -34,6 +34,8 @@ _PICTURE = 7.0
 """Height and width of the highlighted match's picture, in heights of a button."""
 _CHARACTERS, _CHARACTERS_BESIDE = 75, 52
 """Of a sentence in a line of the dialog, and beside the names of properties."""
+_CHARACTERS_OF_NAME = 40
+"""Of a match in the list, beside its ΔE00."""
 _LABELS = 0.4
 """Share of the width that these have."""
 
@@ -69,8 +71,16 @@ class ROUGHSPECTRA_UL_matches(bpy.types.UIList):
         row = layout.row(align=True)
         common.draw_swatch(row, item)
         split = row.split(factor=0.75)
-        split.label(text=f"{item.name}  ({item.sample.partition('/')[0]})", translate=False)
+        split.label(text=_told(item), translate=False)
         split.label(text=f"ΔE00 {item.difference:.1f}", translate=False)
+
+
+def _told(item: Any) -> str:
+    """Name a match with its collection, or leave out last words: Blender cuts within one."""
+    whole = f"{item.name} ({item.sample.partition('/')[0]})"
+    if len(whole) <= _CHARACTERS_OF_NAME:
+        return whole
+    return textwrap.shorten(item.name, _CHARACTERS_OF_NAME, placeholder="…")
 
 
 def _find(operator: Any, context: Any) -> None:

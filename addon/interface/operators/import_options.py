@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from math import radians
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 if TYPE_CHECKING:
     from ...matching.solution import Solution
@@ -29,7 +30,7 @@ MATERIALS_ITEMS = (
 )
 
 
-class ImportOptions(common.WhiteOptions, common.AssignOptions):
+class ImportOptions(looking.LooksFirst, common.WhiteOptions, common.AssignOptions):
     """What to do with the samples of measurement files."""
 
     add_to_library: BoolProperty(
@@ -46,6 +47,47 @@ class ImportOptions(common.WhiteOptions, common.AssignOptions):
         name="Materials", description="What to make of the samples", items=MATERIALS_ITEMS
     )
 
+    def carry_out(self, context: Any, chosen: Sequence[Found], active: Found) -> set[str]:
+        """Do with samples what the options say, and report it; `active` is what is assigned."""
+        self._chosen, self._active = chosen, active
+        return looking.LooksFirst.execute(self, context)
+
+    def work(self, context: Any) -> looking.Work:
+        """Add to the library and make or set materials; nothing where looking is stopped."""
+        from ...samples import importing
+
+        white = common.stated_white(self)
+        active, *chosen = importing.relative_to((self._active, *self._chosen), *white)
+        tell = partial(_tell, self, chosen)
+        assigning = None
+        if self.materials == "ASSIGN":
+            sigma = _sigma(self, active.sample)
+            assigning = looking.assignment(self, context, active.sample, tell, sigma)
+
+        def act(materials: Sequence[Any], looked: Mapping[Any, Any]) -> str:
+            said, made = self._add(chosen) if self.add_to_library else "", ""
+            try:
+                if assigning is not None:
+                    made = assigning.act(materials, looked)
+                elif self.materials == "CREATE":
+                    made = tell(_create(self, _colored(self, chosen)))
+            except RoughSpectraError as error:
+                if not said:
+                    raise
+                msg = f"{error} Nonetheless, {said}."
+                raise RoughSpectraError(msg) from error
+            return "; ".join(filter(None, (said, made))) or rpt_("Nothing was asked for")
+
+        nothing = looking.Work((), None, act)
+        return nothing if assigning is None else assigning._replace(act=act)
+
+    def _add(self, chosen: Sequence[Found]) -> str:
+        from ...material import preferences
+        from ...samples import importing
+
+        collection = self.collection or (importing.common_name(chosen) if self.together else "")
+        return importing.summary(importing.add(chosen, collection, preferences.user_folder()))
+
 
 @contextmanager
 def waiting(context: Any) -> Iterator[None]:
@@ -60,30 +102,8 @@ def waiting(context: Any) -> Iterator[None]:
         context.window.cursor_set("DEFAULT")
 
 
-def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Found) -> set[str]:
-    """Do with samples what the operator's `ImportOptions` say, and report it."""
-    from ...material import preferences
-    from ...samples import importing
-
-    said = ""
-    assigned: list[tuple[Any, Solution]] = []
-    try:
-        white = common.stated_white(operator)
-        active, *chosen = importing.relative_to((active, *chosen), *white)
-        if operator.add_to_library:
-            collection = operator.collection or (
-                importing.common_name(chosen) if operator.together else ""
-            )
-            added = importing.add(chosen, collection, preferences.user_folder())
-            said = importing.summary(added)
-        if operator.materials == "ASSIGN":
-            request = common.new_request(active.sample, _sigma(operator, active.sample))
-            assigned = common.assign_in_scope(context, operator.scope, request, operator.shader)
-        elif operator.materials == "CREATE":
-            assigned = _create(operator, _colored(operator, chosen))
-    except RoughSpectraError as error:
-        common.report_error(operator, f"{error} Nonetheless, {said}." if said else error)
-        return {"CANCELLED"}
+def _tell(operator: Any, chosen: Sequence[Found], assigned: Sequence[tuple[Any, Solution]]) -> str:
+    """Report what is to be known of the materials; gives the sentence on which there are."""
     seen = {sentence for each in chosen for sentence in each.sentences}
     for material, solution in assigned:
         for warning in solution.warnings:
@@ -92,10 +112,7 @@ def carry_out(operator: Any, context: Any, chosen: Sequence[Found], active: Foun
     names = ", ".join(material.name for material, _ in assigned[:3])
     if len(assigned) > 3:
         names = rpt_("{} and {} more").format(names, len(assigned) - 3)
-    made = rpt_("assigned to {}").format(names) if assigned else ""
-    told = "; ".join(filter(None, (said, made))) or rpt_("Nothing was asked for")
-    operator.report({"INFO"}, told)
-    return {"FINISHED"}
+    return rpt_("assigned to {}").format(names)
 
 
 def _sigma(operator: Any, sample: Sample) -> float:
@@ -116,15 +133,23 @@ def _colored(operator: Any, chosen: Sequence[Found]) -> list[Found]:
 
 def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
-    from ...material import derive
+    from ...matching import own_gloss
+    from ...material import derive, storage
 
     requests = [common.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
-    materials = [shader_nodes.new_material(each.sample.name) for each in chosen]
+    glosses = [own_gloss.of_sample(each.sample) for each in chosen]
+    materials = [
+        shader_nodes.new_material(each.sample.name, gloss is not None)
+        for each, gloss in zip(chosen, glosses, strict=True)
+    ]
+    pairs = list(zip(materials, requests, strict=True))
     try:
-        solutions = derive.assign(list(zip(materials, requests, strict=True)), operator.shader)
+        solutions = derive.assign(pairs, operator.shader, glosses=glosses)
     except RoughSpectraError:
         bpy.data.batch_remove(materials)
         raise
-    for material in materials:
+    for material, gloss in zip(materials, glosses, strict=True):
+        if gloss is not None:
+            storage.note_own_gloss(material, storage.shown_gloss(material))
         material.use_fake_user = True  # nothing uses it yet, and it is to be saved
     return list(zip(materials, solutions, strict=True))

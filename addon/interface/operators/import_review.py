@@ -19,7 +19,7 @@ from bpy.props import (
 
 from ...material.properties import title
 from . import common
-from .import_options import ImportOptions, carry_out
+from .import_options import ImportOptions
 
 if TYPE_CHECKING:
     from ...samples.importing import Batch, Found
@@ -164,7 +164,7 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
             return {"CANCELLED"}
         at = min(max(self.index, 0), len(found) - 1)
         active = found[at] if self.items[at].chosen else chosen[0]
-        return carry_out(self, context, chosen, active)
+        return self.carry_out(context, chosen, active)
 
 
 def present(batch: Batch, **options: Any) -> None:

@@ -13,7 +13,7 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from ...samples.endings import endings
 from . import common
-from .import_options import ImportOptions, carry_out, waiting
+from .import_options import ImportOptions, waiting
 
 if TYPE_CHECKING:
     from ...samples.importing import Batch
@@ -84,14 +84,15 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             return {"CANCELLED"}
         if asks:
             return self._review(batch)
-        said = [*batch.refused, *(sentence for each in batch.found for sentence in each.sentences)]
+        told = (sentence for each in batch.found for sentence in each.sentences)
+        said = [*batch.refused, *dict.fromkeys(told)]
         for sentence in said[:_MOST_SENTENCES]:
             self.report({"WARNING"}, sentence)
         if len(said) > _MOST_SENTENCES:
             self.report(
                 {"WARNING"}, rpt_("{} more such sentences").format(len(said) - _MOST_SENTENCES)
             )
-        return carry_out(self, context, batch.found, batch.found[0])
+        return self.carry_out(context, batch.found, batch.found[0])
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files."""
@@ -116,8 +117,10 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
     def _review(self, batch: Batch) -> set[str]:
         from . import import_review
 
+        told = self.properties.is_property_set("shader")
         import_review.present(
             batch,
+            **({"shader": self.shader} if told else {}),  # or each material keeps its own
             add_to_library=self.add_to_library,
             collection=self.collection,
             together=self.together,
@@ -126,7 +129,6 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             white=self.white,
             plaque=self.plaque,
             white_factor=self.white_factor,
-            shader=self.shader,
             scope=self.scope,
         )
         return {"CANCELLED"}  # nothing was done yet

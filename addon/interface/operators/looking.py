@@ -48,6 +48,7 @@ def assignment(
     context: Any,
     sample: Sample,
     tell: Callable[[list[tuple[Any, Solution]]], str] | None = None,
+    sigma: float | None = None,
 ) -> Work:
     """Say how to assign a sample by an operator's `AssignOptions`, to all that is meant or nothing.
 
@@ -59,6 +60,8 @@ def assignment(
         A measured one.
     tell
         Says in one sentence what was assigned; None for the usual one.
+    sigma
+        Radians, as of `common.assign_sample`.
 
     Raises
     ------
@@ -74,7 +77,7 @@ def assignment(
         there = {thing.session_uid: thing for thing in bpy.data.objects}
         still = [there[uid] for uid in bare if uid in there]
         now = aimed._replace(materials=list(materials), bare=still)
-        assigned = common.assign_sample(operator, now, sample, looked)
+        assigned = common.assign_sample(operator, now, sample, looked, sigma)
         return common.told_of(operator, assigned, sample) if tell is None else tell(assigned)
 
     return Work(aimed.materials, operator.shader if told else None, act)

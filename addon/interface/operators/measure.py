@@ -58,8 +58,9 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
         from ...material import last_measurement
 
         materials = common.materials_in_scope(context, self.scope)
-        for material in materials:
-            for sentence in unseen.on_flat_samples(material):
+        self._unlike = [unseen.on_flat_samples(material) for material in materials]
+        for material, sentences in zip(materials, self._unlike, strict=True):
+            for sentence in sentences:
                 self.report({"WARNING"}, f"{material.name}: {sentence}")
         surfaces = [("", material) for material in materials]
         self._prepared = bake.prepare(surfaces)
@@ -82,13 +83,14 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
             )
         ]
         present = {material.session_uid: material for material in bpy.data.materials}
-        rows = zip(entries, self._ids, self._states, self._predicted, strict=True)
-        for entry, uid, state, predicted in rows:
+        kept = (self._ids, self._states, self._predicted, self._unlike)
+        for entry, uid, state, predicted, unlike in zip(entries, *kept, strict=True):
             material = present.get(uid)
             if material is not None and material.is_editable and entry.measured is not None:
                 last_measurement.note(
                     *(material, state, entry.measured.rgb, entry.delta_e_00, predicted),
                     entry.instrument,
+                    unlike=unlike,
                 )
         for entry in entries:
             if entry.fault:

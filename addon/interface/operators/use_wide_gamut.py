@@ -4,22 +4,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ....core.errors import RoughSpectraError
-from . import common
+from . import common, looking
 
 
-class ROUGHSPECTRA_OT_use_wide_gamut(bpy.types.Operator):
+class ROUGHSPECTRA_OT_use_wide_gamut(looking.LooksFirst, bpy.types.Operator):
     """Let this file work in ACEScg, which holds more colors, and derive all materials anew"""
 
     bl_idname = "rough_spectra.use_wide_gamut"
     bl_label = "Use ACEScg"
     bl_options = {"REGISTER", "UNDO"}
     menu_place = 2, 8
+
+    stopped = "Looking at textures was stopped; their materials are to be renewed"
 
     @classmethod
     def poll(cls, _context: Any) -> bool:
@@ -32,27 +34,41 @@ class ROUGHSPECTRA_OT_use_wide_gamut(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, _context: Any) -> set[str]:
+    def execute(self, context: Any) -> set[str]:
         """Switch, and renew what was up to date: its color follows, and nothing else does."""
-        from ...material import derive, selection, state, verdict
+        from ...material import selection, state, verdict
 
-        followed = [m for m in selection.with_spectrum() if state.state(m).kind == "fresh"]
+        self._followed = [m for m in selection.with_spectrum() if state.state(m).kind == "fresh"]
         done = bpy.ops.wm.set_working_color_space(
             convert_colors=True, working_space=verdict.WIDE_SPACE
         )
         if "FINISHED" not in done:
             return {"CANCELLED"}
-        try:
-            materials, left = derive.renewable(followed)
-            solutions = derive.renew(materials)
-        except RoughSpectraError as error:
-            common.report_error(self, error)
-            return {"FINISHED"}  # the space was changed, and undo takes that back
-        for sentence in left:
-            self.report({"WARNING"}, sentence)
-        common.report_warnings(self, zip(materials, solutions, strict=True))
-        self.report({"INFO"}, rpt_("{} materials renewed").format(len(materials)))
-        return {"FINISHED"}
+        return _switched(super().execute(context))
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """Watch the second Blender that looks at textures in the new space."""
+        return _switched(super().modal(context, event))
+
+    def work(self, _context: Any) -> looking.Work:
+        """Renew what followed."""
+        from ...material import derive
+
+        able, left = derive.renewable(self._followed)
+
+        def act(materials: Sequence[Any], looked: Mapping[Any, Any]) -> str:
+            solutions = derive.renew(materials, looked)
+            for sentence in left:
+                self.report({"WARNING"}, sentence)
+            common.report_warnings(self, zip(materials, solutions, strict=True))
+            return rpt_("{} materials renewed").format(len(materials))
+
+        return looking.Work(able, None, act)
+
+
+def _switched(status: set[str]) -> set[str]:
+    """Say that something was done even where nothing was renewed: undo takes the space back."""
+    return {"FINISHED"} if status == {"CANCELLED"} else status
 
 
 classes = (ROUGHSPECTRA_OT_use_wide_gamut,)

@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ....core import limits, white_scale
 from ...material import derivation, settled
 from ..operators import common
-from . import redraw, renewal, sentences, text
+from . import obstacle, redraw, renewal, sentences, text
 from .icon_values import icon_value
 
 _LABELS = 0.4
@@ -95,6 +95,7 @@ def _draw_state(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -
     against = renewal.reason_against(shown.uid, shown.facts)
     if against:
         text.draw(box, sentences.refused(against, here.style))
+        obstacle.draw(box, here, shown)
     row = box.row(align=True) if here.format.width() >= _NARROWEST else box.column(align=True)
     if shown.facts.surface is not None and shown.facts.surface.muted:
         row.operator("rough_spectra.unmute")

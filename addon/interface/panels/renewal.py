@@ -10,10 +10,11 @@ the numbers.
 from __future__ import annotations
 
 import time
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import bpy
 
+from ....core.errors import RoughSpectraError
 from ....core.numerics.memoized import kept
 from ...material.snapshot import Snapshot
 from ...preview import icons
@@ -24,11 +25,15 @@ _LASTS = 1.0
 
 
 class _Answer(NamedTuple):
-    """What was found of a material, of which facts, and when; why it cannot be, if it can't."""
+    """What was found of a material, of which facts, and when; why it cannot be, if it can't.
+
+    `obstacle` is the kind and the socket of an `obstacles.SocketError`, if that is why.
+    """
 
     found: Snapshot
     when: float
     reason: str
+    obstacle: tuple[str, str] | None
 
 
 _answers: dict[int, _Answer] = kept(__name__, "_answers")
@@ -60,6 +65,27 @@ def reason_against(uid: int, found: Snapshot) -> str | None:
     return answer.reason if known and answer is not None else None
 
 
+def obstacle(uid: int, found: Snapshot) -> tuple[str, str] | None:
+    """Give the socket that is in the way and how it is freed, as far as `reason_against` knows.
+
+    Parameters as there, which is to be asked before.
+    """
+    answer = _answers.get(uid)
+    return answer.obstacle if answer is not None and answer.found == found else None
+
+
+def _obstacle(material: Any) -> tuple[str, str] | None:
+    from ...blender import obstacles, shader_nodes
+
+    try:
+        shader_nodes.find(material, material.rough_spectra.shader)
+    except obstacles.SocketError as fault:
+        return fault.kind, fault.socket
+    except RoughSpectraError:
+        pass  # why stands beside the numbers
+    return None
+
+
 def _work() -> None:
     from ...material import derive, snapshot
 
@@ -69,7 +95,9 @@ def _work() -> None:
             continue
         found, before = snapshot.of(material), _answers.get(material.session_uid)
         _, reasons = derive.renewable([material])
-        answer = _Answer(found, time.monotonic(), reasons[0] if reasons else "")
+        fault = _obstacle(material) if reasons else None
+        answer = _Answer(found, time.monotonic(), reasons[0] if reasons else "", fault)
+        # The obstacle goes with the reason.
         changed |= before is None or before[::2] != answer[::2]
         _answers[material.session_uid] = answer
     _asked.clear()

@@ -105,6 +105,18 @@ def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
 
 
 @memoized(maxsize=_KEPT)
+def remarks(found: Snapshot, how: Style, details: str = "") -> tuple[Sentence, ...]:
+    """Say what was found of a fresh material that has no numbers, as of a texture that was scaled.
+
+    `details` is as of `difference`.
+    """
+    last = state.evaluate(found).stamp
+    notes = _details(details)[1]
+    told = () if last is None else (each for each in last.warnings if each not in notes)
+    return tuple(how.format.sentence(text, "INFO") for text in told)
+
+
+@memoized(maxsize=_KEPT)
 def numbers(apart: verdict.Numbers, read_at: str, beside: bool, how: Style) -> tuple[Sentence, ...]:
     """Tell how far Blender is from the target, beside the swatches or below them.
 
@@ -163,6 +175,7 @@ def measurement(
         told.append((_difference(iface_("95 % of the spot below"), found.spread), "BLANK1"))
     if not found.current:
         told.append((iface_("Measured before the last change; measure again"), "ERROR"))
+    told += [(f"{sentence[:1].upper()}{sentence[1:]}", "ERROR") for sentence in found.unlike]
     return tuple(how.format.sentence(text, icon) for text, icon in told)
 
 

@@ -17,7 +17,7 @@ from ....core.limits import MATCHED_SIGMA_DEGREES
 from ...material import roughness_words, verdict
 from ...preview import balls
 from ..operators import common
-from . import redraw, renewal, sentences, text
+from . import obstacle, redraw, renewal, sentences, text
 from .icon_values import icon_value
 
 _PICTURE_UNITS = 4.4
@@ -168,7 +168,10 @@ def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial)
     row = row.row()
     told = here.format.fitting(texts)
     if found.remedy == "renew":
-        row.enabled = renewal.reason_against(shown.uid, shown.facts) == ""
+        against = renewal.reason_against(shown.uid, shown.facts)
+        if against and obstacle.draw(row, here, shown):
+            return
+        row.enabled = against == ""
     button = row.operator(name, text=told, translate=False)
     if found.remedy in {"renew", "matte", "measure"}:
         button.scope = "ACTIVE"

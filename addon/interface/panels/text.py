@@ -16,7 +16,7 @@ _FONT = 0  # the interface's
 _MARGINS = 36.0  # panel and scroll bar, pixels at UI scale 1
 _ICON = 28.0
 _TABS = 20.0  # beside the panels of a sidebar
-_WITH_TABS = {"NODE_EDITOR", "VIEW_3D"}
+_WITH_TABS = {"NODE_EDITOR", "VIEW_3D", "IMAGE_EDITOR"}
 _LEAST = 60.0
 _LINE = 0.8
 """Height of a line, in heights of a button."""

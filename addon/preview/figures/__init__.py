@@ -16,10 +16,10 @@ from .angles import (
     angles_polar,
     polar_place,
 )
-from .ball import ball
+from .ball import ball, balls
 from .sigma_range import sigma_range
 from .spectrum import SHOWN_NM, spectrum, spectrum_axes
-from .swatches import swatch, swatch_pair, swatches
+from .swatches import swatch_pair
 
 __all__ = [
     "LIGHT_ANGLE",
@@ -29,11 +29,10 @@ __all__ = [
     "angles_axes",
     "angles_polar",
     "ball",
+    "balls",
     "polar_place",
     "sigma_range",
     "spectrum",
     "spectrum_axes",
-    "swatch",
     "swatch_pair",
-    "swatches",
 ]

@@ -72,15 +72,26 @@ def ball(
     -------
     A canvas, transparent around the ball.
     """
+    return np.asarray(balls(side, color[np.newaxis], roughness, to_screen, gloss)[0])
+
+
+def balls(
+    side: int, colors: Array, roughness: float, to_screen: Array, gloss: Gloss | None = None
+) -> Array:
+    """Draw balls that differ in color alone, (balls, 3): canvases (balls, side, side, 4).
+
+    Other parameters as with `ball`.
+    """
     seen = _of_size(side)
-    shown = cycles.reflected(color, cycles.lobe(np.asarray(roughness, float), *seen.directions))
+    terms = cycles.lobe(np.asarray(roughness, float), *seen.directions)
+    shown = cycles.reflected(colors[:, np.newaxis], terms)
     if gloss is not None:
         shown = gloss_lobe.layer(gloss, *seen.angles).over(shown)
-    image = np.ones((*seen.lit.shape, 4), np.float32)
+    image = np.ones((len(colors), *seen.lit.shape, 4), np.float32)
     image[..., :3] = 0
-    image[seen.lit, :3] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
+    image[:, seen.lit, :3] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
     if seen.step > 1:
-        image = image.repeat(seen.step, axis=0).repeat(seen.step, axis=1)[:side, :side]
+        image = image.repeat(seen.step, axis=1).repeat(seen.step, axis=2)[:, :side, :side]
     return raster.encoded(image * seen.coverage[..., np.newaxis])
 
 

@@ -1,11 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plain colors: the pair of target and Blender, and icons for lists."""
+"""Plain colors: the pair of target and Blender."""
 
 from __future__ import annotations
-
-import numpy as np
-import numpy.typing as npt
 
 from ....core.numerics.arrays import Array
 from ....core.numerics.memoized import memoized
@@ -66,18 +63,3 @@ def _mark_corner(canvas: Array, x: int, side: int, color: Color, look: Look) -> 
     ink = black if contrast(black, color) > contrast(white, color) else white
     reach = round(9 * look.scale)
     raster.polygon(canvas, [[(x, 0), (x + side * reach, 0), (x, reach)]], ink)
-
-
-def swatch(color: Color, size: int, look: Look) -> Array:
-    """Show one color, display-encoded, as an icon for lists: with a thin frame."""
-    [found] = swatches([color], size, look)
-    return np.asarray(found)
-
-
-def swatches(colors: npt.ArrayLike, size: int, look: Look) -> Array:
-    """Show many colors, (colors, 3), each as in `swatch`: shape (colors, size, size, 4)."""
-    wanted = raster.encoded(colors).reshape(-1, 3)
-    canvas = raster.blank(size, size)
-    raster.frame(canvas, (0, 0, size, size), look.grid, max(1, round(look.scale)))
-    opaque = np.concatenate((wanted, np.full((len(wanted), 1), 255, np.uint8)), axis=1)
-    return np.where(canvas[..., 3:], canvas, opaque[:, np.newaxis, np.newaxis])

@@ -11,6 +11,7 @@ A format is one module of `formats/`, and nothing else has to know of it:
     def read(document: Document) -> list[Sample]    raises InputError, nothing else
     REGIONS = True                                  only where it reads `Document.region`
     SETS = True                                     only where files say what belongs together
+    def emission(document: Document)                only where it reads light, see `light_source`
 
 What several formats share is in `parts/`.
 """
@@ -25,7 +26,7 @@ from ....core.numerics.memoized import memoized
 from ...support import discovery
 from ..sample import Sample
 from . import formats
-from .parts import joining
+from .parts import joining, unsaid
 from .parts.document import Document, open_document
 
 __all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
@@ -71,7 +72,9 @@ def read(
             samples = reader.read(document)
             if not samples:
                 raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
-            return samples if getattr(reader, "SETS", False) else joining.joined(samples)
+            if getattr(reader, "SETS", False):
+                return samples
+            return joining.joined([unsaid.told(sample) for sample in samples])
     raise _unrecognized(document)
 
 

@@ -37,13 +37,15 @@ def draw(layout: Any, context: Any) -> None:
     if here.shown is None:
         return
     shown = here.shown
+    material: Any = common.active_material(context)
+    details = material.rough_spectra.details
     if shown.obstacle is not None:
         text.draw(layout, sentences.obstacle(shown.obstacle, here.style))
+        if shown.state.kind == "fresh":
+            text.draw(layout, sentences.remarks(shown.facts, here.style, details))
         return
     apart = _draw_swatches(layout, here, shown)
     if shown.state.kind == "fresh":
-        material: Any = common.active_material(context)
-        details = material.rough_spectra.details
         text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
         _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:

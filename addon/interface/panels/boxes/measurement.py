@@ -28,6 +28,7 @@ def poll(context: Any) -> bool:
 
 def draw(layout: Any, context: Any) -> None:
     """Offer to measure, and show the last measurement beside the prediction."""
+    from ....material import preferences
     from .. import redraw
     from ..icon_values import icon_value
 
@@ -40,6 +41,8 @@ def draw(layout: Any, context: Any) -> None:
     if here.shown is not None:
         _draw_measured(layout, context, here, here.shown)
     layout.operator("rough_spectra.bake", icon_value=icon_value("EXPORT"))
+    if preferences.flamenco_manager():
+        layout.operator("rough_spectra.submit_to_flamenco", icon_value=icon_value("URL"))
 
 
 def _draw_measured(

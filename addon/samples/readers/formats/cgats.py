@@ -94,6 +94,27 @@ def read(document: Document) -> list[Sample]:
     return samples
 
 
+def emission(document: Document) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what a lamp sends: nanometers, and power on the file's scale.
+
+    Raises
+    ------
+    InputError
+        The tables are damaged, or do not hold one spectrum that they call an emission.
+    """
+    found = []
+    for table in cgats_tables.tables(document):
+        columns = cgats_columns.find(document, table)
+        if not (columns.spectra and cgats_words.is_light(table)):
+            continue
+        for _, nm, values in _columns(_numbers(document, table, columns)):
+            found += [(nm if nm.ndim == 1 else nm[row], each) for row, each in enumerate(values)]
+    if len(found) != 1:
+        held = "no spectrum" if not found else f"{len(found)} spectra"
+        raise document.error("", f"it holds {held} of light; give a file with one")
+    return found[0]
+
+
 def _no_spectra(document: Document, tables: bool) -> Exception:
     what = "no spectral data" if tables else "no table with data"
     return document.error("", f"this CGATS file has {what}; export the spectra of the samples")
@@ -202,16 +223,7 @@ def _scaled(
 
     Whatever is wrong with them is said here, where the columns have names.
     """
-    start = 0
-    for spectrum in one.columns.spectra:
-        size = len(spectrum.columns)
-        nm = spectrum.wavelengths
-        if nm is None:
-            nm = one.block.values[:, start : start + size].copy()
-            start += size
-        values = one.block.values[:, start : start + size] / spectrum.scale
-        start += size
-        nm.flags.writeable = values.flags.writeable = False
+    for spectrum, nm, values in _columns(one):
         labels = [one.fields[i] for i in spectrum.columns]
         calm = (values.min(axis=1) >= 0.0) & (values.max(axis=1) <= 1.0) if values.size else []
         for row, line in enumerate(one.block.lines):
@@ -223,6 +235,21 @@ def _scaled(
                     f"{document.path}, line {line}",
                     lambda band: f"column {quote(labels[band])}",  # noqa: B023
                 )
+        yield spectrum, nm, values
+
+
+def _columns(one: _Read) -> Iterator[tuple[Spectrum, NDArray[np.float64], NDArray[np.float64]]]:
+    """Return the same, unchecked."""
+    start = 0
+    for spectrum in one.columns.spectra:
+        size = len(spectrum.columns)
+        nm = spectrum.wavelengths
+        if nm is None:
+            nm = one.block.values[:, start : start + size].copy()
+            start += size
+        values = one.block.values[:, start : start + size] / spectrum.scale
+        start += size
+        nm.flags.writeable = values.flags.writeable = False
         yield spectrum, nm, values
 
 

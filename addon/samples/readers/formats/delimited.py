@@ -14,6 +14,7 @@ import re
 
 from ...sample import Sample
 from ..parts import (
+    goniometer_tables,
     label_words,
     long_tables,
     table_start,
@@ -78,6 +79,9 @@ def read(document: Document) -> list[Sample]:
     while len(header) > 1 and not header[-1]:
         header.pop()  # a delimiter at the end of each line
     tables.check_columns(document, top[0].line, len(header))
+    if goniometer_tables.is_goniometer(header):
+        next(table)
+        return goniometer_tables.read(document, said, fields, header, top[0].line, table)
     if len(top) > 1 and long_tables.is_long(header, top[1].fields):
         next(table)
         return long_tables.read(document, said, fields, header, top[0].line, table)

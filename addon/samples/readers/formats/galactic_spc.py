@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import BRIGHTEST, Sample
-from ..parts import geometry_words, series
+from ..parts import geometry_words, series, statements
 from ..parts.document import Document, plain
 
 NAME = "Galactic SPC file"
@@ -97,7 +97,12 @@ def read(document: Document) -> list[Sample]:
     header = _header(document.data)
     is_percent = _says_percent(document, header)
     comment = plain(document.data[_COMMENT].partition(b"\0")[0].decode("latin-1"))
-    instrument, assumed = geometry_words.instrument_of("")
+    # The notes on the geometry come last, as they do of other formats.
+    measured = statements.finish(statements.measured_by([("", comment)]))
+    assumed = measured.pop("notes", ())
+    if "instrument" not in measured:
+        measured["instrument"], note = geometry_words.instrument_of("")
+        assumed = (*assumed, note)
     samples = []
     for number, (along, values) in enumerate(_spectra(document, header), start=1):
         place = f"spectrum {number}" if header.spectra > 1 else ""
@@ -113,10 +118,10 @@ def read(document: Document) -> list[Sample]:
                 wavelengths=found.wavelengths,
                 values=found.values,
                 kind="reading",
-                instrument=instrument,
+                **measured,
                 source=str(document.path),
                 position=place,
-                notes=(*notes, assumed),
+                notes=(*notes, *assumed),
                 altered=found.altered,
             )
         )

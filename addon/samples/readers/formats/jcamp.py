@@ -14,14 +14,15 @@ import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import Sample
-from ..parts import label_words, series, tables
+from ..parts import label_words, series, statements, tables
 from ..parts.document import Document, quote
-from ..parts.geometry_words import instrument_of, specular_of
+from ..parts.geometry_words import instrument_of, is_geometry, specular_of
 from ..parts.jcamp_ordinates import Ordinates, Pairs
 
 NAME = "JCAMP-DX"
@@ -82,7 +83,9 @@ def _blocks(document: Document) -> Iterator[_Block]:
     table: Ordinates | Pairs | None = None
     label = ""
     for number, line in enumerate(tables.lines(document), start=1):
-        text = line.partition("$$")[0]
+        text, _, remark = line.partition("$$")
+        if remark and len(remark) < 1000 and block.texts:
+            block.texts["$$"] = f"{block.texts.get('$$', '')} {remark.strip()}"[:1000]
         record = _LABEL.match(text.lstrip()) if "##" in text else None
         if record is None:
             if table is not None:
@@ -160,7 +163,18 @@ def _sample(document: Document, block: _Block, notes: list[str]) -> Sample:
     where = f"{document.path}, line {block.line}"
     found = series.bands(nm, y, where, lambda band: f"line {at(band)}")
     geometry = block.texts.get("SAMPLINGPROCEDURE", "")
-    instrument, note = instrument_of(geometry)
+    specular = specular_of(geometry)
+    device = block.texts.get("SPECTROMETER", "") or block.texts.get("SPECTROMETERDATASYSTEM", "")
+    said: dict[str, Any] = {}
+    if not is_geometry(geometry):  # other labels, remarks and the device's name may say it
+        texts = {key: text for key, text in block.texts.items() if key not in _TABLES}
+        said = statements.measured_by(((key.lstrip("$"), text) for key, text in texts.items()))
+    if said.keys() & statements.GEOMETRIES or (said.get("device") and not geometry):
+        known = statements.finish({"device": device, **said})
+        geometry, specular = known.get("geometry", geometry), known.get("specular", specular)
+        instrument, note = known["instrument"], " ".join(known.get("notes", ()))
+    else:
+        instrument, note = instrument_of(geometry)
     return Sample(
         name=block.texts.get("TITLE", "") or document.path.stem,
         wavelengths=found.wavelengths,
@@ -168,10 +182,10 @@ def _sample(document: Document, block: _Block, notes: list[str]) -> Sample:
         kind="reading",
         instrument=instrument,
         geometry=geometry,
-        specular=specular_of(geometry),
+        specular=specular,
         source=str(document.path),
         position=f"line {block.line}",
-        device=block.texts.get("SPECTROMETER", "") or block.texts.get("SPECTROMETERDATASYSTEM", ""),
+        device=device,
         notes=tuple([*notes, note] if note else notes),
         altered=found.altered,
     )

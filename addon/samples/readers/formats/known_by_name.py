@@ -47,7 +47,6 @@ _KNOWN: tuple[tuple[bytes, bytes, str, str], ...] = (
     ),
     (b"MATLAB 5.0 MAT-file", b"", "a MATLAB file", "export the spectra as CSV"),
     (b"SIMPLE  =", b"", "a FITS file", "export the spectra as CSV"),
-    (b"tensor_file\0", b"", "a measured BRDF (RGL .bsdf)", "export the directions wanted as CSV"),
     (b"%PDF-", b"", "a PDF document", "export the numbers as CSV"),
     (b"SQLite format 3\0", b"", "a database (SQLite)", "export the spectra as CSV or CxF3"),
 )

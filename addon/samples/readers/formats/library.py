@@ -16,9 +16,7 @@ written again.
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
-import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -31,6 +29,7 @@ from .....core.errors import InputError
 from .....core.instruments import REGISTRY
 from ...sample import KINDS, KINDS_NAMED, Sample, check_spectrum
 from ...stated_sigma import FIELDS, StatedSigma
+from ..parts import json_object
 from ..parts.document import Document, quote
 
 NAME = "Rough Spectra library"
@@ -43,19 +42,15 @@ SCHEMA = 1
 
 _CHARACTERS_A_BRACKET = 12
 """A file with more brackets than one in so many characters is no library: a sample has three in a
-hundred. Small objects take up to 25 times their text in memory."""
+hundred."""
 
 _Grids = dict[tuple[float, ...], np.ndarray]
 """Wavelengths that samples share."""
 
-_STRING = re.compile(r'"[^"\\]*+(?:\\.[^"\\]*+)*+\\?(?:"|\Z)', re.DOTALL)
-"""A string of JSON, or one that is not closed; never looks at a character twice."""
-
 
 def sniff(document: Document) -> bool:
     """Return whether the head is of a JSON object that names this format."""
-    head = document.json_head
-    return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
+    return json_object.names(document, FORMAT)
 
 
 def read(document: Document) -> list[Sample]:
@@ -77,21 +72,10 @@ def parse(document: Document) -> dict[str, Any]:
     InputError
         The file is no JSON, no library, or of a newer schema.
     """
-    text = document.json_text
-    if _brackets(text) > (most := 8 + len(text) // _CHARACTERS_A_BRACKET) and (
-        _brackets(_STRING.sub("", text)) > most  # names may have as many as they like
-    ):
+    if json_object.has_too_many_brackets(document.json_text, _CHARACTERS_A_BRACKET):
         raise document.error("", f"it is no {NAME}: it has more brackets than samples have")
-    try:
-        fields = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise document.error(
-            f"line {error.lineno}", f"the JSON is broken ({error.msg}); correct it"
-        ) from None
-    except (ValueError, RecursionError):
-        # An integer of thousands of digits, or thousands of brackets inside each other.
-        raise document.error("", "the JSON is too deep or has a number too long") from None
-    if not isinstance(fields, dict) or fields.get("format") != FORMAT:
+    fields = json_object.parse(document)
+    if fields.get("format") != FORMAT:
         raise document.error("", f"it is no {NAME}; its 'format' must be {FORMAT!r}")
     schema = fields.get("schema")
     if type(schema) is not int or schema < 1:
@@ -290,10 +274,6 @@ def _stated_sigma(document: Document, place: str, fields: dict[str, Any]) -> Sta
     if fault:
         raise document.error(place, fault)
     return sigma
-
-
-def _brackets(text: str) -> int:
-    return text.count("{") + text.count("[")
 
 
 def _is_number(value: Any) -> bool:

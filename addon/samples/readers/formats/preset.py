@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from ...sample import Sample, check_spectrum
 from ...stated_white import fields as white_fields
+from ..parts import json_object
 from ..parts.document import Document
 from ..parts.preset_fields import FORMAT, faults, stated_sigma
 
@@ -25,8 +25,7 @@ _OPTIONAL = (
 
 def sniff(document: Document) -> bool:
     """Return whether the head is of a JSON object that names this format."""
-    head = document.json_head
-    return head.lstrip().startswith("{") and f'"{FORMAT}"' in head
+    return json_object.names(document, FORMAT)
 
 
 def read(document: Document) -> list[Sample]:
@@ -90,15 +89,4 @@ def fields_of(document: Document) -> dict[str, Any]:
     InputError
         The file is not JSON, or no object.
     """
-    try:
-        fields = json.loads(document.json_text)
-    except json.JSONDecodeError as error:
-        raise document.error(
-            f"line {error.lineno}", f"the JSON is broken ({error.msg}); correct it"
-        ) from None
-    except (ValueError, RecursionError):
-        # An integer of thousands of digits, or thousands of brackets inside each other.
-        raise document.error("", "the JSON is too deep or has a number too long") from None
-    if not isinstance(fields, dict):
-        raise document.error("line 1", "the JSON is not an object; begin it with '{'")
-    return fields
+    return json_object.parse(document)

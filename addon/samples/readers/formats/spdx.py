@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """IES TM-27-14 spectra (``.spdx``), an XML format.
 
-Most such files hold the light of a lamp. Its quantities ``reflectance`` and ``R-Factor`` are read,
-as fractions; all others are refused by name.
+Most such files hold the light of a lamp, which `emission` reads. As samples its quantities
+``reflectance`` and ``R-Factor`` are read, as fractions; all others are refused by name.
 
 Source: IES TM-27-14, "IES Standard Format for the Electronic Transfer of Spectral Data".
 """
@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...sample import Sample, check_spectrum
 from ..parts import band_order, geometry_words
@@ -48,6 +49,8 @@ _REFUSED = {
     "t-factor": "transmittance",
     "absorptance": "absorptance",
 }
+_LIGHT = {"flux", "intensity", "irradiance", "radiance", "exitance", "relative"}
+"""Quantities of light."""
 
 
 @dataclass
@@ -115,6 +118,26 @@ def read(document: Document) -> list[Sample]:
             )
         )
     return samples
+
+
+def emission(document: Document) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what a lamp sends: nanometers, and power on the file's scale.
+
+    Raises
+    ------
+    InputError
+        As `read`, but for quantities of light, of which there has to be one.
+    """
+    _, distributions = _parse(document)
+    stated = [found.texts.get("SpectralQuantity", "").lower() for found in distributions]
+    light = [number for number, quantity in enumerate(stated) if quantity in _LIGHT]
+    if len(light) != 1:
+        held = "no spectrum" if not light else f"{len(light)} spectra"
+        raise document.error("", f"it holds {held} of light; give a file with one")
+    found = distributions[light[0]]
+    nm, power = np.array(found.nm), np.array(found.values)
+    order, _ = band_order.in_order(nm)
+    return nm[order], power[order]
 
 
 def _bandwidth(texts: dict[str, str]) -> tuple[str, ...]:

@@ -105,6 +105,31 @@ def read(document: Document) -> list[Sample]:
     ]
 
 
+def emission(document: Document) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the mean of emitted light over the document's region: nanometers, and radiance.
+
+    Raises
+    ------
+    InputError
+        The image cannot be read, has no channels of emitted light, or the region is not within it.
+    """
+    image = exr_header.open_image(document)
+    bands: dict[int, float] = {}
+    for index, channel in enumerate(image.channels):
+        found = spectral_channels.parse(channel.name)
+        # Others are of its polarization.
+        if found is not None and found.emits and not found.bispectral and "S0." in channel.name:
+            bands[index] = found.nm
+    if not bands:
+        raise document.error(
+            "", "the image has no channels of light such as 'S0.400,000000nm'; save them with it"
+        )
+    mean, _ = _mean(image, list(bands), _region(document, image))
+    nm = np.array(list(bands.values()))
+    order, _ = band_order.in_order(nm)
+    return nm[order], mean[order]
+
+
 def _reflective(document: Document, image: Image) -> tuple[dict[int, float], bool]:
     """Return the wavelength in nm by channel, and whether others hold emitted light."""
     bands: dict[int, float] = {}

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from . import statements
 from .cgats_tables import Table
 from .document import Document, quote
+from .label_words import says_percent
 
 _PERCENT = ("SPEC", "SPECTRAL_PCT")
 _FAMILY = r"SPECTRAL_NM|SPECTRAL_PCT|SPECTRAL_DEC|SPECTRAL|SPECTRUM|SPEC|REFLECTANCE|REFL|NM|R"
@@ -135,7 +136,7 @@ def _triple(upper: list[str], labels: tuple[str, ...]) -> list[int]:
 
 
 def _stated_scale(document: Document, table: Table) -> float | None:
-    """Return the value of white that the file states: ArgyllCMS's SPECTRAL_NORM."""
+    """Return the value of white that the file states: ArgyllCMS's SPECTRAL_NORM, or percent."""
     for key in ("SPECTRAL_NORM", "SPEC_SCALE"):
         text = table.last(key)
         if text:
@@ -146,7 +147,8 @@ def _stated_scale(document: Document, table: Table) -> float | None:
                     f"{key} is {quote(text)}; make it the value of a perfect white, 1 or 100",
                 )
             return scale
-    return None
+    units = (table.last(key) for key in ("UNITS", "SPECTRAL_UNITS", "DATA_UNITS"))
+    return 100.0 if any(map(says_percent, units)) else None
 
 
 def _spectrum(

@@ -34,6 +34,10 @@ _QUOTED = re.compile(r'"(?:[^"]|"")*"')
 _TOKEN = re.compile(r'"((?:[^"]|"")*)"|(\S+)')
 
 
+REMARKS = "#"
+"""The key of what stands in lines of comments."""
+
+
 @dataclass
 class Table:
     """One table.
@@ -85,6 +89,8 @@ def tables(document: Document) -> Iterator[Table]:
     table = Table()
     for number, line in numbered:
         text = line.strip()
+        if text.startswith("#"):
+            table.keys.setdefault(REMARKS, []).append(text.lstrip("# "))
         if not text or text.startswith("#"):
             continue
         word = text[:20].split(None, 1)[0].upper()

@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from . import geometry_words
+from . import geometry_words, series, statements
 from .cgats_tables import Table
 from .document import Document, quote
 
@@ -23,6 +23,8 @@ _NOTHING = ("", "-", "no", "none", "unknown", "n/a", "undefined")
 _MODE_KEYS = ("MEAS_TYPE", "MEASUREMENT_TYPE", "MEASUREMENT_MODE", "MEASURE_MODE", "DEVICE_CLASS")
 _MODE_PAIRS = ("MODE", "MEASUREMENTMODE", "MEASUREMENTOPTICS")
 _SOURCES = re.compile(r"MEASUREMENT_SOURCE|BARBIERI_INFO_\d+|FILTER_STATUS|MEASUREMENT_CONDITIONS?")
+_OF_SAMPLES = {"KEYWORD", "TARGET_TYPE", "CREATED", "PROD_DATE", "SERIAL", "NUMBER_OF_FIELDS"}
+"""Keywords whose values say nothing of the measurement."""
 _SIGNATURES = {
     "CCSS": "emission",
     "CCMX": "corrections of a display's colorimeter",
@@ -52,17 +54,14 @@ def fault(document: Document, table: Table) -> Exception | None:
         return document.not_reflectance(
             f"signature {table.signature}", _SIGNATURES[table.signature]
         )
-    pairs = _pairs(table)
-    said = [(key, table.last(key)) for key in _MODE_KEYS]
-    said += [("MEASUREMENT_GEOMETRY", table.last("MEASUREMENT_GEOMETRY"))]
-    said += [("MEASUREMENT_SOURCE", pairs[key]) for key in _MODE_PAIRS if key in pairs]
-    source = table.last("MEASUREMENT_SOURCE").lstrip()
-    said += [("MEASUREMENT_SOURCE", source[:12])]  # "Emission …" before any pair
+    said = _said(table)
     for key, text in said:
         if _TRANSMISSION.search(text):
             return document.not_reflectance(_place(table, key), "transmittance")
         if _EMISSION.search(text):
             return document.not_reflectance(_place(table, key), "emission")
+        if other := series.other_quantity(text):
+            return document.not_reflectance(_place(table, key), other)
     if "LUMINANCE_XYZ_CDM2" in table.keys:
         return document.not_reflectance(_place(table, "LUMINANCE_XYZ_CDM2"), "emission")
     if table.signature == "SPECT" and not any(_REFLECTION.search(text) for _, text in said):
@@ -74,6 +73,23 @@ def fault(document: Document, table: Table) -> Exception | None:
     return None
 
 
+def is_light(table: Table) -> bool:
+    """Return whether a table says that it is of light."""
+    by_signature = _SIGNATURES.get(table.signature) == "emission"
+    said = any(_EMISSION.search(text) for _, text in _said(table))
+    return by_signature or said or "LUMINANCE_XYZ_CDM2" in table.keys
+
+
+def _said(table: Table) -> list[tuple[str, str]]:
+    """Return keywords, and what they say of how it was measured."""
+    pairs = _pairs(table)
+    said = [(key, table.last(key)) for key in _MODE_KEYS]
+    said += [("MEASUREMENT_GEOMETRY", table.last("MEASUREMENT_GEOMETRY"))]
+    said += [("MEASUREMENT_SOURCE", pairs[key]) for key in _MODE_PAIRS if key in pairs]
+    source = table.last("MEASUREMENT_SOURCE").lstrip()
+    return [*said, ("MEASUREMENT_SOURCE", source[:12])]  # "Emission …" before any pair
+
+
 def read(table: Table) -> Words:
     """Return what the table says."""
     pairs = _pairs(table)
@@ -83,10 +99,20 @@ def read(table: Table) -> Words:
     specular = geometry_words.specular_of(
         " ".join([geometry, table.last("SPECULAR", "SPECULAR_COMPONENT"), pairs.get("MODE", "")])
     )
-    known = geometry or geometry_words.geometry_of_device(device)
+    # What other keywords, remarks and the device's name say counts where these say nothing.
+    found = statements.measured_by(
+        (key, value)
+        for key, values in table.keys.items()
+        if key not in _OF_SAMPLES
+        for value in reversed(values)
+    )
+    if not geometry and not specular:
+        geometry, specular = found.get("geometry", ""), found.get("specular", "")
+        device = device or found.get("device", "")
+    known = geometry or geometry_words.geometry_of_device(device) or ("d/8" if specular else "")
     instrument, note = geometry_words.instrument_of(known, specular)
     notes = [note] if note else []
-    if known and not geometry:
+    if known and not geometry and known == geometry_words.geometry_of_device(device):
         notes.insert(0, f"The geometry {known} is that of the device {quote(device)}.")
     weighting = " ".join(table.keys.get("WEIGHTING_FUNCTION", []))
     illuminant = (
@@ -115,7 +141,7 @@ def read(table: Table) -> Words:
         aperture=aperture,
         specular=specular,
         device=device,
-        condition=condition[0].upper() if condition else "",
+        condition=condition[0].upper() if condition else found.get("condition", ""),
         illuminant="" if illuminant.lower() in _NOTHING else illuminant,
         observer=int(observer) if observer else None,
         notes=tuple(notes),

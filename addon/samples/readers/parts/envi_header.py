@@ -40,7 +40,7 @@ def entries(text: str) -> dict[str, str]:
             if not value.lstrip().startswith("{"):
                 continue
             listed, parts = key, [value.strip()]
-        if "}" in line:
+        if "}" in parts[-1]:  # of the line what belongs to the list: a key may hold one, too
             whole = "\n".join(parts)
             found[listed], listed = whole[: whole.index("}") + 1], ""
     return found

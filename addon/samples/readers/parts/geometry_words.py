@@ -32,28 +32,49 @@ _PAIR = re.compile(rf"(?<![\w.]){_NUMBER}\s*{_RING}{_BETWEEN}{_NUMBER}\s*{_RING}
 _ASPECULAR = re.compile(rf"\bas\s*{_NUMBER}|{_NUMBER}\s*as\s*{_NUMBER}|aspecular\D*?{_NUMBER}")
 _DIFFUSE = r"(?:d|diffuse|h|hemispherical)\s*(i|e)?"
 _SPHERE = re.compile(
-    rf"(?<![\w.]){_DIFFUSE}{_BETWEEN}{_NUMBER}(?![\w.])|"
-    rf"(?<![\w.]){_NUMBER}{_BETWEEN}{_DIFFUSE}(?![a-z0-9])|\bd(i|e)?({_NUMBER[1:-1]})(?![\w.])"
+    rf"(?<![\w.]){_DIFFUSE}{_BETWEEN}{_NUMBER}\s?(i|e)?(?![\w.])|"
+    rf"(?<![\w.]){_NUMBER}{_BETWEEN}{_DIFFUSE}(?![a-z0-9])|"
+    rf"\bd(i|e)?({_NUMBER[1:-1]})(i|e)?(?![\w.])"
 )
 _INCIDENCE = re.compile(rf"\bi\w*\s*[=:]?\s*{_NUMBER}\W{{1,5}}e\w*\s*[=:]?\s*{_NUMBER}")
 _DIFFUSE_BOTH = re.compile(r"(?<!\w)(?:d|diffuse)\s*[:/]\s*(?:d|diffuse)(?!\w)")
-_HEMISPHERE = re.compile(r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b")
+_HEMISPHERE = re.compile(
+    r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b|ulbricht|kugel\b|\bsph[èe]re\b|積分球"
+)
 _ONE_DIRECTION = re.compile(r"direction\w*\W*hemi|hemi\w*\W*direction|\bdhr\b")
 _RING_WORD = re.compile(r"annul|circumferen|\bring\b")
 _SIDE_WORD = re.compile(r"\bdirectional\b|unidirectional|\bone[- ]sided?\b")
 
+# In English, German, French and Japanese; makers' abbreviations may have a ring of "_" around them.
+_SPECULAR = r"spec(?:ular(?:ity)?|\.)?\W*(?:component\W*|light\W*|reflection\W*)?(?:is\W*)?"
+_GLANZ, _BRILLANT, _MIRROR = (
+    r"glanz(?:anteil)?\W*",
+    r"(?:brillan\w*|sp[ée]culaire)\W*",
+    "正反射光?(?:成分)?を?",
+)
 _INCLUDED = re.compile(
-    r"\b(?:sci|spin|rspin|spi|i\+e)\b|specular\W*(?:component\W*)?(?:is\W*)?incl|incl\w*\W*specular"
+    rf"(?<![a-z])(?:sci|r?spin|rsin|spi|i\+e)(?![a-z])|(?<![a-z]){_SPECULAR}incl|incl\w*\W*specular|"
+    rf"{_GLANZ}(?:ein|inkl)|\b(?:mit|inkl\w*)\W*glanz|{_BRILLANT}inclu|{_MIRROR}含"
 )
 _EXCLUDED = re.compile(
-    r"\b(?:sce|spex|rspex|spe)\b|specular\W*(?:component\W*)?(?:is\W*)?excl|excl\w*\W*specular"
+    rf"(?<![a-z])(?:sce|r?spex|rsex|spe)(?![a-z])|(?<![a-z]){_SPECULAR}(?:excl|not incl|removed)|"
+    rf"excl\w*\W*specular|without\W*specular|gloss trap\W*open|"
+    rf"{_GLANZ}(?:aus|exkl)|\bohne\W*glanz|glanzfalle|{_BRILLANT}exclu|{_MIRROR}除"
 )
 _MENTIONED = re.compile(
-    r"(?<![\w./:,-])(?:d[ie]?\s*[:/]\s*[08]|[08]\s*[:/]\s*d[ie]?|45[acx]?\s*[:/]\s*0[acx]?|"
-    r"0\s*/\s*45[acx]?|45as[-+]?\d{1,3})(?![\w/:]|\.\d)"
+    r"(?<![\w./:,-])(?:d[ie]?\s*[:/]\s*[08][ie]?|[08]\s*[:/]\s*d[ie]?|45[acx]?\s*[:/]\s*0[acx]?|"
+    r"0\s*/\s*45[acx]?|r?\d\das[-+]?\d{1,3}|as[-+]?\d{2,3}|aspecular\D{0,12}?[-+]?\d{2,3}|"
+    r"diffuse\s*[:/]?\s*[08]|bidirectional\s+\d\d?\s*[:/]\s*\d\d?|i\s*=\s*\d\d?\W{1,3}e\s*=\s*\d\d?|"
+    r"(?:di8|de8|dhr|ulbricht\w*|integrating sphere|integrationskugel|積分球)|"
+    r"sph[èe]re int[ée]grante|"
+    r"(?:direction\w*\W*hemispher\w*|hemispher\w*\W*direction\w*))(?![\w/:]|\.\d)"
 )
+# Capitals alone, and words with what they belong to: "sci" may be part of a name.
 _SPECULAR_WORDS = re.compile(
-    r"\b(?:SCI|SCE|SPIN|SPEX)\b|[Ss]pecular\W*(?:component\W*)?(?:is\W*)?(?:in|ex)cl"
+    r"(?<![A-Za-z])(?:SCI|SCE|R?SPIN|R?SPEX|RSIN|RSEX)(?![A-Za-z])|"
+    r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:in|ex)cl|"
+    r"[Gg]lanz(?:anteil)?\W*(?:ein|aus|inkl|exkl)|\b(?:mit|ohne)\W*Glanz|Glanzfalle|"
+    r"(?:[Bb]rillan\w*|[Ss]p[ée]culaire)\W*(?:in|ex)clu|正反射"
 )
 
 
@@ -79,6 +100,9 @@ def instrument_of(text: str, specular: str = "") -> tuple[str, str]:
         return stated, ""
     plain = _plain(stated)
     found = _multi_angle(plain) or _sphere(plain, specular) or _two_angles(plain)
+    says = specular_of(plain)
+    if not found and says:  # only a sphere can let specular light in, or leave it out
+        found = _nearest_sphere(None, says == "SCE").name, NO_ANGLE
     if not found:
         return ASSUMED, f"The geometry {quote(stated)} is not known; {_title(ASSUMED)} is assumed."
     name, why = found
@@ -101,9 +125,11 @@ def in_text(text: str) -> tuple[str, str]:
     Only what can be nothing else counts: free text has dates, times and ratios, too.
     """
     plain = _plain(text[:_LONGEST])
-    found = _MENTIONED.search(plain)
+    found = [match[0] for match in _MENTIONED.finditer(plain)]
     says = bool(found) or bool(_SPECULAR_WORDS.search(text[:_LONGEST]))
-    return (found[0] if found else ""), (specular_of(text) if says else "")
+    # "Integrating sphere, d/8": the angle says more.
+    geometry = next((words for words in found if re.search(r"\d", words)), "".join(found[:1]))
+    return geometry, (specular_of(text) if says else "")
 
 
 def specular_of(text: str) -> str:
@@ -115,8 +141,8 @@ def specular_of(text: str) -> str:
     included, excluded = bool(_INCLUDED.search(plain)), bool(_EXCLUDED.search(plain))
     if not included and not excluded:
         sphere = _SPHERE.search(plain)
-        letter = (sphere[1] or sphere[4] or sphere[5]) if sphere else ""
-        included, excluded = letter == "i", letter == "e"
+        letters = sphere.groups() if sphere else ()
+        included, excluded = "i" in letters, "e" in letters
     if included == excluded:
         return ""  # nothing said, or a list of both
     return "SCI" if included else "SCE"
@@ -157,7 +183,7 @@ def _sphere(plain: str, specular: str) -> tuple[str, str] | None:
     if not (match or both or (_HEMISPHERE.search(plain) and not _PAIR.search(plain))):
         return None
     says = specular or specular_of(plain)
-    angle = _value(match[2] or match[3] or match[6]) if match else _angle_alone(plain)
+    angle = _value(match[2] or match[4] or match[7]) if match else _angle_alone(plain)
     whole = bool(_ONE_DIRECTION.search(plain)) or (match is not None and "h" in match[0])
     # A detector at 0° looks at its own opening, which is a gloss trap (ISO 2469 has one too).
     trapped = says == "SCE" or (angle == 0.0 and says != "SCI")
@@ -231,18 +257,36 @@ def geometry_of_device(model: str) -> str:
     return next((geometry for pattern, geometry in _DEVICES if pattern.search(plain)), "")
 
 
+def device_in_text(text: str) -> str:
+    """Return the device with a known geometry that free text names, or an empty string."""
+    for pattern, _ in _DEVICES:
+        for match in pattern.finditer(text[:_LONGEST].lower()):
+            if match[0] not in _WORDS:
+                # All of the model, as in "Ci7800".
+                end = re.match(r"[\w-]*", text[match.end() :])
+                return text[match.start() : match.end() + (end.end() if end else 0)]
+    return ""
+
+
+_WORDS = {"exact", "isis", "isis "}
+"""Names of devices that free text holds without meaning one."""
 _DEVICES = (
     (
         # Not all of a maker's: Konica Minolta's CM-2500c is 45/0, its CM-512m3 has many angles.
-        re.compile(r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:26d|36d|[67]00d|2[356]00d|3[67]\d0)"),
+        re.compile(
+            r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:5\b|17d|2[56]d|36d|[67]00d|2[356]00d|3[67]\d0)|"
+            r"\bdatacolor (?:1[01]\d\d|[4-8][05]0)\b|\bultrascan\b|\bcolorquest\b"
+        ),
         "d/8",
     ),
     (
         re.compile(
             r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"
             r"color ?munki|\bdtp-?(?:20|22|41|70)\b|\bexact\b|\bfd-?[579]\b|myiro|"
-            r"spectro ?(?:lfp|pad)"
+            r"spectro ?(?:lfp|pad)|\bcolorflex\b|\bcm-?25cg|\bdatacolor 45|"
+            r"\bnix (?:pro|mini|spectro|qc)"
         ),
         "45/0",
     ),
+    (re.compile(r"\blabscan\b|\bagera\b"), "0/45"),
 )

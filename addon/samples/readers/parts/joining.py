@@ -28,9 +28,11 @@ ANGLE = "angle "
 
 _ASPECULAR = {i.aspecular for i in REGISTRY.values() if i.aspecular is not None}
 _LEAST_ANGLES = 3  # that tell a multi-angle instrument by themselves
+_LEAST_NUMBERS = 5  # samples may be called 15, 25 and 45
 _MULTI_ANGLE = re.compile(
     r"byk-?mac|\bma-?(?:t\d|5\b|6\b|68|9\d)|\bcm-?512|multi[- ]?angle", re.IGNORECASE
 )
+_CONDITION = re.compile(r"[\s_(\[](M[0-3])[)\]]?$")
 _BRACKETS = re.compile(r"\s*\([^()]*\)$")
 _LONGEST = 200
 
@@ -107,7 +109,8 @@ def _settled(
     elif mark.aspecular is not None:
         trusted = mark.sure or mark.aspecular in _ASPECULAR
     elif mark.angle is not None:
-        known = angles <= _ASPECULAR and len(angles) >= _LEAST_ANGLES
+        least = _LEAST_NUMBERS if mark.bare else _LEAST_ANGLES
+        known = angles <= _ASPECULAR and len(angles) >= least
         trusted = known or (device and mark.angle in _ASPECULAR)
         mark = replace(mark, aspecular=mark.angle)
     else:
@@ -119,6 +122,9 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
     """Return a sample with what its name says of the measurement, where its file does not."""
     if sample.kind != "reading":
         return sample
+    condition = "" if sample.condition else _CONDITION.search(sample.name[-8:])
+    if condition:
+        sample = replace(sample, condition=condition[1])
     if mark.specular and not sample.specular and _may_be_a_sphere(sample):
         note = f"That it is a sphere's reading, {mark.specular}, follows from its name."
         return _measured(sample, sample.geometry or "d/8", note, mark.specular)
@@ -130,7 +136,8 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
         note = "" if mark.angle is None else _ANGLES
         return _measured(sample, f"45as{mark.aspecular}", note, "")
     if bare and not sample.geometry and _MULTI_ANGLE.search(sample.device[:_LONGEST]):
-        return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *sample.notes))
+        kept = (note for note in sample.notes if note != instrument_of("")[1])
+        return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *kept))
     return sample
 
 

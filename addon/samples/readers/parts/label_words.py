@@ -17,7 +17,7 @@ from ...sample import Kind
 from ...stated_white import fields as white_fields
 from . import name_marks
 from .document import Document, quote
-from .geometry_words import in_text
+from .geometry_words import device_in_text, in_text
 from .tables import lines
 
 T = TypeVar("T")
@@ -33,6 +33,7 @@ _BAND = re.compile(
     r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
     re.IGNORECASE,
 )
+_LONGEST = 100  # characters of a value that are looked at for a unit
 _LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a name stands before
 # ArgyllCMS' family of names is percent, as CGATS readers know.
 _SPEC = re.compile(r"spec_\d", re.IGNORECASE)
@@ -46,26 +47,51 @@ _WAVELENGTH = re.compile(
     r"(?:photon )?(?:frequency|energy)\s*[\[(/,]",
     re.IGNORECASE,
 )
-_FREQUENCY = re.compile(r"\bfrequenc|\bphoton energ", re.IGNORECASE)
+_FREQUENCY = re.compile(
+    r"\bfrequen[cz]|\bfr[ée]quence|\bfrecuencia|周波数|振動数|\bphoton energ|"
+    r"^\s*(?:nu|ν|f|freq\.?|energ(?:y|ie|ía|ia)|[ée]nergie)\s*$",
+    re.IGNORECASE,
+)
 _RAMAN = re.compile(r"\braman\b|\bshift\b", re.IGNORECASE)
 _OTHER_UNITS = {
-    "Å": re.compile(r"\bangstr|å\b|[\[(]\s*a\s*[\])]", re.IGNORECASE),
+    "Å": re.compile(r"\bangstr|ångstr|å\b|[\[(]\s*aa?\s*[\])]", re.IGNORECASE),
     "cm⁻¹": re.compile(
-        r"cm\s*\^?\s*[-−–]\s*1\b|cm⁻¹|\b1\s*/\s*cm\b|wave[ _-]?number", re.IGNORECASE
+        r"cm\s*\^?\s*\{?\s*[-−–]\s*1\b|cm⁻¹|\b1\s*/\s*cm\b|\b(?:per|inverse) cm\b|"
+        r"wave[ _-]?number|wellenzahl|nombre d.onde|numero d.onda|(?<!周)波数|\bkaysers?\b",
+        re.IGNORECASE,
     ),
     "THz": re.compile(r"\bthz\b|terahertz", re.IGNORECASE),
-    "eV": re.compile(r"\bev\b|electron ?volts?", re.IGNORECASE),
+    "eV": re.compile(r"\bev\b|ele[ck]tronen?[ -]?volts?", re.IGNORECASE),
 }
-_MICROMETERS = re.compile(r"[µμ]m\b|\bum\b|\bmicrons?\b|\bmicromet(?:er|re)s?\b", re.IGNORECASE)
+_MICROMETERS = re.compile(
+    r"[µμ]m\b|\bum\b|\bmi[ck]rons?\b|\bmi[ck]rom[eè]t(?:er|re)s?\b", re.IGNORECASE
+)
+# Keys of comments and of lines above a table that say what its abscissa is.
+_OF_ABSCISSA = re.compile(
+    r"x[ _-]?(?:axis|units?|label)?|abscissa|(?:wave[ _-]?length|spectral|frequency)[ _-]?units?|"
+    r"(?:wave[ _-]?lengths?|wave[ _-]?numbers?|frequenc(?:y|ies)|energ(?:y|ies))(?: in)?",
+    re.IGNORECASE,
+)
 # "50 % gray" is a name; "R [%]", "% reflectance" and "percent" state a scale.
-_PERCENT = re.compile(r"(?<!\d)(?<!\d )(?:%|\bpercent\b|\bpct\b)", re.IGNORECASE)
-_ABOUT_VALUES = re.compile(r"reflectance|values?\b|units?\b|scale\b|spectr", re.IGNORECASE)
+_PERCENT = re.compile(
+    r"(?<!\d)(?<!\d[ _-])"
+    r"(?:[%％]|\(0\s*(?:-|–|to|\.\.)\s*100\)|[x×*]\s*100(?!\d)|(?<![a-z])(?:percent(?:age)?|pct|prozent|pourcent(?:age)?|procent|パーセント)(?![a-z]))",
+    re.IGNORECASE,
+)
+_ABOUT_VALUES = re.compile(
+    r"reflectance|reflexion|réflectance|values?\b|units?\b|scale\b|spectr|einheit|unité|単位|反射",
+    re.IGNORECASE,
+)
+_JUST_PERCENT = re.compile(
+    r"(?:(?:is|are|all|data|given)\W+)*(?:in )?(?:%|percent)\W*", re.IGNORECASE
+)
+_TO_A_HUNDRED = re.compile(r"\bscale\b.*?\b0\s*(?:-|–|to|\.\.+)\s*100\b", re.IGNORECASE)
 _OPTICAL = re.compile(r"optical constants|refractive ind", re.IGNORECASE)
 _KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
 
 _UNITS = {
     **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),
-    **dict.fromkeys(("percent", "%", "pct"), 100.0),
+    **dict.fromkeys(("percent", "%", "pct", "prozent", "pourcent"), 100.0),
 }
 _KINDS: dict[str, Kind] = {
     "reading": "reading",
@@ -88,7 +114,8 @@ class Comments:
 
     `escaped` tells whether names are as `shown_text.to_cell` writes them. `others` are all further
     keys and values, which `statements` knows, as those of lines above a table; free text has no
-    key. `measured` keeps what it found in them, for all samples.
+    key. `measured` keeps what it found in them, for all samples. `reflects` tells whether one of
+    the lines above the table says reflectance.
     """
 
     kind: Kind = "reading"
@@ -98,6 +125,7 @@ class Comments:
     escaped: bool = False
     others: list[tuple[str, str]] = field(default_factory=list)
     measured: dict[str, Any] | None = None
+    reflects: bool = False
 
 
 def band(label: str) -> float | None:
@@ -158,6 +186,8 @@ def percent_of_values(text: str) -> bool:
     A name or a citation may well hold a percent sign, so only talk about the values counts.
     """
     pair = _KEY.fullmatch(text)
+    if _JUST_PERCENT.fullmatch(text.strip()) or _TO_A_HUNDRED.search(text):
+        return True
     return says_percent(text) and bool(_ABOUT_VALUES.search(pair[1] if pair else text))
 
 
@@ -168,11 +198,23 @@ def is_wavelength(label: str) -> bool:
 
 def unit_of_wavelengths(label: str) -> str:
     """Return the unit that the wavelength column's name states, or an empty string."""
+    label = label.replace("_", " ")
     if _MICROMETERS.search(label):
         return "µm"
     if re.search(r"\bnm\b|nanomet", label, re.IGNORECASE):
         return "nm"
     return next((unit for unit, pattern in _OTHER_UNITS.items() if pattern.search(label)), "")
+
+
+def unit_of_abscissa(key: str, value: str) -> str:
+    """Return the unit that a key and its value state for the abscissa, or an empty string.
+
+    Such as ``X units: THz`` and ``Wavenumber: cm-1``, or ``wavelengths in µm``, all of it the key.
+    """
+    words = key.strip()
+    if not value and " in " in words:
+        words, _, value = words.partition(" in ")
+    return unit_of_wavelengths(value[:_LONGEST]) if _OF_ABSCISSA.fullmatch(words) else ""
 
 
 def no_wavelength(label: str) -> str:
@@ -232,6 +274,8 @@ def comments(document: Document) -> Comments:
         if key == "units":
             found.scale = _one_of(document, number, key, value, _UNITS)
             stated = True
+        elif unit := unit_of_abscissa(*((pair[1], value) if pair else (text, ""))):
+            found.wavelength_unit = unit
         elif key == "wavelength_unit":
             found.wavelength_unit = _one_of(document, number, key, value, _WAVELENGTH_UNITS)
         elif key == "kind":
@@ -255,7 +299,7 @@ def comments(document: Document) -> Comments:
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
         elif pair and value:
             found.others.append((pair[1], value))
-        elif text.strip() and any(in_text(text)):
+        elif text.strip() and (any(in_text(text)) or device_in_text(text)):
             found.others.append(("", text))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))
     if fault:

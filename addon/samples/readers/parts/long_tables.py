@@ -16,7 +16,7 @@ from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import label_words, series, statements, tables
 from .document import Document
-from .scale import nanometers, scale
+from .scale import nanometers, of_row, scale, tells
 from .tables import Row
 from .wavelengths_across import not_read
 from .wavelengths_down import names_quantity
@@ -51,6 +51,8 @@ def read(
     columns = _columns(header)
     assert columns is not None, "ask `is_long` first"
     axis, value, keyed = columns
+    telling = [i for i, label in enumerate(header) if i not in (axis, value) and tells(label)]
+    keyed = [*keyed, *telling]
     if series.other_quantity(header[value]) == "emissivity":
         said = replace(said, kind="emissivity")
     groups: dict[tuple[str, ...], array[int]] = {}
@@ -58,7 +60,8 @@ def read(
     block = tables.numbers(document, counted, header, [axis, value], decimal_comma=True, gaps=1)
     tables.check_count(document, len(groups))
     nm = nanometers(document, said, block.values[:, 0], [header[axis]])
-    values = block.values[:, 1] / scale(document, said, f"line {line}", [header[value]])
+    one = scale(document, said, f"line {line}", [header[value]])
+    values = block.values[:, 1] / one
     unread = [label for i, label in enumerate(header) if label and i not in (axis, value, *keyed)]
     samples = []
     for cells, at in groups.items():
@@ -66,9 +69,12 @@ def read(
         for i, cell in zip(keyed, cells, strict=True):
             own.update(statements.stated(header[i], cell))
         start = block.lines[at[0]]
+        divisor, other = of_row(cells[len(keyed) - len(telling) :], one != 1.0)
+        if other and other != "emissivity":
+            raise document.not_reflectance(f"line {start}", other)
         found = series.bands(
             nm[at],
-            values[at],
+            values[at] / divisor,
             f"{document.path}, from line {start} on",
             lambda band: f"line {block.lines[at[band]]}",  # noqa: B023
         )

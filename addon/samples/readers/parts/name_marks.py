@@ -11,20 +11,20 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from .geometry_words import specular_of
+from .geometry_words import in_text, specular_of
 
 _LONGEST = 24  # characters of a name that can be such a mark
-_SPECULAR = r"r?(?:SCI|SCE|SPIN|SPEX)"
-_ANGLE = r"(45\s*°?\s*:?\s*)?as([-+\u2212]?\d{1,3})\s*°?"
+_SPECULAR = r"[Rr]?(?:SCI|SCE|SPIN|SPEX|SIN(?<=RSIN)|SEX(?<=RSEX))"
+_ANGLE = r"(r?45\s*°?\s*:?\s*)?as([-+\u2212]?\d{1,3})\s*°?"
 _BARE = r"([-+\u2212]?\d{1,3})\s*(?:°|º|deg)"
 _IN_BRACKETS = re.compile(rf"\s*[(\[]\s*(?:({_SPECULAR})|{_ANGLE}|{_BARE})\s*[)\]]$", re.IGNORECASE)
-# Without brackets "sci" may be part of a word, and a hyphen before an angle its sign.
+# Without brackets "sci" may be part of a word, unlike "SCI", and a hyphen before an angle its sign.
 _BEHIND = re.compile(
     rf"(?:^|[\s_.,;:/-])({_SPECULAR})$|(?:^|[\s_.,;:/]){_ANGLE}$|(?:^|[\s_.,;:/]){_BARE}$"
 )
 # In brackets any angle beside 45° or a sphere; without, what can hardly be a ratio.
 _RING, _TO = r"[acx]?", r"\s?[:/]\s?"
-_SPHERE = rf"d[ie]?{_TO}[08]°?|[08]°?{_TO}d[ie]?"
+_SPHERE = rf"d[ie]?{_TO}[08]°?[ie]?|[08]°?{_TO}d[ie]?"
 _ANGLES = rf"45°?{_RING}{_TO}\d{{1,2}}°?{_RING}|\d{{1,2}}°?{_RING}{_TO}45°?{_RING}"
 _NORMAL = rf"45°?{_RING}{_TO}0°?{_RING}|0°?{_RING}{_TO}45°?{_RING}"
 _SAID = rf"(?:-iso|,?\s{_SPECULAR})?"
@@ -33,6 +33,7 @@ _GEOMETRY = re.compile(
     rf"(?:^|[\s_])((?:{_SPHERE}|{_NORMAL}){_SAID})$",
     re.IGNORECASE,
 )
+_LAST_BRACKETS = re.compile(r"[(\[][^()\[\]]*(?:\([^()]*\)[^()\[\]]*)?[)\]]$")
 _OF_BAND = rf"({_SPECULAR}|{_ANGLE}|{_BARE})"
 _BEFORE = re.compile(rf"\s*[(\[]?\s*{_OF_BAND}\s*[)\]]?[\s_.,;:-]+", re.IGNORECASE)
 _AFTER = re.compile(rf"[\s_.,;:-]*[(\[]?\s*{_OF_BAND}\s*[)\]]?\s*$", re.IGNORECASE)
@@ -56,6 +57,8 @@ class Mark:
         Degrees of an angle that is not said to be one from the mirror direction, or None.
     sure
         Whether it stands in brackets, or could be nothing else.
+    bare
+        Whether the name is a number and no more.
     geometry
         In its words, where they are more than a specular component or an angle.
     """
@@ -66,6 +69,7 @@ class Mark:
     angle: int | None = None
     sure: bool = False
     geometry: str = ""
+    bare: bool = False
 
 
 def of_name(name: str) -> Mark:
@@ -73,11 +77,14 @@ def of_name(name: str) -> Mark:
     end = name[-_LONGEST:]
     inside = _IN_BRACKETS.search(end)
     match = _GEOMETRY.search(end) or inside or _BEHIND.search(end)
-    if not match or match.re is _GEOMETRY:
-        return _of_geometry(name, match) if match else Mark(name)
+    if not match:
+        number = angle_of(name)
+        return _in_words(name) if number is None else Mark("", angle=number, bare=True)
+    if match.re is _GEOMETRY:
+        return _of_geometry(name, match)
     base = name[: len(name) - len(match[0])].rstrip()
     if match[1]:
-        return Mark(base, specular=_component(match[1]), sure=bool(inside and base))
+        return Mark(base, specular=_component(match[1]), sure=bool(base))
     if match[3]:
         return Mark(base, aspecular=_degrees(match[3]), sure=bool(match[2]))
     return Mark(base, angle=_degrees(match[4]))
@@ -86,6 +93,18 @@ def of_name(name: str) -> Mark:
 def _of_geometry(name: str, match: re.Match[str]) -> Mark:
     words = match[1] or match[2]
     return Mark(name[: len(name) - len(match[0])].rstrip(), geometry=words, sure=True)
+
+
+def _in_words(name: str) -> Mark:
+    """Return what a name says as a sentence would: ``Tile (specular excluded)``."""
+    geometry, specular = in_text(name)
+    if not geometry and not specular:
+        return Mark(name)
+    brackets = _LAST_BRACKETS.search(name)
+    base = name[: brackets.start()].rstrip() if brackets and any(in_text(brackets[0])) else name
+    if not geometry:
+        return Mark(base, specular=specular, sure=True)
+    return Mark(base, geometry=f"{geometry} {specular}".strip(), sure=True)
 
 
 def of_band(label: str) -> tuple[str, str]:
@@ -104,7 +123,7 @@ def of_band(label: str) -> tuple[str, str]:
 
 def _component(word: str) -> str:
     """Return ``"SCI"`` or ``"SCE"`` of a makers' word, which may begin with R, as RSPIN does."""
-    return specular_of(re.sub("^r", "", word, flags=re.IGNORECASE))
+    return specular_of(word) or specular_of(re.sub("^r", "", word, flags=re.IGNORECASE))
 
 
 def aspecular_of(text: str) -> int | None:

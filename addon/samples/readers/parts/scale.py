@@ -4,11 +4,21 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from . import label_words
+from . import label_words, series
 from .document import Document, quote
+
+_TELLS = re.compile(
+    r"(?:y[ _-]?|value[ _-]?)?units?|einheit|unité|単位|quantity|"
+    r"(?:data|value|measurement)[ _-]?type",
+    re.IGNORECASE,
+)
+"""Names of columns that say of each row what its values are, beside those of `statements`."""
 
 _LONGEST_SEEN = 3000.0
 """Nanometers; a table that begins beyond has to say so."""
@@ -63,9 +73,30 @@ def scale(document: Document, said: label_words.Comments, place: str, labels: li
     InputError
         The two disagree.
     """
+    if any("‰" in label for label in labels):
+        raise document.error(place, "its values are per mille, which are not read; export percent")
     percent = any(map(label_words.says_percent, labels))
     if percent and said.scale == 1.0:
         raise document.error(
             place, "the column says percent and a comment says fraction; make them agree"
         )
     return 100.0 if percent else said.scale or 1.0
+
+
+def tells(label: str) -> bool:
+    """Return whether a column says of each row in which unit its values are, or what they are."""
+    return bool(_TELLS.fullmatch(label.strip()))
+
+
+def of_row(cells: Sequence[str], percent: bool) -> tuple[float, str]:
+    """Return what to divide a row's values by, and which other quantity they are, if they are.
+
+    Parameters
+    ----------
+    cells
+        Of the columns that `tells` names.
+    percent
+        Whether the table says percent already.
+    """
+    other = next(filter(None, map(series.other_quantity, cells)), "")
+    return (100.0 if not percent and any(map(label_words.says_percent, cells)) else 1.0), other

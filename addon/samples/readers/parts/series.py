@@ -22,18 +22,24 @@ _NAMED = 8  # how many of the bands left out a sentence names
 # Whole words, the longest first: "transmission" says more than its "T". "Scope" is what both Ocean
 # Optics and Avantes call raw counts.
 _OTHERS = (
+    (
+        re.compile(r"\bb[rs]df\b", re.IGNORECASE),
+        "a BRDF, the reflectance factor over π, without the angles of light and view",
+    ),
     (re.compile(r"/\s*sr\b", re.IGNORECASE), "radiance"),
     (re.compile(r"irradian[cz]|µ?w(?:att)?/c?m|j/cm", re.IGNORECASE), "irradiance"),
     (re.compile(r"radiance\b(?! factor)|\brad\. \(", re.IGNORECASE), "radiance"),
-    (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%", re.IGNORECASE), "transmittance"),
+    (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%|透過", re.IGNORECASE), "transmittance"),
     (
         re.compile(
-            r"absorban|absorpt|extinktion|\babs\b|\ba\.u\.|log\s*\(?\s*1\s*/|optical density",
+            r"absorban|absorpt|extin[ck]tion(?! coef)|\babs\b|\ba\.u\.|"
+            r"log[\s_]*(?:10)?\s*\(?\s*1\s*/|-\s*log|\bdensity\b|optische dichte|吸光|吸収",
             re.IGNORECASE,
         ),
         "absorbance",
     ),
     (re.compile(r"kubelka|\bk\s*/\s*s\b|f\(r\)", re.IGNORECASE), "Kubelka-Munk values (K/S)"),
+    (re.compile(r"[\[(]\s*(?:1/|/)\s*[mc]m\s*[\])]"), "coefficients of absorption or scattering"),
     (re.compile(r"emissivit|emittance", re.IGNORECASE), "emissivity"),
     (re.compile(r"emissi|emitted|fluorescence|luminescence", re.IGNORECASE), "emission"),
     (re.compile(r"\bcounts?\b|\bscope\b|digital number|\bdn\b", re.IGNORECASE), "counts"),
@@ -59,7 +65,10 @@ _OTHERS = (
 )
 # Shorter words are names of samples as well, such as ABS.
 _LEAST_IN_NAMES = 6
-_REFLECTANCE = re.compile(r"reflec|r[ée]flec|remission|albedo|radiance factor", re.IGNORECASE)
+_REFLECTANCE = re.compile(
+    r"reflec|r[ée]flec|reflex|refle[tc]t|riflett|remission|albedo|radiance factor|反射",
+    re.IGNORECASE,
+)
 
 # U+FFFD is what Java's number format makes of NaN.
 _NO_VALUE = {"∞", "-∞", "\ufffd", "Infinity", "-Infinity", "-"}

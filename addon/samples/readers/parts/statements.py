@@ -8,7 +8,8 @@ The keys stand in lines above a table, in its first column, or name its columns.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+import unicodedata
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from .....core.instruments import REGISTRY
@@ -19,6 +20,7 @@ from .document import Document, quote
 from .geometry_words import (
     EMITTED,
     EMITTING,
+    device_in_text,
     geometry_of_device,
     in_text,
     instrument_of,
@@ -60,10 +62,20 @@ _KEYS = {
     **dict.fromkeys(("incidence", "incidenceangle", "angleofincidence", "incidentangle"), "lit"),
     **dict.fromkeys(("gu", "glossunits", "glossvalue", "glossunit"), _GLOSS),
     **dict.fromkeys(("sample", "samplename", "name", "sampleid", "dataname", "target"), "name"),
+    # German, French and Japanese software; what stands in accents is looked up without them.
+    **dict.fromkeys(("gerat", "geraet", "messgerat", "messgeraet", "appareil", "測定器"), "device"),
+    **dict.fromkeys(("geometrie", "messgeometrie", "geometriedemesure", "geometria"), "geometry"),
+    **dict.fromkeys(("光学系", "測定条件", "照明受光条件"), "geometry"),
+    **dict.fromkeys(("blende", "messblende", "ouverture", "測定径"), "aperture"),
+    **dict.fromkeys(("glanz", "glanzkomponente", "glanzanteil"), "specular"),
+    **dict.fromkeys(("composantespeculaire", "speculaire", "brillance"), "specular"),
+    **dict.fromkeys(("正反射", "正反射光", "正反射光処理", "正反射成分"), "specular"),
+    **dict.fromkeys(("winkel", "messwinkel"), "angle"),
+    **dict.fromkeys(("probe", "probenname", "echantillon", "試料", "試料名"), "name"),
 }
 GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit"}
 """Fields of `stated` from which the geometry follows."""
-_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss"}
+_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device"}
 _REMARK = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
 _YES, _NO = {"yes", "y", "true", "1", "on", "x"}, {"no", "n", "false", "0", "off"}
 _BOTH = re.compile(r"sc[ie]|sp(?:in|ex)|i\+e|both|incl|excl", re.IGNORECASE)
@@ -90,7 +102,11 @@ def field_of(key: str) -> str:
 
 
 def _plain(key: str) -> str:
-    return re.sub(r"[^a-z0-9]", "", key.lower())
+    """Return the letters and digits of a key, small and without accents, of any script."""
+    if not key.isascii():
+        key = unicodedata.normalize("NFKD", key)
+        key = "".join(char for char in key if not unicodedata.combining(char))
+    return re.sub(r"[\W_]", "", key.lower())
 
 
 @memoized(maxsize=1024)
@@ -117,17 +133,51 @@ def stated(key: str, value: str) -> Mapping[str, Any]:
         field = _GLOSS  # a column "Gloss" has one or the other
     if field == "specular":
         return _stated_specular(key, value)
-    if field == "device" and value in REGISTRY:
-        return {"geometry": value}
+    if field == "device":
+        if value in REGISTRY:
+            return {"geometry": value}
+        return {field: value, **_of_device(value)}
     if field == "geometry" and name_marks.angle_of(value) is not None:
         return {"angle": value}
     return {field: value}
 
 
-def mentioned(text: str) -> Mapping[str, Any]:
-    """Return the geometry and the specular component that free text mentions, as `stated` does."""
-    geometry, specular = in_text(text)
+def _of_device(value: str) -> dict[str, Any]:
+    """Return what stands beside the name of a device, as in ``Ci7800, SPIN``."""
+    geometry, specular = in_text(value)
     return ({"geometry": geometry} if geometry else {}) | _specular(specular)
+
+
+def mentioned(text: str) -> Mapping[str, Any]:
+    """Return the geometry and specular component, or the device, that free text mentions.
+
+    As `stated` does.
+    """
+    geometry, specular = in_text(text)
+    if geometry or specular:
+        return ({"geometry": geometry} if geometry else {}) | _specular(specular)
+    device = device_in_text(text)
+    return {"device": device} if device else {}
+
+
+def measured_by(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
+    """Return geometry, specular component, condition and device that keys and texts of a file say.
+
+    Formats with keywords of their own ask for what theirs leave open: what a key names counts, and
+    else what a text mentions. The fields are those of `stated`.
+    """
+    own: dict[str, Any] = {}
+    free: dict[str, Any] = {}
+    for key, value in pairs:
+        for name, content in stated(key, value).items():
+            if name in _HOW:
+                own.setdefault(name, content)
+        for name, content in mentioned(value).items():
+            free.setdefault(name, content)
+    return own if own.keys() & GEOMETRIES else free | own
+
+
+_HOW = {*GEOMETRIES, "condition", "device"}
 
 
 def light(text: str) -> dict[str, Any]:
@@ -255,6 +305,8 @@ def make(
     known = finish(({"device": device} if device else {}) | _measured(said, fields) | fields)
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
+    if "instrument" not in known and said.kind == "reading":
+        notes = (instrument_of("")[1], *notes)
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
     texts |= {"device": known["device"]} if "device" in known else {}
     if said.kind == "emissivity":

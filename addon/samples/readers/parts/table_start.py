@@ -27,8 +27,18 @@ LEAST_BAND = 100.0
 
 _PAIR = re.compile(r"[^:=]{1,60}[:=]")
 _VALUES_KEY = re.compile(
-    r"units?\b|y[ -]?(?:axis|units?)|ordinate|measure\w* (?:type|quantity)", re.I
+    r"units?\b|einheit|y[ -]?(?:axis|units?|label|data)?$|ordinate|measure\w* (?:type|quantity)",
+    re.I,
 )
+_KIND_KEY = re.compile(
+    r"(?:(?:photometric|measure\w*|data|spectr\w*|scan|display)[ _-]?)?(?:mode|type)$|"
+    r"quantity|values?$|title",
+    re.I,
+)
+"""Keys whose values may say which quantity it is; they are no units."""
+_PERCENT_ALONE = re.compile(r"%\s*(?:r|refl\w*)?|(?:r|refl\w*)\s*%", re.I)
+_OF_WHAT = re.compile(r"\s+(?:of|spectr\w*|values?|data|von|de)\b", re.I)
+_VALUES_ARE = re.compile(r"(?:all )?(?:the )?(?:values|data|spectra|numbers) (?:are|is|in)\b", re.I)
 
 
 def find_start(document: Document) -> int:
@@ -69,27 +79,45 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
     free: dict[str, Any] = {}
     for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
         text = line[:_LONGEST].strip().strip("\t;,").strip()
-        if not text or text.startswith("#") or (number == 1 and tables.announced(line)):
+        if not text or (number == 1 and tables.announced(line)):
             continue
+        is_comment = text.startswith("#")  # what comments say of samples, `label_words` found
+        text = text.lstrip("# ")
         key, value = _key_and_value(text)
-        for field, content in statements.stated(key, value).items():
+        said.reflects = said.reflects or series.says_reflectance(text)
+        for field, content in statements.stated(key, value).items() if not is_comment else ():
             found.setdefault(field, content)
-        if not statements.field_of(key):
+        if not statements.field_of(key) and not is_comment:
             free |= statements.mentioned(f"{key}: {value}")
+        if unit := label_words.unit_of_abscissa(key, value) if not is_comment else "":
+            said.wavelength_unit = unit
+        if _KIND_KEY.match(key):
+            _refuse_other(document, number, start, value)
+            if said.scale is None and _PERCENT_ALONE.fullmatch(value):
+                said.scale = 100.0
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
             if other == "emissivity":
                 said.kind = "emissivity"
-            elif other and not _header_says_reflectance(document, start):
-                raise document.not_reflectance(f"line {number}", other)
+            else:
+                _refuse_other(document, number, start, value)
             if said.scale is None and "%" in value:
                 said.scale = 100.0
-        title = series.other_quantity(text) if len(text.split()) <= _WORDS_OF_A_TITLE else ""
-        if title and title != "emissivity" and not _header_says_reflectance(document, start):
-            raise document.not_reflectance(f"line {number}", title)
-        if said.scale is None and label_words.percent_of_values(text):
+        about = _OF_WHAT.split(text, maxsplit=1)[0]
+        if _VALUES_ARE.match(text):
+            _refuse_other(document, number, start, text)
+        elif len(about.split()) <= _WORDS_OF_A_TITLE:
+            _refuse_other(document, number, start, about)
+        if said.scale is None and not is_comment and label_words.percent_of_values(text):
             said.scale = 100.0
     return found if found.keys() & statements.GEOMETRIES else found | free
+
+
+def _refuse_other(document: Document, number: int, start: int, text: str) -> None:
+    """Refuse a table whose lines above it name another quantity, if no column says reflectance."""
+    other = series.other_quantity(text)
+    if other and other != "emissivity" and not _header_says_reflectance(document, start):
+        raise document.not_reflectance(f"line {number}", other)
 
 
 def _header_says_reflectance(document: Document, start: int) -> bool:
@@ -99,6 +127,10 @@ def _header_says_reflectance(document: Document, start: int) -> bool:
 
 
 def _key_and_value(text: str) -> tuple[str, str]:
+    for mark in DELIMITERS:  # "Geometry,di:8°": the colon is the value's
+        key, found, value = text.partition(mark)
+        if found and mark != SPACES and statements.field_of(key):
+            return key.strip(' "'), value.strip("\t;, ")
     pair = _PAIR.match(text)
     if pair:
         return pair[0][:-1].strip(' "'), text[pair.end() :].strip("\t;, ")

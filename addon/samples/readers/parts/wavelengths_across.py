@@ -22,7 +22,7 @@ from . import (
     tables,
 )
 from .document import Document, plain, quote
-from .scale import nanometers, scale
+from .scale import nanometers, of_row, scale, tells
 from .table_start import LEAST_BAND
 from .tables import Row
 
@@ -62,6 +62,8 @@ def read(
     others = [i for i in range(len(header)) if i not in inside]
     name = next((i for i in others if _NAME_COLUMN.fullmatch(header[i])), None)
     if name is None:
+        name = next((i for i in others if statements.field_of(header[i]) == "name"), None)
+    if name is None:
         name = next((i for i in others if _ID_COLUMN.fullmatch(header[i])), None)
     keyed = [i for i in others if i != name and statements.field_of(header[i])]
     color, light = statements.color_columns(header)
@@ -73,7 +75,8 @@ def read(
         said = replace(said, kind="emissivity")
     elif other:
         raise document.not_reflectance(f"line {line}, column {quote(header[0])}", other)
-    texts = [*([] if name is None else [name]), *keyed, *color]
+    telling = [i for i in others if i not in (name, *keyed, *color) and tells(header[i])]
+    texts = [*([] if name is None else [name]), *keyed, *color, *telling]
     unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]
     block = tables.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
     marked = {name_marks.of_band(header[i])[1] for i in bands}
@@ -84,23 +87,30 @@ def read(
         every = nanometers(document, said, every, stated)
     # Of the other columns' names only the corner's is about the values below.
     values = block.values
-    values /= scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
+    one = scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
+    values /= one
     parts = _parts([header[i] for i in bands], every, values)
-    samples = []
+    samples: list[Sample] = []
+    left: dict[str, str] = {}
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
+        divisor, other = of_row(cells[len(texts) - len(telling) :], one != 1.0)
+        other = other or series.other_quantity_of_name(cells[0] if name is not None else "")
+        if other and other != "emissivity":
+            left.setdefault(other, f"line {row}")
+            continue
         own = {**fields, **light} if color else dict(fields)
         named = 0 if name is None else 1
         for key, text in zip(keyed, cells[named:], strict=False):
             own.update(statements.stated(header[key], text))
-        lab = _lab(document, row, header, color, cells[named + len(keyed) :])
+        lab = _lab(document, row, header, color, cells[named + len(keyed) :][: len(color)])
         if lab:
             own["lab"] = lab
         alone = document.path.stem if len(block.lines) == 1 else f"{document.path.stem} {i + 1}"
         for mark, columns, nm, rows in parts:
             found = series.bands(
                 nm,
-                rows[i],
+                rows[i] if divisor == 1.0 else rows[i] / divisor,
                 f"{document.path}, line {row}",
                 lambda band: f"column {quote(header[bands[columns[band]]])}",  # noqa: B023
             )
@@ -115,7 +125,17 @@ def read(
                     notes=not_read(unread),
                 )
             )
-    return samples
+    if left and not samples:
+        other, place = next(iter(left.items()))
+        raise document.not_reflectance(place, other)
+    if not left:
+        return samples
+    note = f"Rows left out, as they are no reflectance: {_of_what(left)}."
+    return [replace(sample, notes=(*sample.notes, note)) for sample in samples]
+
+
+def _of_what(left: dict[str, str]) -> str:
+    return ", ".join(f"from {place} on {other}" for other, place in left.items())
 
 
 def _of_mark(mark: str) -> dict[str, Any]:

@@ -47,6 +47,14 @@ _TOGETHER = {
     frozenset("lms"): "sensitivities of the eye",
     frozenset("nk"): "refractive indices of a material",
 }
+# Names of a single column that say what it holds; of several, they may be samples.
+_ALONE = {
+    "a": "absorbance (a logarithm)",
+    "od": "optical density (a logarithm)",
+    "t": "transmittance (light through the sample)",
+    "ks": "Kubelka-Munk values (K/S)",
+    "km": "Kubelka-Munk values (K/S)",
+}
 _PRIMARIES = {"red", "green", "blue"}  # three samples, or what a camera sees
 _MARKS = re.compile(r"[^a-z]|bar|lambda|cie|_?\d+", re.IGNORECASE)
 # Not A and C alone, nor F2: samples are called so.
@@ -87,7 +95,7 @@ def read(
     columns, emitting, unread = _columns(document, header, labels, units, axis)
     _check_kind(document, said, [header[i] for i in columns], [header[i] for i in emitting])
     if said.kind != "emissivity":
-        _refuse_others(document, [header[i] for i in columns])
+        _refuse_others(document, [header[i] for i in columns], said.reflects)
     block = tables.numbers(document, table, labels, [axis, *columns], decimal_comma=True, gaps=1)
     seen = said.kind != "emissivity" and not emitting
     nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]], seen)
@@ -151,11 +159,13 @@ def _check_kind(
         )
 
 
-def _refuse_others(document: Document, names: list[str]) -> None:
+def _refuse_others(document: Document, names: list[str], reflects: bool) -> None:
     """Refuse a table whose columns together, or whose file's name alone, name another quantity."""
     together = _TOGETHER.get(frozenset(_MARKS.sub("", name).lower() for name in names), "")
     if not together and names[0] and all(map(_ILLUMINANT.fullmatch, names)):
         together = "emission (the spectrum of a light source)"
+    if not together and len(names) == 1 and not reflects:
+        together = _ALONE.get(names[0].lower().strip(" .%"), "")
     if together:
         quoted = ", ".join(map(quote, names))
         raise document.error(

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`thermal`: what a thermal camera sees of the scene, as radiance and apparent temperature."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...support.shown_text import tell
+
+if TYPE_CHECKING:
+    from ...samples.sample import Sample
+
+NAME = "thermal"
+SUMMARY = "what a thermal camera sees of the scene"
+DESCRIPTION = (
+    "Render what surfaces emit in a band of the infrared and what they reflect of each other, and "
+    "write radiance and apparent temperature. An object's temperature is its custom property "
+    "rough_spectra_temperature, in kelvin, or an attribute of this name of its vertices. The "
+    ".blend is not changed."
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of `thermal`."""
+    from ...picture import thermal
+
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE", help="an EXR of two channels"
+    )
+    parser.add_argument(
+        "--band",
+        type=_band,
+        default=thermal.BAND,
+        metavar="FIRST-LAST",
+        help="wavelengths of the camera in nm; 8000-14000",
+    )
+    parser.add_argument(
+        "--parts", type=int, default=3, metavar="N", help="of the band, three a render; 3"
+    )
+    parser.add_argument(
+        "--ambient",
+        type=float,
+        default=thermal.AMBIENT,
+        metavar="K",
+        help="temperature of objects that have none of their own; 293.15",
+    )
+    parser.add_argument(
+        "--sky", type=float, metavar="K", help="temperature where nothing is; that of --ambient"
+    )
+    parser.add_argument(
+        "--emissivity",
+        type=float,
+        default=thermal.EMISSIVITY,
+        metavar="E",
+        help="of materials without infrared data, which are named; 0.95",
+    )
+    parser.add_argument(
+        "--material",
+        type=_material,
+        action="append",
+        default=[],
+        metavar="NAME=WHAT",
+        help="a material and its emissivity, such as Foil=0.05, a preset or a file of one sample; "
+        "repeatable",
+    )
+    parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
+    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
+    parser.add_argument(
+        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Render, write and tell; exit status 0."""
+    from ...picture import files, thermal, thermal_file
+    from ..progress import ProgressLine
+    from ..result import add
+    from .spectral import scene_of
+
+    scene = scene_of(options)
+    files.check(options.output)  # before the work that could not be written
+    wanted = thermal.Wanted(
+        options.band,
+        options.parts,
+        options.ambient,
+        options.sky,
+        options.emissivity,
+        {name: _known(what) for name, what in options.material},
+        options.samples,
+        options.percentage,
+    )
+    progress = ProgressLine("rendering")
+    try:
+        found = thermal.render(scene, wanted, progress)
+    finally:
+        progress.close()
+    for name in found.assumed:
+        tell(
+            f"warning: material {name!r} has no infrared data; its emissivity is taken as "
+            f"{options.emissivity:g}"
+        )
+    for name, own in found.temperatures.items():
+        tell(f"Object {name!r}: {own:g} K")
+    thermal_file.write(found, options.output)
+    kelvin = found.kelvin
+    low, mean, high = float(kelvin.min()), float(kelvin.mean()), float(kelvin.max())
+    first, last = found.band
+    tell(
+        f"{first:g} to {last:g} nm: {low:.2f} to {high:.2f} K, mean {mean:.2f} K; wrote "
+        f"{options.output.name}"
+    )
+    add(
+        options,
+        kelvin={"least": low, "mean": mean, "largest": high},
+        assumed=list(found.assumed),
+        temperatures=dict(found.temperatures),
+        file=options.output,
+    )
+    return 0
+
+
+def _known(what: str) -> Sample | float:
+    from ....core.errors import InputError
+    from ... import api
+
+    try:
+        return float(what)
+    except ValueError:
+        pass
+    if not Path(what).exists():
+        return api.find(what)
+    samples = api.read(what)
+    if len(samples) != 1:
+        msg = f"{what} holds {len(samples)} samples; give a file of one, or a preset."
+        raise InputError(msg)
+    return samples[0]
+
+
+def _band(text: str) -> tuple[float, float]:
+    try:
+        first, last = (float(part) for part in text.split("-"))
+    except ValueError:
+        msg = f"{text!r} is no band; write 8000-14000"
+        raise argparse.ArgumentTypeError(msg) from None
+    return first, last
+
+
+def _material(text: str) -> tuple[str, str]:
+    name, _, what = text.partition("=")
+    if not (name and what):
+        msg = f"{text!r} is no material and its emissivity; write Foil=0.05"
+        raise argparse.ArgumentTypeError(msg)
+    return name, what

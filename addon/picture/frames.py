@@ -1,0 +1,126 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spectral pictures of a range of frames, one after the other: each has a second Blender."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import DomainError
+from ..support import journal
+from . import files
+from .render import Wanted, render
+from .spectral_file import ENDING as SPECTRAL
+
+_RANGE = re.compile(r"(-?\d+)(?:-(-?\d+)(?:x(\d+))?)?")
+_MOST = 1_000_000
+"""Frames that can be asked for; Blender has as many."""
+
+
+def numbers(text: str) -> list[int]:
+    """Give the frames of a text such as "1-48", "1-48x2" or "7,12-20".
+
+    Raises
+    ------
+    DomainError
+        If it is none.
+
+    Examples
+    --------
+    >>> numbers("7,10-20x5")
+    [7, 10, 15, 20]
+    """
+    found: dict[int, None] = {}
+    for part in text.split(","):
+        match = _RANGE.fullmatch(part.strip())
+        first, last, step = match.groups() if match else (None, None, None)
+        if first is None or step == "0" or abs(int(last or first) - int(first)) >= _MOST:
+            msg = f"{text!r} are no frames; write 7, 1-48, 1-48x2 or several with commas."
+            raise DomainError(msg)
+        end = int(first if last is None else last)
+        if end < int(first):
+            msg = f"Frames {part.strip()} end before they begin; write the first one first."
+            raise DomainError(msg)
+        found |= dict.fromkeys(range(int(first), end + 1, int(step or 1)))
+    return [*found]
+
+
+def path_of(path: Path, frame: int) -> Path:
+    """Give the path of a frame's file: room.exr becomes room-0007.exr.
+
+    Examples
+    --------
+    >>> path_of(Path("room.exr"), 7).name, path_of(Path("room.spectral.exr"), 7).name
+    ('room-0007.exr', 'room-0007.spectral.exr')
+    """
+    ending = SPECTRAL if path.name.lower().endswith(SPECTRAL) else path.suffix
+    name = path.name[: len(path.name) - len(ending)]
+    return path.with_name(f"{name}-{frame:04d}{path.name[len(name) :]}")
+
+
+def left(frames: Sequence[int], path: Path) -> list[int]:
+    """Give the frames whose picture is not there; what is there is whole.
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be written.
+    """
+    if path.parent.is_dir():
+        journal.finish(path.parent)  # what a killed process has left half renamed
+    return [frame for frame in frames if not path_of(path, frame).exists()]
+
+
+def each(
+    scene: Any,
+    frames: Sequence[int],
+    wanted: Wanted,
+    path: Path,
+    spectra: Path | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    *,
+    at_bands: bool = False,
+) -> Generator[tuple[int, Any, list[Path]], None, None]:
+    """Render and write frames; gives number, picture and files of each once they are there.
+
+    Memory does not grow with the frames: each picture is let go before the next.
+
+    Parameters
+    ----------
+    scene
+        A `bpy.types.Scene`; its frame is put back at the end.
+    frames
+        Their numbers.
+    wanted
+        As of `render`.
+    path, spectra, at_bands
+        Of the files, without the numbers; see `files.write`.
+    progress
+        Called with renders done and renders in all frames.
+    """
+    with _frame_kept(scene):
+        for number, frame in enumerate(frames):
+            scene.frame_set(frame)
+
+            def told(done: int, total: int, before: int = number) -> None:
+                if progress is not None:
+                    progress(before * total + done, len(frames) * total)
+
+            picture = render(scene, wanted, told)
+            beside = None if spectra is None else path_of(spectra, frame)
+            written = files.write(picture, path_of(path, frame), beside, at_bands=at_bands)
+            yield frame, picture, written
+            del picture
+
+
+@contextmanager
+def _frame_kept(scene: Any) -> Iterator[None]:
+    before = scene.frame_current, scene.frame_subframe
+    try:
+        yield
+    finally:
+        scene.frame_set(before[0], subframe=before[1])

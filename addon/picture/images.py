@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The last spectral picture as images of the open file, and what a pixel of them is.
+
+A file has one such picture, and one map of ΔE00 beside it; the next takes their places. They stay
+with the file when it is saved. Spectra are in memory only, as long as the session.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ...core.numerics.arrays import Array
+from ..support import events
+from . import files
+from .picture import SpectralPicture
+from .pixel import Pixel
+
+PICTURE, MAP = "Spectral", "Spectral ΔE00"
+"""Names of the images, unless others are called so."""
+_MARK = "rough_spectra"
+"""Custom property by which our images are known, whatever they are called."""
+_RAMP = np.array(
+    (
+        (0.0, 0.0, 0.0, 0.0),
+        (0.25, 0.25, 0.05, 0.45),
+        (0.5, 0.75, 0.15, 0.35),
+        (0.75, 1.0, 0.55, 0.1),
+        (1.0, 1.0, 1.0, 0.9),
+    )
+)
+"""Shares of the map's top, and their colors on screen: each is lighter than the one before."""
+
+
+class Shown(NamedTuple):
+    """A picture that is shown.
+
+    Parameters
+    ----------
+    picture
+        With its spectra.
+    told
+        What was rendered and found, in sentences.
+    top
+        ΔE00 from which on the map is white; None without one.
+    """
+
+    picture: SpectralPicture
+    told: tuple[str, ...]
+    top: float | None
+
+
+_held: list[Shown] = []
+"""The last picture, if it is of the open file."""
+_picked: list[Pixel] = []
+"""The pixel of it that was read last, if any was."""
+
+
+def put(picture: SpectralPicture) -> list[Any]:
+    """Put a picture, and its map where it has one, in the places of those before.
+
+    Returns
+    -------
+    The images, the picture first.
+    """
+    if not _held:
+        bpy.app.handlers.load_post.append(_forget)
+        events.unregistering.subscribe(_end)
+    top = None if picture.comparison is None else _top(picture.comparison.delta_e)
+    _picked.clear()
+    _held[:] = [Shown(picture, tuple(files.told(picture)), top)]
+    shown = [_replace(PICTURE, files.image(picture, PICTURE))]
+    if picture.comparison is not None and top is not None:
+        shown.append(_replace(MAP, _map(picture.comparison.delta_e, top)))
+    for image in bpy.data.images:
+        if image.get(_MARK) == MAP and image not in shown and image.is_editable:
+            del image[_MARK]  # of an earlier picture: it stays, as anybody's image
+    return shown
+
+
+def last() -> Shown | None:
+    """Give the last picture of the open file, while it is in memory."""
+    return _held[0] if _held else None
+
+
+def pick(pixel: Pixel) -> None:
+    """Remember the pixel that was read, for the panel."""
+    _picked[:] = [pixel]
+
+
+def picked() -> Pixel | None:
+    """Give the pixel that was read last of the last picture."""
+    return _picked[0] if _picked else None
+
+
+def of(image: Any) -> SpectralPicture | None:
+    """Give the picture that an image shows, or that its map is of; None of any other image."""
+    shown = last()
+    if image is None or shown is None or not image.get(_MARK):
+        return None
+    picture = shown.picture
+    rows, columns = picture.xyz.shape[:2]
+    return picture if tuple(image.size) == (columns, rows) else None
+
+
+def _top(delta_e: Array) -> float:
+    """Give a whole number that most of a map is within."""
+    return float(max(math.ceil(np.quantile(delta_e, 0.98)), 1))
+
+
+def _map(delta_e: Array, top: float) -> Any:
+    """Make an image of colors on screen, which no view changes."""
+    rows, columns = delta_e.shape
+    share = np.clip(delta_e / top, 0, 1)
+    pixels = np.ones((rows, columns, 4), np.float32)
+    for channel in range(3):
+        pixels[..., channel] = np.interp(share, _RAMP[:, 0], _RAMP[:, 1 + channel])
+    found = bpy.data.images.new(MAP, columns, rows)
+    found.pixels.foreach_set(pixels.ravel())
+    found.update()
+    found.pack()
+    return found
+
+
+def _replace(name: str, new: Any) -> Any:
+    """Let an image be used wherever the one before was."""
+    for old in list(bpy.data.images):
+        if old.get(_MARK) == name and old.is_editable and old != new:
+            old.user_remap(new)
+            bpy.data.images.remove(old)
+    new[_MARK] = name
+    new.name = name
+    new.use_fake_user = True  # it stays with the file though nothing there uses it
+    new.use_view_as_render = name == PICTURE
+    return new
+
+
+@persistent
+def _forget(_path: str) -> None:
+    """Another file has other pictures."""
+    _end()
+
+
+def _end() -> None:
+    _held.clear()
+    _picked.clear()
+    events.unregistering.unsubscribe(_end)
+    if _forget in bpy.app.handlers.load_post:
+        bpy.app.handlers.load_post.remove(_forget)
