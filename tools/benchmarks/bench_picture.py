@@ -98,10 +98,8 @@ class Room:
     def spectral(self, bands: int, seed: int = 1, **options: Any) -> Any:
         """Render with some bands, and as RGB."""
         self._scene.cycles.seed = seed
-        lights = {"Lamp": self._light}
-        return api.spectral_picture(
-            self._scene, bands=bands, samples=self._samples, lights=lights, **options
-        )
+        told = {"direct": False, "lights": {"Lamp": self._light}} | options
+        return api.spectral_picture(self._scene, bands=bands, samples=self._samples, **told)
 
     def ordinary(self) -> None:
         """Add what one render of RGB gives: as it is, matched to the light, in a wider space."""
@@ -164,7 +162,7 @@ def show(path: str) -> None:
     scene.render.resolution_x, scene.render.resolution_y = SIZE
     scene.cycles.use_denoising = True
     lights = {"Lamp": SHOWN}
-    picture = api.spectral_picture(scene, bands=BANDS, samples=SAMPLES, lights=lights)
+    picture = api.spectral_picture(scene, bands=BANDS, samples=SAMPLES, lights=lights, direct=False)
     white = illuminant_spectra.to_xyz(illuminant_spectra.cie(SHOWN))
     ordinary = plain_xyz(picture)[::-1]
     np.savez(path, ordinary=ordinary, spectral=picture.xyz[::-1], white=white)
