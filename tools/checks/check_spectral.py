@@ -139,8 +139,8 @@ def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) ->
     return found, plain
 
 
-def by_mitsuba(python: str, light: str, samples: int) -> Any:
-    """Two pictures of other seeds, as blocks of XYZ."""
+def by_mitsuba(python: str, light: str, samples: int) -> tuple[list[Any], float]:
+    """Two pictures of other seeds, as blocks of XYZ, top down, and the seconds of one."""
     from rough_spectra.addon import api
     from rough_spectra.addon.colorimetry import illuminant_spectra
     from rough_spectra.core.numerics import wavelength_grid
@@ -164,7 +164,8 @@ def by_mitsuba(python: str, light: str, samples: int) -> Any:
         )
         command = [python, "-m", "tools.checks.spectral_mitsuba", str(work)]
         subprocess.run(command, check=True, cwd=ROOT)
-        return [blocks(each) for each in np.load(work.with_suffix(".npy"))]
+        rendered = np.load(work.with_name("rendered.npz"))
+        return [blocks(each) for each in rendered["xyz"]], float(rendered["seconds"])
 
 
 def blocks(pixels: Any) -> Any:
@@ -200,7 +201,7 @@ def main() -> None:
     for light in options.light or LIGHTS:
         white = illuminant_spectra.to_xyz(illuminant_spectra.cie(light))
         cycles, plain = by_cycles(scene, light, options.samples, options.bands, options.direct)
-        mitsuba = by_mitsuba(options.mitsuba, light, options.samples)
+        mitsuba, _ = by_mitsuba(options.mitsuba, light, options.samples)
         seen = mitsuba[0][..., 1] < 2.0  # without the lamp itself and its edge
         ours, theirs = (np.mean(each, axis=0) for each in (cycles, mitsuba))
         off = ours[seen].mean(axis=0) / theirs[seen].mean(axis=0) - 1

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mitsuba's part of check_spectral.py: `python -m tools.checks.spectral_mitsuba ROOM.npz`.
 
-Leaves two pictures of other random numbers, XYZ with the top row first, beside the room.
+Leaves rendered.npz beside the room: two pictures of other random numbers, `xyz` with the top row
+first, and the `seconds` of one.
 """
 
 from __future__ import annotations
 
 import importlib
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -67,10 +69,13 @@ def main(path: Path) -> None:
             face["emitter"] = {"type": "area", "radiance": spectrum(LUMINANCE * room["lamp"])}
         scene[f"face-{number}"] = face
     loaded = mitsuba.load_dict(scene)
+    began = time.perf_counter()
     pictures = [
         np.array(mitsuba.render(loaded, spp=int(room["samples"]), seed=seed)) for seed in (1, 2)
     ]
-    np.save(path.with_suffix(".npy"), np.array(pictures, np.float64)[..., :3])
+    seconds = (time.perf_counter() - began) / len(pictures)
+    xyz = np.array(pictures, np.float64)[..., :3]
+    np.savez(path.with_name("rendered.npz"), xyz=xyz, seconds=seconds)
 
 
 def placed(mitsuba: Any, corners: Any) -> Any:
