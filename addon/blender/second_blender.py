@@ -90,6 +90,7 @@ def give_back(process: subprocess.Popen[bytes], is_done: bool) -> None:
     if process.poll() is None:
         process.terminate()
         _see_to_the_end(process)
+    _close(process)
     if last is not None:
         _dismiss()
 
@@ -133,10 +134,15 @@ def _dismiss() -> None:
         return
     events.unregistering.unsubscribe(_dismiss)
     if not last.is_at_work:
-        assert last.process.stdin is not None
-        with contextlib.suppress(OSError):
-            last.process.stdin.close()
+        _close(last.process)
         _see_to_the_end(last.process)
+
+
+def _close(process: subprocess.Popen[bytes]) -> None:
+    """Let a process know that no more jobs come."""
+    if process.stdin is not None:
+        with contextlib.suppress(OSError):
+            process.stdin.close()
 
 
 def _open(

@@ -7,6 +7,7 @@ from __future__ import annotations
 import io
 import re
 import tokenize
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
@@ -37,10 +38,11 @@ ALSO = {"the published weights": {"core/reading.py"}}
 """`core.reading` quotes the fit in the textbook's geometric series and in the bound on σ."""
 
 
-def code(path: Path) -> str:
+@lru_cache(maxsize=1024)
+def code(text: str) -> str:
     """Give a module's text without comments, strings and docstrings."""
     kept = []
-    for token in tokenize.generate_tokens(io.StringIO(path.read_text(encoding="utf-8")).readline):
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type in (tokenize.NL, tokenize.NEWLINE):
             kept.append("\n")
         elif token.type not in (tokenize.COMMENT, tokenize.STRING):
@@ -50,7 +52,8 @@ def code(path: Path) -> str:
 
 def places(root: Path, pattern: str) -> set[str]:
     """Files whose code holds a pattern."""
-    return {path for path in house.files(root).values() if re.search(pattern, code(root / path))}
+    texts = {path: (root / path).read_text(encoding="utf-8") for path in house.files(root).values()}
+    return {path for path, text in texts.items() if re.search(pattern, code(text))}
 
 
 @pytest.mark.parametrize("subject", SUBJECTS)
