@@ -74,8 +74,8 @@ def on_flat_samples(material: Any) -> list[str]:
         for sentence in _of_node(node, outputs):
             lacks.setdefault(sentence, []).append(node.name)
     output = output_node(material)
-    is_moved = output is not None and material.displacement_method != "BUMP"
-    if is_moved and output.inputs["Displacement"].is_linked:
+    moved = output is not None and output.inputs["Displacement"].is_linked
+    if moved and material.displacement_method != "BUMP":
         lacks["a flat sample is not displaced"] = []
     told = []
     for sentence, nodes in lacks.items():

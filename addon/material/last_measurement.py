@@ -129,9 +129,9 @@ def get(material: Any, known: Snapshot | None = None) -> LastMeasurement | None:
     found = _parsed(material.rough_spectra.measured)
     if found is None:
         return None
-    of, rgb, delta_e, *rest = found
+    of, rgb, delta_e, predicted, instrument, place, spread, unlike = found
     current = of == _fingerprint(known or snapshot.of(material))
-    return LastMeasurement(rgb, delta_e, current, *rest)
+    return LastMeasurement(rgb, delta_e, current, predicted, instrument, place, spread, unlike)
 
 
 _RGB = tuple[float, float, float]

@@ -104,7 +104,6 @@ def obstacle(found: settled.Obstacle, how: Style) -> tuple[Sentence, ...]:
     return (how.format.sentence(_capital(told), "INFO"),)
 
 
-@memoized(maxsize=_KEPT)
 def remarks(found: Snapshot, how: Style, details: str = "") -> tuple[Sentence, ...]:
     """Say what was found of a fresh material that has no numbers, as of a texture that was scaled.
 
