@@ -97,16 +97,6 @@ def _judge_all(samples: Sequence[Sample]) -> list[tuple[str, ...]]:
     return [tuple(sentences) for sentences in found]
 
 
-def own_color_difference(sample: Sample) -> float | None:
-    """ΔE00 between the file's own Lab or XYZ and the spectrum, for its illuminant and observer.
-
-    None where the file has neither, or does not say for which light. Many files that seem to
-    disagree do not: their Lab is for D50 and 2°, and was read as D65 and 10°.
-    """
-    difference = float(_own_differences([sample], sample.values[np.newaxis])[0])
-    return None if np.isnan(difference) else difference
-
-
 def _judge_grid(samples: Sequence[Sample]) -> _Found:
     """Judge samples that share their wavelengths."""
     nm = samples[0].wavelengths

@@ -3,6 +3,7 @@
 """What is wrong with a spectrum is named; what is nearly wrong is not."""
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,10 +22,10 @@ NIX = sorted((Path(__file__).parents[1] / "fixtures" / "nix").glob("*.csv"))
 
 
 @pytest.mark.parametrize("path", NIX, ids=lambda path: path.stem)
-def test_device_lab_agrees_under_the_files_own_light(path):
-    (sample,) = readers.read(path)
+def test_device_lab_agrees_under_the_files_own_light(path, monkeypatch):
     # 0.02: the files print nine digits; what is left is the interpolation of the weights.
-    assert quality.own_color_difference(sample) <= 0.02
+    monkeypatch.setattr(quality, "DISAGREEMENT", 0.02)
+    (sample,) = readers.read(path)
     assert quality.check([sample]) == [()]
 
 
@@ -32,7 +33,8 @@ def test_brick_only_seems_to_disagree_when_its_light_is_ignored():
     (brick,) = readers.read(next(path for path in NIX if path.stem == "brick"))
     assert (brick.illuminant, brick.observer) == ("D50", 2)
     misread = replace(brick, illuminant="D65", observer=10)
-    assert round(quality.own_color_difference(misread), 1) == 1.7
+    [[sentence]] = quality.check([misread])
+    assert round(float(re.search(r"ΔE00 ([\d.]+)", sentence)[1]), 1) == 1.7
 
 
 def test_contradiction_reaches_the_user_with_the_solution():
@@ -47,8 +49,11 @@ def test_contradiction_reaches_the_user_with_the_solution():
 
 def test_without_a_stated_light_nothing_is_claimed():
     (sample,) = readers.read(NIX[0])
-    assert quality.own_color_difference(replace(sample, illuminant="")) is None
-    assert quality.own_color_difference(replace(sample, lab=None, xyz=None)) is None
+    lightness, a, b = sample.lab
+    wrong = replace(sample, lab=(lightness, a + 5, b), xyz=None)
+    assert quality.check([wrong]) != [()]
+    assert quality.check([replace(wrong, illuminant="")]) == [()]
+    assert quality.check([replace(wrong, lab=None)]) == [()]
 
 
 NM = np.arange(400.0, 701.0, 10.0)

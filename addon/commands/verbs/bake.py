@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...support.shown_text import inform, tell
+from ..arguments import add_materials
 from ..work_list import share
 
 if TYPE_CHECKING:
@@ -65,20 +66,10 @@ def add_surface_arguments(parser: argparse.ArgumentParser) -> None:
     from ....core.limits import SPOT_DIAMETER
 
     instruments = tuple(REGISTRY)
-    parser.add_argument(
-        "--material",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="a material, repeatable; without any, all that store a spectrum",
-    )
-    parser.add_argument(
-        "--object",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="the surface of this object as it is in the scene, repeatable: a spot in the middle "
-        "of each of its materials",
+    add_materials(
+        parser,
+        "the surface of this object as it is in the scene, repeatable: a spot in the middle of "
+        "each of its materials",
     )
     spot = parser.add_argument_group("where the spot on an object is, and how it is measured")
     place = spot.add_mutually_exclusive_group()

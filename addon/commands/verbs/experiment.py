@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...support.shown_text import inform, tell
+from ..arguments import add_repeatability
 
 if TYPE_CHECKING:
     from ...laboratory.trial.page import Found
@@ -24,7 +25,6 @@ DESCRIPTION = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `experiment`."""
-    from ....core import estimate
     from ...laboratory import experiment, kinds
 
     parser.add_argument(
@@ -41,14 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="BASE",
         help="folder and base name: BASE.md, BASE.csv, BASE.sigma.csv, BASE.albedo.png and others",
     )
-    parser.add_argument(
-        "--repeatability",
-        type=float,
-        default=100 * estimate.RELATIVE,
-        metavar="PERCENT",
-        help="standard deviation of repeated readings, percent of the reading; "
-        f"{100 * estimate.RELATIVE:g} without it",
-    )
+    add_repeatability(parser)
     laboratory = parser.add_argument_group("samples of the laboratory")
     laboratory.add_argument(
         "--kind",

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...support.shown_text import tell
+from ..arguments import add_materials
 
 NAME = "export"
 SUMMARY = "materials for other renderers: MaterialX, USD, glTF, Mitsuba, pbrt, LuxCore"
@@ -25,20 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `export`."""
     from ...export import targets
 
-    parser.add_argument(
-        "--material",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="a material, repeatable; without any, all that store a spectrum",
-    )
-    parser.add_argument(
-        "--object",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="the materials on this object's surface, repeatable",
-    )
+    add_materials(parser, "the materials on this object's surface, repeatable")
     endings = ", ".join(f"BASE.{target.ENDING}" for target in targets.REGISTRY.values())
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument(

@@ -44,11 +44,7 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose where to write."""
-        if not self.filepath:
-            blend = Path(bpy.data.filepath or "untitled.blend")
-            self.filepath = str(blend.with_name(f"{blend.stem}-readings"))
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.choose_files(self, context, "-readings")
 
     def to_measure(self, context: Any) -> Plan:
         """Check the target, and take down the predictions."""

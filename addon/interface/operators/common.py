@@ -8,6 +8,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import radians
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
@@ -53,6 +54,15 @@ _WITHOUT_SURFACE = {"GREASEPENCIL", "GPENCIL", "VOLUME"}
 _CHARACTERS_A_LINE = 100
 _SWATCH_WIDTH = 1.6
 """Of a color in a list, in heights of a button."""
+
+
+def choose_files(operator: Any, context: Any, behind: str = "") -> set[str]:
+    """Let the user choose where an operator writes; the .blend's name and `behind` come first."""
+    if not operator.filepath:
+        blend = Path(bpy.data.filepath or "untitled.blend")
+        operator.filepath = str(blend.with_name(blend.stem + behind))
+    context.window_manager.fileselect_add(operator)
+    return {"RUNNING_MODAL"}
 
 
 class AssignOptions:

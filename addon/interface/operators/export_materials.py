@@ -64,15 +64,11 @@ class ROUGHSPECTRA_OT_export_materials(bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose where to write."""
-        if not self.filepath:
-            blend = Path(bpy.data.filepath or "untitled.blend")
-            self.filepath = str(blend.with_suffix(""))
         if not self.targets:
             from ...export import write
 
             self.targets = set(write.usable())
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.choose_files(self, context)
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files; of targets one a line."""

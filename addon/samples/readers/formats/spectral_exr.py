@@ -7,8 +7,6 @@ Channels of reflectance are read, by the names of `parts.spectral_channels`; oth
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +18,7 @@ from ..parts import (
     geometry_words,
     spectral_channels,
 )
-from ..parts.document import Document, open_document, quote
+from ..parts.document import Document, quote
 from ..parts.exr_image import Image
 
 NAME = "spectral OpenEXR image"
@@ -35,26 +33,6 @@ UNEVEN = 0.02
 def sniff(document: Document) -> bool:
     """Return whether this is an OpenEXR image; one without spectra is refused below."""
     return document.data.startswith(exr_header.MAGIC)
-
-
-def region_mean(path: str | os.PathLike[str], x: int, y: int, width: int, height: int) -> Sample:
-    """Return the mean spectrum of a rectangle of pixels.
-
-    Parameters
-    ----------
-    path
-        A spectral image.
-    x, y
-        The rectangle's first pixel, counted from 0 at the top left of the data window.
-    width, height
-        Its size in pixels.
-
-    Raises
-    ------
-    InputError
-        As `read`; or the rectangle is not within the image.
-    """
-    return read(open_document(path, (x, y, width, height)))[0]
 
 
 def read(document: Document) -> list[Sample]:
