@@ -232,7 +232,7 @@ def shining(thing: Any) -> None:
     if bpy.app.version < (5, 0, 0):
         material.use_nodes = True
     thing.active_material = material
-    node = surface.shader_node(material)
+    node: Any = surface.shader_node(material)
     node.inputs["Coat Weight"].default_value = 1.0
     for preset, read_at in (
         ("colorchecker/19-white-9-5", "45a:0"),
