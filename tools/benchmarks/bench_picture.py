@@ -98,7 +98,7 @@ class Room:
     def spectral(self, bands: int, seed: int = 1, **options: Any) -> Any:
         """Render with some bands, and as RGB."""
         self._scene.cycles.seed = seed
-        told = {"direct": False, "lights": {"Lamp": self._light}} | options
+        told: dict[str, Any] = {"direct": False, "lights": {"Lamp": self._light}} | options
         return api.spectral_picture(self._scene, bands=bands, samples=self._samples, **told)
 
     def ordinary(self) -> None:
