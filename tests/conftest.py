@@ -20,6 +20,8 @@ ROOT = Path(__file__).resolve().parents[1]
 # 80 × 80 took twenty times as long. Asked for before numpy starts; child processes inherit it.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+STATUS = pytest.StashKey[int]()
+
 sys.path.insert(0, str(ROOT))
 # An example that takes long is no fault: it depends on the machine, and on what else runs there.
 hypothesis.settings.register_profile("untimed", deadline=None)
@@ -39,6 +41,26 @@ if "rough_spectra" not in sys.modules:
     package = importlib.util.module_from_spec(spec)
     sys.modules["rough_spectra"] = package
     spec.loader.exec_module(package)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionfinish(session, exitstatus):
+    """Keep how the run went, for the last act."""
+    session.config.stash[STATUS] = int(exitstatus)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config):
+    """End at once when all is told and tidied up.
+
+    After all of that a Blender 4.5 whose tests had passed hung for an hour, among the destructors
+    of its libraries. What ends a Blender that works, `tests/integration/test_exit_status.py` sees.
+    """
+    if "bpy" in sys.modules and STATUS in config.stash:
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(config.stash[STATUS])
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -36,8 +36,7 @@ def test_test_runs_every_step_and_sums_them_up(stubbed, capsys):
         "tests, Blender 4.5",
         "lint",
         "layout",
-        "types of core and addon",
-        "types of dev.py and tools",
+        "types",
     ]
     said = capsys.readouterr().out
     assert said.endswith("All steps passed.\n")
@@ -51,7 +50,7 @@ def test_one_failing_step_fails_the_run(stubbed, monkeypatch, capsys):
         lambda steps, *_: [dev.Result(s.name, "no", 0, "lint" in s.name) for s in steps],
     )
     assert dev.main(["test"]) == 1
-    assert capsys.readouterr().out.endswith("1 of 6 steps failed.\n")
+    assert capsys.readouterr().out.endswith("1 of 5 steps failed.\n")
 
 
 def test_blenders_that_run_at_once_share_no_folder_and_no_screen(stubbed, monkeypatch):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import textwrap
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -84,6 +85,26 @@ def test_output_reads_as_if_one_ran_after_the_other(tmp_path, capfd, lanes):
     ]
 
 
+def test_a_step_that_hangs_is_ended_and_shows_where_it_was(tmp_path, capfd):
+    """CI that waits for it is stopped from outside, and nobody learns which step it was."""
+    hang = """
+        import faulthandler, time
+        faulthandler.enable()
+        def hangs_here():
+            time.sleep(60)
+        hangs_here()
+        """
+    steps = [replace(step("hangs", hang), minutes=1 / 60), step("next", "print('runs')")]
+    first, second = side_by_side.run(steps, 2, said)
+    assert first.failed
+    assert first.result == "FAILED (still running after 0.0166667 minutes, and ended)"
+    assert first.seconds < SECONDS
+    assert not second.failed
+    out, err = capfd.readouterr()
+    assert "in hangs_here" in err
+    assert "runs" in out
+
+
 RUN = """
 import sys
 sys.path.insert(0, {root!r})
@@ -104,8 +125,8 @@ POLITE = """
 import sys, time
 from pathlib import Path
 place = Path(sys.argv[1])
-place.write_text("here")
 try:
+    place.write_text("here")
     time.sleep(60)
 except KeyboardInterrupt:
     time.sleep(0.1)

@@ -25,18 +25,24 @@ PAUSE = 0.05
 """Seconds between two looks at the children."""
 MOMENT, TIDYING, LAST = 2.0, 15.0, 5.0
 """Seconds that children have to end by themselves, after an interrupt, and once terminated."""
+LONGEST = 40.0
+"""Minutes that a step may take; the longest takes a quarter of that where nothing else runs."""
 
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class Step:
-    """One child: its name in headers and summary, its command, folder and additional settings."""
+    """One child: its name in headers and summary, its command, folder and additional settings.
+
+    One that still runs after so many minutes hangs: it is ended, and has failed.
+    """
 
     name: str
     command: Sequence[str | Path]
     folder: Path
     settings: Mapping[str, str] = field(default_factory=dict)
+    minutes: float = LONGEST
 
 
 @dataclass(frozen=True)
@@ -103,8 +109,10 @@ class _Child:
 
     def __init__(self, step: Step, kept: Path | None) -> None:
         self._name = step.name
+        self._minutes = step.minutes
         self._start = time.monotonic()
         self._seconds: float | None = None
+        self._hung = False
         self._written: IO[bytes] | None = None
         sys.stdout.flush()
         with contextlib.ExitStack() as stack:
@@ -121,9 +129,14 @@ class _Child:
             self._written = kept.open("rb")
 
     def ended(self) -> bool:
-        """Look whether it has ended."""
-        if self._seconds is None and self.process.poll() is not None:
-            self._seconds = time.monotonic() - self._start
+        """Look whether it has ended, and end it where it hangs."""
+        if self._seconds is None:
+            seconds = time.monotonic() - self._start
+            if seconds > 60.0 * self._minutes and self.process.poll() is None:
+                self._hung = True
+                _abort(self.process)
+            if self.process.poll() is not None:
+                self._seconds = seconds
         return self._seconds is not None
 
     def show(self) -> None:
@@ -141,6 +154,8 @@ class _Child:
         """Return its line of the summary."""
         status = self.process.returncode
         result = "ok" if status == 0 else f"FAILED (exit status {status})"
+        if self._hung:
+            result = f"FAILED (still running after {self._minutes:g} minutes, and ended)"
         return Result(self._name, result, self._seconds or 0.0, status != 0)
 
 
@@ -164,6 +179,16 @@ def _end(children: Sequence[_Child]) -> None:
             if process.poll() is None:
                 process.kill()
             process.wait()
+
+
+def _abort(process: subprocess.Popen[bytes]) -> None:
+    """End a child that hangs; Python with a fault handler, as in pytest, tells where it was."""
+    process.send_signal(signal.SIGTERM if sys.platform == "win32" else signal.SIGABRT)
+    try:
+        process.wait(LAST)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 def _wait(_process: subprocess.Popen[bytes]) -> None:
