@@ -156,6 +156,9 @@ def keep_paths(cycles: Any) -> None:
     cycles.min_light_bounces = cycles.max_bounces
     cycles.min_transparent_bounces = cycles.transparent_max_bounces
     cycles.use_light_tree = False  # it picks lamps by what they send
+    for material in bpy.data.materials:
+        if material.cycles.emission_sampling == "AUTO":  # which looks at how much it sends
+            material.cycles.emission_sampling = "FRONT_BACK"
 
 
 def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None = None) -> None:
