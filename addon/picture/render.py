@@ -1,18 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ask a second Blender for the renders of a spectral picture, and put them together.
-
-The open file, as it is and unsaved, is copied into the job's folder: neither it nor its settings
-nor the last render result are touched.
-"""
+"""Ask a second Blender for the renders of a spectral picture, and put them together."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from contextlib import redirect_stdout
 from dataclasses import dataclass, field
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +20,7 @@ from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from . import colors, direct_light, light_spectra, passes, spectra
+from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
 from .passes import Pass
 from .picture import SpectralPicture, compare
 
@@ -124,10 +118,10 @@ class Rendering(Job):
     def __init__(self, scene: Any, wanted: Wanted) -> None:
         _check(scene, wanted)
         known = {name: light_spectra.find(light) for name, light in wanted.lights.items()}
-        layer = _layer(scene)
+        layer = scene_copy.layer_of(scene)
         self._wanted = wanted
         self._space = working_space.current()
-        depsgraph = _evaluated(scene, layer)
+        depsgraph = scene_copy.evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
         self._light = self._decide(scene)
@@ -138,20 +132,8 @@ class Rendering(Job):
         renders = [*self._passes, *self._beside(depsgraph, scene)]
 
         def prepare(folder: Path) -> dict[str, Any]:
-            blend = folder / "scene.blend"
-            with redirect_stdout(StringIO()):  # Blender tells of it there
-                bpy.ops.wm.save_as_mainfile(
-                    filepath=str(blend), check_existing=False, compress=False, copy=True
-                )
             return {
-                "blend": blend.name,
-                "scene": scene.name,
-                "layer": layer.name,
-                "frame": scene.frame_current,
-                "subframe": scene.frame_subframe,
-                "seed": _seed(scene),
-                "samples": wanted.samples or scene.cycles.samples,
-                "percentage": wanted.percentage or scene.render.resolution_percentage,
+                **scene_copy.save(folder, scene, layer, wanted.samples, wanted.percentage),
                 "plain": wanted.plain,
                 "apart": self._light.apart,
                 "steady": wanted.steady,
@@ -276,44 +258,13 @@ def render(
 
 
 def _check(scene: Any, wanted: Wanted) -> None:
-    if scene.render.engine != "CYCLES":
-        msg = (
-            f"Scene {scene.name!r} renders with {scene.render.engine}; a spectral picture needs "
-            "Cycles: choose it in the render properties."
-        )
-        raise MaterialError(msg)
-    if scene.camera is None:
-        msg = f"Scene {scene.name!r} has no camera; add one."
-        raise MaterialError(msg)
+    scene_copy.check(scene, "a spectral picture")
     if wanted.direct and scene.cycles.use_denoising:
         msg = (
             f"Scene {scene.name!r} is denoised, and direct light apart needs renders that are "
             "not; switch denoising off, or leave direct light with the rest."
         )
         raise MaterialError(msg)
-
-
-def _layer(scene: Any) -> Any:
-    """Give the view layer that is rendered first."""
-    used = [layer for layer in scene.view_layers if layer.use]
-    if not used:
-        msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
-        raise MaterialError(msg)
-    return used[0]
-
-
-def _seed(scene: Any) -> int:
-    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
-    cycles = scene.cycles
-    aside = scene.frame_current if cycles.use_animated_seed else 0
-    return int((cycles.seed + aside) % (1 << 31))
-
-
-def _evaluated(scene: Any, layer: Any) -> Any:
-    if bpy.context.scene == scene and bpy.context.view_layer == layer:
-        return bpy.context.evaluated_depsgraph_get()
-    with bpy.context.temp_override(scene=scene, view_layer=layer):
-        return bpy.context.evaluated_depsgraph_get()
 
 
 def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
