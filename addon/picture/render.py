@@ -55,6 +55,9 @@ class Wanted:
     steady
         Whether all renders follow the same paths of light, whatever its colors: without russian
         roulette, adaptive sampling and denoising.
+    halves
+        Whether to render everything twice, with random numbers of their own, of which the picture
+        is the mean: what the two differ by is noise.
 
     Raises
     ------
@@ -72,6 +75,7 @@ class Wanted:
     lights: Mapping[str, str] = field(default_factory=dict)
     most: int = MOST
     steady: bool = False
+    halves: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -137,6 +141,7 @@ class Rendering(Job):
                 "plain": wanted.plain,
                 "apart": self._light.apart,
                 "steady": wanted.steady,
+                "halves": wanted.halves,
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
