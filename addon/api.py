@@ -1640,7 +1640,7 @@ def picture_verdict(
     tolerance
         ΔE00 within which 95 % of the picture shall be.
     samples, percentage
-        Of the small pictures; 5, and what comes to 480 × 270 pixels, if left out.
+        Of the small pictures; 8, and what comes to 240 × 135 pixels, if left out.
 
     Returns
     -------

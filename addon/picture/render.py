@@ -26,6 +26,9 @@ from .picture import SpectralPicture, compare
 
 MOST = 36
 """Bands that can be asked for, at most."""
+_FEW = 8
+"""Lamps among which no light tree has to pick. It goes by what they send, and another one in each
+render makes noise of color: three colored tubes put RGB off by a ΔE00 of 13 instead of 1."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +145,7 @@ class Rendering(Job):
                 "apart": self._light.apart,
                 "steady": wanted.steady,
                 "halves": wanted.halves,
+                "few_lamps": self._lamp_count(depsgraph) <= _FEW,
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
@@ -168,6 +172,17 @@ class Rendering(Job):
 
         lamps = len(self._lamps.spectra)
         return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
+
+    def _lamp_count(self, depsgraph: Any) -> int:
+        """Count lamps and objects that shine."""
+        shining = {each.place.of for each in self._found.shining}
+        count = 0
+        for instance in depsgraph.object_instances:
+            thing = instance.object
+            slots = [slot.material for slot in thing.material_slots]
+            of = {colors.key("materials", each.original) for each in slots if each is not None}
+            count += thing.type == "LIGHT" or bool(of & shining)
+        return count
 
     def _of_bands(self) -> list[Pass]:
         return passes.of_bands(self._chosen)

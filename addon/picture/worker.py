@@ -126,6 +126,11 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.cycles.seed = job["seed"]
     # Faint light is left out by chance, and whether it is faint depends on its color.
     scene.cycles.light_sampling_threshold = 0
+    for material in bpy.data.materials:
+        if material.cycles.emission_sampling == "AUTO":  # which looks at how much it sends
+            material.cycles.emission_sampling = "FRONT_BACK"
+    if job.get("few_lamps"):  # which it costs little to pick without a look at what they send
+        scene.cycles.use_light_tree = False
     if job["steady"]:
         keep_paths(scene.cycles)
     several = job["apart"] or bool(job.get("groups"))
@@ -157,9 +162,6 @@ def keep_paths(cycles: Any) -> None:
     cycles.min_light_bounces = cycles.max_bounces
     cycles.min_transparent_bounces = cycles.transparent_max_bounces
     cycles.use_light_tree = False  # it picks lamps by what they send
-    for material in bpy.data.materials:
-        if material.cycles.emission_sampling == "AUTO":  # which looks at how much it sends
-            material.cycles.emission_sampling = "FRONT_BACK"
 
 
 def take(
