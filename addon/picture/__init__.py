@@ -5,6 +5,7 @@
 colors         where colors stand in materials, lamps and world, and what spectra they stand for
 light_spectra  what a lamp sends, where that is known
 chosen_light   the spectrum that a lamp or a world keeps in the .blend
+scene_copy     a copy of the open file for the second Blender
 passes         the renders: which bands, and what each color is in them
 direct_light   whether direct light has renders of its own
 worker         the script of the second Blender, which sets colors and renders
@@ -14,10 +15,13 @@ picture        the picture that comes of it, beside the ordinary one
 settings       how a scene's picture is rendered from the interface
 images         the last picture as images of the open file
 pixel          what a pixel of it is
+exr_file       pixels as a file
 files          the picture as a file and as Blender's image
 verdict        whether RGB is enough, by small pictures, and if not, what is
 groups         each lamp's light apart
 relight        other lamps in a picture of which that was rendered
 frames         pictures of a range of frames
+infrared       what a camera sees of lamps in the infrared, with infrared_wanted, infrared_light,
+               infrared_scene and infrared_file
 thermal        what a thermal camera sees, with thermal_worker and thermal_file
 """

@@ -9,7 +9,8 @@ from may be gone tomorrow.
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bpy.props import EnumProperty, PointerProperty, StringProperty
 from bpy.types import Light, PropertyGroup, World
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from ..samples.light_source import LightSource
     from .light_spectra import KnownLight
 
+_Used = TypeVar("_Used")
 COLOR, MEASURED = "COLOR", "MEASURED"
 # The numbers are what a .blend stores: never give one to another item, nor change it.
 SPECTRUM_ITEMS = (
@@ -95,6 +97,23 @@ def known(data: Any) -> KnownLight | None:
         return None
     if group.spectrum != MEASURED:
         return light_spectra.find(group.spectrum)
+    return _undamaged(data, light_spectra.measured)
+
+
+def source(data: Any) -> LightSource | None:
+    """Give what was measured of a lamp or a world, if that was chosen for it.
+
+    Raises
+    ------
+    MaterialError
+        As of `known`.
+    """
+    return None if data.rough_spectra.spectrum != MEASURED else _undamaged(data, lambda kept: kept)
+
+
+def _undamaged(data: Any, use: Callable[[LightSource], _Used]) -> _Used:
+    """Read what is stored, and use it."""
+    group = data.rough_spectra
     remedy = "open a file for its spectrum, or choose another one"
     if not group.measured:
         msg = f"{data.name!r} is to have a measured spectrum and has none; {remedy}."
@@ -103,7 +122,7 @@ def known(data: Any) -> KnownLight | None:
 
     try:
         nm, power = json.loads(group.measured)
-        return light_spectra.measured(light_source.checked(group.sample_name, nm, power))
+        return use(light_source.checked(group.sample_name, nm, power))
     except (ValueError, TypeError, InputError) as error:
         reason = str(error).rstrip(".")
         msg = f"The spectrum stored with {data.name!r} is damaged ({reason}); {remedy}."

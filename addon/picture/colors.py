@@ -84,6 +84,10 @@ class Measured:
         At the virtual instrument, at `illuminant_spectra.GRID`.
     roughness, read_at, gloss
         Cycles' diffuse roughness, the instrument, and what lies over the diffuse lobe.
+    name
+        By which its material is told.
+    whole
+        Its sample's wavelengths, whatever they are, and the reading there, shape (2, bands).
     """
 
     place: Place
@@ -91,14 +95,20 @@ class Measured:
     roughness: float
     read_at: str
     gloss: Gloss | None
+    name: str = ""
+    whole: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Colored:
-    """A surface of which RGB is known; `rgb` is None where another node sets it."""
+    """A surface of which RGB is known; `rgb` is None where another node sets it.
+
+    `name` is by which its material is told.
+    """
 
     place: Place
     rgb: Array | None
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,11 +123,18 @@ class Shining:
         At `GRID`, with a luminance of 1; None where another node sets the color.
     strength
         Luminance of the color, or by what a color of another node is multiplied, shape (3,).
+    name, called
+        By which it is told, such as "Light 'Sun'", and what the lamp, world or material is called.
+    kelvin
+        Temperature that is set for it, or None.
     """
 
     place: Place
     spectrum: Array | None
     strength: Array
+    name: str = ""
+    called: str = ""
+    kelvin: float | None = None
 
 
 @dataclass(eq=False)
@@ -157,7 +174,12 @@ class Colors:
 
 
 def find(
-    depsgraph: Any, scene: Any, space: WorkingSpace, known: Mapping[str, KnownLight] | None = None
+    depsgraph: Any,
+    scene: Any,
+    space: WorkingSpace,
+    known: Mapping[str, KnownLight] | None = None,
+    *,
+    is_visible: bool = True,
 ) -> Colors:
     """Find all colors of what a scene shows.
 
@@ -172,13 +194,16 @@ def find(
     known
         By the names of lamps, worlds and materials, the spectrum that their light has, and what
         that is, whatever they keep themselves; its luminance stays that of their color.
+    is_visible
+        Whether it is for the eye. If not, grays are found, too, which are the same in all bands for
+        the eye alone, and what lamps keep is not asked.
 
     Raises
     ------
     MaterialError
         If nothing of such a name shines with one color, or a lamp keeps what is no spectrum.
     """
-    search = _Search(space, known or {})
+    search = _Search(space, known or {}, is_visible)
     found = search.of(depsgraph, scene)
     if search.unused:
         msg = (
@@ -190,8 +215,11 @@ def find(
 
 
 class _Search:
-    def __init__(self, space: WorkingSpace, known: Mapping[str, KnownLight]) -> None:
+    def __init__(
+        self, space: WorkingSpace, known: Mapping[str, KnownLight], is_visible: bool
+    ) -> None:
         self._space = space
+        self._is_visible = is_visible
         self._known = known
         self.unused = set(known)
         self._called: dict[str, str] = {}
@@ -229,7 +257,7 @@ class _Search:
 
     def _choose(self, title: str, data: Any) -> None:
         """Remember the spectrum that a lamp or a world keeps, and that it has to be used."""
-        chosen = chosen_light.known(data)
+        chosen = chosen_light.known(data) if self._is_visible else None
         if chosen is not None:
             self._chosen[title] = chosen
 
@@ -272,7 +300,8 @@ class _Search:
         place = Place(of, node.name, list(node.inputs).index(color))
         self._found.tell(name, f"measured: {request.sample.name}")
         gloss = storage.shown_gloss(material)
-        return Measured(place, reading, surface.roughness, request.read_at, gloss)
+        whole = np.stack((nm, read))
+        return Measured(place, reading, surface.roughness, request.read_at, gloss, name, whole)
 
     def _light(self, light: Any) -> None:
         of = key("lights", light)
@@ -358,14 +387,14 @@ class _Search:
                     if strength.is_linked or strength.default_value != 0:
                         self._emitting(place, socket, name, times, kelvin)
                 elif _source(socket) is not None:
-                    self._found.colored.append(Colored(place, None))
+                    self._found.colored.append(Colored(place, None, name))
                     self._found.tell(name, LINEAR)
                 else:
                     self._surface(place, name, np.array(socket.default_value[:3], np.float64))
 
     def _surface(self, place: Place, name: str, rgb: Array) -> None:
-        if np.ptp(rgb) > _EVEN:
-            self._found.colored.append(Colored(place, rgb))
+        if np.ptp(rgb) > _EVEN or not self._is_visible:
+            self._found.colored.append(Colored(place, rgb, name))
             self._found.tell(name, LINEAR)
 
     def _emitting(
@@ -385,7 +414,7 @@ class _Search:
                 rgb = emission.blackbody(degrees, self._space)
                 self._glow(place, name, rgb * own, degrees)
                 return
-        self._found.shining.append(Shining(place, None, own))
+        self._found.shining.append(Shining(place, None, own, name, self._called[name]))
         self._found.tell(name, f"{LINEAR}, times that of D65")
         if name in self._chosen:
             _, words = self._chosen[name]
@@ -402,7 +431,8 @@ class _Search:
         spectrum, words = known or illuminant_spectra.like(xyz / xyz[1], kelvin)
         if known is not None and _are_apart(illuminant_spectra.to_xyz(spectrum), xyz):
             words += ", though its RGB is another color"
-        self._found.shining.append(Shining(place, spectrum, np.full(3, xyz[1])))
+        called, strength = self._called[name], np.full(3, xyz[1])
+        self._found.shining.append(Shining(place, spectrum, strength, name, called, kelvin))
         self._found.tell(name, words)
 
     def _node(self, node: Any, name: str) -> None:

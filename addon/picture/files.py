@@ -15,9 +15,7 @@ from ...core.errors import OutputError
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..support import atomic_files
-from ..support.openimageio import openimageio
-from ..support.version import version
-from . import spectral_file
+from . import exr_file, spectral_file
 from .picture import SpectralPicture
 
 ENDING = ".exr"
@@ -53,7 +51,10 @@ def write(
         files.append((beside, picture.comparison.delta_e[..., np.newaxis], ("Y",)))
     with atomic_files.publication() as publication:
         for target, pixels, names in files:
-            _write(publication.stage(target), target, pixels[::-1], names, picture)
+            told = _attributes(picture)
+            if len(names) > 1:
+                told["chromaticities"] = spectral_file.chromaticities()
+            exr_file.write(publication.stage(target), target, pixels, names, told)
         if spectra is not None:
             spectral_file.write(picture, publication.stage(spectra), spectra, at_bands=at_bands)
     written = [target for target, *_ in files]
@@ -124,24 +125,8 @@ def told(picture: SpectralPicture) -> Iterable[str]:
         )
 
 
-def _write(
-    part: Path, target: Path, pixels: Array, names: tuple[str, ...], picture: SpectralPicture
-) -> None:
-    oiio = openimageio()
-    rows, columns = pixels.shape[:2]
-    spec = oiio.ImageSpec(columns, rows, len(names), oiio.FLOAT)
-    spec.channelnames = names
-    spec.attribute("compression", "zip")
-    spec.attribute("Software", f"Rough Spectra {version()}")
-    if len(names) > 1:
-        spec.attribute("chromaticities", "float[8]", spectral_file.chromaticities())
-    spec.attribute("roughSpectra:bands", " ".join(f"{nm:g}" for nm in picture.wavelengths))
-    spec.attribute("roughSpectra:observer", f"{picture.observer} degrees")
-    out = oiio.ImageOutput.create("openexr")
-    opened = out is not None and out.open(str(part), spec)
-    whole = np.ascontiguousarray(pixels, np.float32)
-    # Closed in any case: a file that could not be written whole is still open.
-    if not (opened and out.write_image(whole)) or not out.close():
-        said = " ".join(out.geterror().split()) if out is not None else "no OpenEXR"
-        msg = f"{target} cannot be written ({said}); free the disk or choose another place."
-        raise OutputError(msg)
+def _attributes(picture: SpectralPicture) -> dict[str, Any]:
+    return {
+        "roughSpectra:bands": " ".join(f"{nm:g}" for nm in picture.wavelengths),
+        "roughSpectra:observer": f"{picture.observer} degrees",
+    }

@@ -9,6 +9,7 @@ whose channels are X, Y and Z: a reflectance is then its mean under that lamp, a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -171,15 +172,15 @@ def edits(
     # From red, green and blue of a surface to the channels.
     mixing = [by_rgb @ p.taken if p.from_rgb is None else p.from_rgb for p in passes]
     told = [
-        _edit(each.place, "colors", [matched(each, by_rgb, one.taken) for one in passes])
+        edit(each.place, "colors", [matched(each, by_rgb, one.taken) for one in passes])
         for each in found.measured
     ]
     for colored in found.colored:
         if colored.rgb is None:
-            told.append(_edit(colored.place, "matrices", [mix.T for mix in mixing]))
+            told.append(edit(colored.place, "matrices", [mix.T for mix in mixing]))
         else:
             values = [np.maximum(colored.rgb @ mix, 0) for mix in mixing]
-            told.append(_edit(colored.place, "colors", values))
+            told.append(edit(colored.place, "colors", values))
     for shining, number in zip(found.shining, lamps.of, strict=True):
         told.append(_of_light(shining, number, passes, to_rec709))
     return told
@@ -190,9 +191,9 @@ def _of_light(
 ) -> dict[str, Any]:
     if number is not None:
         values = [shining.strength * each.lamps[number] for each in passes]
-        return _edit(shining.place, "colors", values)
+        return edit(shining.place, "colors", values)
     matrices = [each.lamps[-3:].T @ (to_rec709 * shining.strength) for each in passes]
-    return _edit(shining.place, "matrices", matrices)
+    return edit(shining.place, "matrices", matrices)
 
 
 def matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
@@ -218,7 +219,8 @@ def matched(each: Measured, by_rgb: Array, taken: Array) -> Array:
     return np.clip(color, 0, 1)
 
 
-def _edit(place: Place, what: str, values: list[Array]) -> dict[str, Any]:
+def edit(place: Place, what: str, values: Sequence[Array]) -> dict[str, Any]:
+    """Say what the worker has to set in a place: "colors" or "matrices", one for each render."""
     return {
         "of": list(place.of),
         "node": place.node,

@@ -15,7 +15,7 @@ from ...core.numerics.arrays import Array
 from .spectra import Spectra
 
 _USUAL = 0.95
-_SEEN = 0.5
+SEEN = 0.5
 """Least alpha of a pixel that counts in a comparison."""
 
 
@@ -113,7 +113,7 @@ def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Arr
         XYZ of white under the scene's light, shape (3,).
     """
     labs = (color_difference.xyz_to_lab(each, white) for each in (xyz, plain_xyz))
-    there = shown[..., 3] >= _SEEN
+    there = shown[..., 3] >= SEEN
     apart = np.where(there, color_difference.delta_e(*labs), 0)
     values = apart[there] if there.any() else np.zeros(1)
     row, column = np.unravel_index(int(np.argmax(apart)), apart.shape)

@@ -1,18 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ask a second Blender for the renders of a spectral picture, and put them together.
-
-The open file, as it is and unsaved, is copied into the job's folder: neither it nor its settings
-nor the last render result are touched.
-"""
+"""Ask a second Blender for the renders of a spectral picture, and put them together."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from contextlib import redirect_stdout
 from dataclasses import dataclass, field
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +20,15 @@ from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from . import colors, direct_light, light_spectra, passes, spectra
+from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
 from .passes import Pass
 from .picture import SpectralPicture, compare
 
 MOST = 36
 """Bands that can be asked for, at most."""
+_FEW = 8
+"""Lamps among which no light tree has to pick. It goes by what they send, and another one in each
+render makes noise of color: three colored tubes put RGB off by a ΔE00 of 13 instead of 1."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +58,9 @@ class Wanted:
     steady
         Whether all renders follow the same paths of light, whatever its colors: without russian
         roulette, adaptive sampling and denoising.
+    halves
+        Whether to render everything twice, with random numbers of their own, of which the picture
+        is the mean: what the two differ by is noise.
 
     Raises
     ------
@@ -78,6 +78,7 @@ class Wanted:
     lights: Mapping[str, str] = field(default_factory=dict)
     most: int = MOST
     steady: bool = False
+    halves: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -124,10 +125,10 @@ class Rendering(Job):
     def __init__(self, scene: Any, wanted: Wanted) -> None:
         _check(scene, wanted)
         known = {name: light_spectra.find(light) for name, light in wanted.lights.items()}
-        layer = _layer(scene)
+        layer = scene_copy.layer_of(scene)
         self._wanted = wanted
         self._space = working_space.current()
-        depsgraph = _evaluated(scene, layer)
+        depsgraph = scene_copy.evaluated(scene, layer)
         self._found = colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
         self._light = self._decide(scene)
@@ -138,23 +139,13 @@ class Rendering(Job):
         renders = [*self._passes, *self._beside(depsgraph, scene)]
 
         def prepare(folder: Path) -> dict[str, Any]:
-            blend = folder / "scene.blend"
-            with redirect_stdout(StringIO()):  # Blender tells of it there
-                bpy.ops.wm.save_as_mainfile(
-                    filepath=str(blend), check_existing=False, compress=False, copy=True
-                )
             return {
-                "blend": blend.name,
-                "scene": scene.name,
-                "layer": layer.name,
-                "frame": scene.frame_current,
-                "subframe": scene.frame_subframe,
-                "seed": _seed(scene),
-                "samples": wanted.samples or scene.cycles.samples,
-                "percentage": wanted.percentage or scene.render.resolution_percentage,
+                **scene_copy.save(folder, scene, layer, wanted.samples, wanted.percentage),
                 "plain": wanted.plain,
                 "apart": self._light.apart,
                 "steady": wanted.steady,
+                "halves": wanted.halves,
+                "few_lamps": self._lamp_count(depsgraph) <= _FEW,
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
@@ -181,6 +172,17 @@ class Rendering(Job):
 
         lamps = len(self._lamps.spectra)
         return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
+
+    def _lamp_count(self, depsgraph: Any) -> int:
+        """Count lamps and objects that shine."""
+        shining = {each.place.of for each in self._found.shining}
+        count = 0
+        for instance in depsgraph.object_instances:
+            thing = instance.object
+            slots = [slot.material for slot in thing.material_slots]
+            of = {colors.key("materials", each.original) for each in slots if each is not None}
+            count += thing.type == "LIGHT" or bool(of & shining)
+        return count
 
     def _of_bands(self) -> list[Pass]:
         return passes.of_bands(self._chosen)
@@ -276,44 +278,13 @@ def render(
 
 
 def _check(scene: Any, wanted: Wanted) -> None:
-    if scene.render.engine != "CYCLES":
-        msg = (
-            f"Scene {scene.name!r} renders with {scene.render.engine}; a spectral picture needs "
-            "Cycles: choose it in the render properties."
-        )
-        raise MaterialError(msg)
-    if scene.camera is None:
-        msg = f"Scene {scene.name!r} has no camera; add one."
-        raise MaterialError(msg)
+    scene_copy.check(scene, "a spectral picture")
     if wanted.direct and scene.cycles.use_denoising:
         msg = (
             f"Scene {scene.name!r} is denoised, and direct light apart needs renders that are "
             "not; switch denoising off, or leave direct light with the rest."
         )
         raise MaterialError(msg)
-
-
-def _layer(scene: Any) -> Any:
-    """Give the view layer that is rendered first."""
-    used = [layer for layer in scene.view_layers if layer.use]
-    if not used:
-        msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
-        raise MaterialError(msg)
-    return used[0]
-
-
-def _seed(scene: Any) -> int:
-    """Give the seed of all renders of a frame, another one in each where the scene wants that."""
-    cycles = scene.cycles
-    aside = scene.frame_current if cycles.use_animated_seed else 0
-    return int((cycles.seed + aside) % (1 << 31))
-
-
-def _evaluated(scene: Any, layer: Any) -> Any:
-    if bpy.context.scene == scene and bpy.context.view_layer == layer:
-        return bpy.context.evaluated_depsgraph_get()
-    with bpy.context.temp_override(scene=scene, view_layer=layer):
-        return bpy.context.evaluated_depsgraph_get()
 
 
 def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:

@@ -12,9 +12,7 @@ off and single precision cost little.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import redirect_stdout
 from dataclasses import dataclass, field
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +27,7 @@ from ..blender.background_job import Job
 from ..matching import emission
 from ..material import snapshot, storage
 from ..samples.sample import Sample
+from . import scene_copy
 
 PROPERTY = "rough_spectra_temperature"
 """Custom property of an object, or attribute of its mesh's vertices: its temperature, kelvin."""
@@ -146,12 +145,8 @@ class Thermal(Job):
     smaller = "render a smaller picture"
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
-        if scene.camera is None:
-            raise MaterialError(f"Scene {scene.name!r} has no camera; add one.")
-        used = [layer for layer in scene.view_layers if layer.use]
-        if not used:
-            msg = f"Scene {scene.name!r} has no view layer that is rendered; switch one on."
-            raise MaterialError(msg)
+        scene_copy.check_camera(scene)
+        layer = scene_copy.layer_of(scene)
         self._wanted = wanted
         self._ends = np.linspace(*wanted.band, wanted.parts + 1)
         self._assumed: dict[str, None] = {}
@@ -164,22 +159,10 @@ class Thermal(Job):
         least = _sent(self._ends, np.array([self._coldest]))[0]
 
         def prepare(folder: Path) -> dict[str, Any]:
-            blend = folder / "scene.blend"
-            with redirect_stdout(StringIO()):  # Blender tells of it there
-                bpy.ops.wm.save_as_mainfile(
-                    filepath=str(blend), check_existing=False, compress=False, copy=True
-                )
             table = _sent(self._ends, _KELVIN) - least
             np.savez(folder / "table.npz", kelvin=_KELVIN, sent=table)
             return {
-                "blend": blend.name,
-                "scene": scene.name,
-                "layer": used[0].name,
-                "frame": scene.frame_current,
-                "subframe": scene.frame_subframe,
-                "seed": scene.cycles.seed,
-                "samples": wanted.samples or scene.cycles.samples,
-                "percentage": wanted.percentage or scene.render.resolution_percentage,
+                **scene_copy.save(folder, scene, layer, wanted.samples, wanted.percentage),
                 "renders": wanted.parts // _IN_A_RENDER,
                 "attribute": PROPERTY,
                 "sky": (_sent(self._ends, np.array([sky]))[0] - least).tolist(),

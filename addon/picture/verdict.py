@@ -4,7 +4,8 @@
 
 A small spectral picture is rendered beside small ordinary ones: as the scene is, as it would be in
 a wide working space, and with its measured materials matched to its lights. All follow the same
-paths of light, and blocks of pixels are compared, so that a few samples tell.
+paths of light, and blocks of pixels are compared, so that a few samples tell. What is left of noise
+spreads ΔE00 and would raise its percentiles: two halves of the samples tell how much it does.
 """
 
 from __future__ import annotations
@@ -27,13 +28,13 @@ from ..scene import analysis
 from . import passes
 from .colors import Measured
 from .passes import Pass
-from .picture import Comparison, compare
+from .picture import SEEN, Comparison, compare
 from .render import Rendering, Wanted
 
-SIZE = 480, 270
+SIZE = 240, 135
 """Pixels of the small pictures, at most."""
-SAMPLES = 5
-"""Of each of their pixels."""
+SAMPLES = 8
+"""Of each of their pixels, in two halves."""
 WIDE = "Linear Rec.2020"
 """Working space that is tried."""
 
@@ -171,7 +172,10 @@ class Judging(Rendering):
             msg = f"The tolerance is ΔE00 {tolerance:g}; give a number above 0."
             raise DomainError(msg)
         self._tolerance = tolerance
-        self._samples = samples or min(SAMPLES, scene.cycles.samples)
+        asked = samples or min(SAMPLES, scene.cycles.samples)
+        self._halves = asked > 1
+        each = asked // 2 if self._halves else asked
+        self._samples = each * (1 + self._halves)
         self._kinds: list[str] = []
         self._report: analysis.SceneReport | None = None
         render = scene.render
@@ -180,11 +184,12 @@ class Judging(Rendering):
         self._larger = scene.cycles.samples / self._samples / small
         wanted = Wanted(
             tolerance / _FINER,
-            samples=self._samples,
+            samples=each,
             percentage=self._percentage,
             lights=lights or {},
             most=_BANDS,
             steady=True,
+            halves=self._halves,
         )
         super().__init__(scene, wanted)
 
@@ -198,21 +203,20 @@ class Judging(Rendering):
         """
         picture = self.result()
         side = min(_WIDEST, math.ceil(math.sqrt(_IN_A_BLOCK / self._samples)))
-        whole, shown = _blocks(picture.xyz, side), _blocks(picture.rgb, side)
-        assert picture.comparison is not None
-        plain = picture.comparison.plain[..., :3] @ np.linalg.inv(self._space.from_xyz).T
-        alike = [("rgb", plain)]
-        for number, (kind, each) in enumerate(zip(self._kinds, self._others, strict=True)):
-            pixels = np.load(self.output(f"pass-{len(self._passes) + number}.npy"))
-            alike.append((kind, pixels[..., :3].astype(np.float64) @ each.to_xyz))
+        pictures = self._pictures("", side)
+        halves = [self._pictures(f"-half-{n}", side) for n in (0, 1)] if self._halves else []
+        shown, white = _blocks(picture.rgb, side), self._lamps.white
         # The first render of all makes the scene ready; the others only render.
         each_takes = float(np.median(picture.seconds[1:])) * self._larger
         once = max(picture.seconds[0] - float(np.median(picture.seconds[1:])), 0)
         rungs, comparisons = [], []
-        for kind, xyz in alike:
-            found = compare(shown, shown, whole, _blocks(xyz, side), self._lamps.white)
+        whole, *alike = pictures
+        for number, (kind, xyz) in enumerate(zip(("rgb", *self._kinds), alike, strict=True), 1):
+            found = compare(shown, shown, whole, xyz, white)
             comparisons.append(found)
-            rungs.append(Rung(kind, 1, found.mean, found.usual, found.largest, once + each_takes))
+            parts = [compare(shown, shown, of[0], of[number], white) for of in halves]
+            usual = _without_noise(found, parts, shown[..., 3] >= SEEN)
+            rungs.append(Rung(kind, 1, found.mean, usual, found.largest, once + each_takes))
         rungs += self._of_passes(once, each_takes)
         sure = [rung for rung in rungs if rung.usual <= _SURE * self._tolerance]
         chosen = rungs[0] if rungs[0].usual <= self._tolerance else next(iter(sure), None)
@@ -225,6 +229,19 @@ class Judging(Rendering):
             picture.touched or 0.0,
             sum(picture.seconds),
         )
+
+    def _pictures(self, ending: str, side: int) -> list[Array]:
+        """XYZ of blocks: the spectral picture, the ordinary one, and the others."""
+        files = [f"pass-{n}{ending}.npy" for n in range(len(self._passes) + len(self._others))]
+        pixels = [np.load(self.output(f))[..., :3] for f in (*files, f"plain{ending}.npy")]
+        each_to_xyz = [each.to_xyz for each in (*self._passes, *self._others)]
+        each_to_xyz.append(np.linalg.inv(self._space.from_xyz).T)
+        *parts, plain = (
+            _blocks(each.astype(np.float64) @ to_xyz, side)
+            for each, to_xyz in zip(pixels, each_to_xyz, strict=True)
+        )
+        count = len(self._passes)
+        return [np.sum(parts[:count], axis=0), plain, *parts[count:]]
 
     def _of_passes(self, once: float, each_takes: float) -> list[Rung]:
         """Predict pictures of bands, from one pass to as many as the tolerance needs."""
@@ -338,6 +355,22 @@ def _under(light: Array, from_xyz: Array, usual: Array) -> Array:
     white = seen.sum(axis=0)
     lit = white > _DARK * white.max()
     return np.where(lit, seen / np.where(lit, white, 1), usual)
+
+
+def _without_noise(found: Comparison, halves: list[Comparison], there: Array) -> float:
+    """95th percentile of ΔE00 where something is, as it is without noise.
+
+    Half of the variance between two halves is that of a half, and half of that is of both together;
+    what remains of all variance is the picture's, and the percentile's distance from the mean goes
+    with its root.
+    """
+    if not halves or not there.any():
+        return found.usual
+    whole = float(found.delta_e[there].var())
+    apart = (halves[0].delta_e - halves[1].delta_e)[there]
+    noise = float(np.mean(apart**2)) / 4
+    kept = math.sqrt(max(1 - noise / whole, 0)) if whole > 0 else 1.0
+    return found.mean + (found.usual - found.mean) * kept
 
 
 def _blocks(pixels: Array, side: int) -> Array:

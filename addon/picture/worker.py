@@ -52,7 +52,7 @@ def main(job_path: Path) -> None:
     seconds, done = [], 0
     if job["plain"]:
         start = time.perf_counter()
-        take(scene, folder, "plain", job["apart"])
+        take(scene, folder, "plain", job["apart"], halves=job.get("halves", False))
         seconds.append(time.perf_counter() - start)
         done += 1
     shared.report(folder, done, total)
@@ -68,7 +68,8 @@ def main(job_path: Path) -> None:
         if groups:
             take_groups(scene, folder, name, groups)
         else:
-            take(scene, folder, name, job["apart"], job["direct"][number])
+            halves = job.get("halves", False)
+            take(scene, folder, name, job["apart"], job["direct"][number], halves=halves)
         seconds.append(time.perf_counter() - start)
         done += 1
         shared.report(folder, done, total)
@@ -125,6 +126,11 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.cycles.seed = job["seed"]
     # Faint light is left out by chance, and whether it is faint depends on its color.
     scene.cycles.light_sampling_threshold = 0
+    for material in bpy.data.materials:
+        if material.cycles.emission_sampling == "AUTO":  # which looks at how much it sends
+            material.cycles.emission_sampling = "FRONT_BACK"
+    if job.get("few_lamps"):  # which it costs little to pick without a look at what they send
+        scene.cycles.use_light_tree = False
     if job["steady"]:
         keep_paths(scene.cycles)
     several = job["apart"] or bool(job.get("groups"))
@@ -156,12 +162,17 @@ def keep_paths(cycles: Any) -> None:
     cycles.min_light_bounces = cycles.max_bounces
     cycles.min_transparent_bounces = cycles.transparent_max_bounces
     cycles.use_light_tree = False  # it picks lamps by what they send
-    for material in bpy.data.materials:
-        if material.cycles.emission_sampling == "AUTO":  # which looks at how much it sends
-            material.cycles.emission_sampling = "FRONT_BACK"
 
 
-def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None = None) -> None:
+def take(
+    scene: Any,
+    folder: Path,
+    name: str,
+    apart: bool,
+    direct: bool | None = None,
+    *,
+    halves: bool = False,
+) -> None:
     """Render, and leave a picture, (rows, columns, 4) from the bottom up.
 
     Parameters
@@ -172,15 +183,23 @@ def take(scene: Any, folder: Path, name: str, apart: bool, direct: bool | None =
         Whether the file has passes of direct and of indirect light.
     direct
         If so: whether only direct light is wanted, or the rest; None for both.
+    halves
+        Whether to render twice, with random numbers of their own, and leave both and their mean.
     """
-    bounces = scene.cycles.max_bounces
+    bounces, seed = scene.cycles.max_bounces, scene.cycles.seed
     if apart and direct:
         scene.cycles.max_bounces = 0
     path = folder / "render.exr"
-    shared.render_into(scene, path)
-    scene.cycles.max_bounces = bounces
-    pixels = layers(path, without_direct=direct is False) if apart else shared.read_exr(path)
-    np.save(folder / f"{name}.npy", pixels[::-1].astype(np.float32))
+    found = []
+    for number in range(1 + halves):
+        scene.cycles.seed = (seed + number) % (1 << 31)
+        shared.render_into(scene, path)
+        pixels = layers(path, without_direct=direct is False) if apart else shared.read_exr(path)
+        found.append(pixels[::-1].astype(np.float32))
+        if halves:
+            np.save(folder / f"{name}-half-{number}.npy", found[-1])
+    scene.cycles.max_bounces, scene.cycles.seed = bounces, seed
+    np.save(folder / f"{name}.npy", np.mean(found, axis=0))
 
 
 def gather(layer: Any, scene: Any, groups: list[dict[str, Any]]) -> None:

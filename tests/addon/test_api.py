@@ -61,6 +61,9 @@ SIGNATURES = {
     "thermal_picture": "(scene=None, *, band=(8000.0, 14000.0), parts=3, ambient=293.15, "
     "sky=None, emissivity=0.95, materials=None, samples=None, percentage=None, progress=None)",
     "write_thermal": "(picture, path)",
+    "infrared_picture": "(scene=None, *, band=(700.0, 1000.0), parts=3, lights=None, "
+    "materials=None, samples=None, percentage=None, progress=None)",
+    "write_infrared": "(picture, path, *, false_color=False)",
     "write_emissivity": "(found, base)",
     "write_picture": "(picture, path, spectra=None, *, at_bands=False)",
     "write": "(readings, base, formats=('csv', 'cgats', 'exr'))",
@@ -107,6 +110,7 @@ FIELDS = {
     "untranslated seconds spectra direct_words white touched",
     "Pixel": "column row wavelengths radiance xyz lab delta_e",
     "ThermalPicture": "band radiance kelvin assumed temperatures",
+    "InfraredPicture": "ends parts alpha told assumed dark seconds",
     "Lights": "names spectra parts alpha wavelengths surfaces space",
     "Verdict": "rungs tolerance chosen comparison untranslated touched seconds",
     "Measured": "albedos reflectance noise spread spot_noise spot",

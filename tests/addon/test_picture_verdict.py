@@ -142,3 +142,26 @@ def test_passes_follow_until_the_tolerance(judged):
     assert passes[-1].usual <= 0.85
     assert all(rung.usual > 0.85 for rung in passes[:-1])
     assert all(a.seconds < b.seconds for a, b in pairwise(passes))
+
+
+def test_noise_is_not_taken_for_error():
+    """Where all places are alike, 95 % of them are off by the mean, however few paths tell."""
+    scene = from_above(32)
+    scene.render.resolution_y = 32
+    scene.camera.location = (16, 16, 1)
+    strip(0, new_material("Wall", (0.7, 0.3, 0.1)))
+    bpy.data.objects["Strip"].scale = (40, 40, 1)
+    sun(scene)
+    # Each path goes to one of the lamps, and no block's are split evenly by three.
+    for color in ((0.1, 0.2, 1.0), (0.2, 1.0, 0.1)):
+        other = sun(scene)
+        other.use_temperature, other.color = False, color
+    job = verdict.Judging(scene, samples=2)
+    try:
+        job.wait()
+        rung = job.verdict().rungs[0]
+    finally:
+        job.close()
+    assert rung.mean > 0.5
+    assert rung.largest > 1.15 * rung.mean  # noise there is
+    assert rung.usual == pytest.approx(rung.mean, rel=0.1)

@@ -388,6 +388,41 @@ def test_faint_light_is_no_noise_of_color():
     assert picture.comparison.largest < 0.2
 
 
+def test_lamps_of_two_colors_are_no_noise_of_color():
+    """Gray below a red and a blue lamp: Cycles' light tree picks lamps by what they send."""
+    from_above(16)
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    for place, color in ((4, (1, 0.1, 0.1)), (12, (0.1, 0.1, 1))):
+        light = bpy.data.lights.new("Panel", "AREA")
+        light.size, light.energy, light.color = 1, 500, color
+        thing = bpy.data.objects.new("Panel", light)
+        scene.collection.objects.link(thing)
+        thing.location = (place, ROWS / 2, 4)
+    picture = api.spectral_picture(bands=6, samples=4)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.3
+
+
+def test_a_colored_emitter_is_no_noise_of_color():
+    """Gray below a red panel: Cycles samples what shines by how much it does, in each band anew."""
+    scene = from_above(16)
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    panel = new_material("Panel")
+    tree = panel.node_tree
+    glow = tree.nodes.new("ShaderNodeEmission")
+    glow.inputs["Color"].default_value = (1, 0.05, 0.02, 1)
+    glow.inputs["Strength"].default_value = 2
+    tree.links.new(glow.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    strip(8, panel)
+    [above] = [o for o in bpy.data.objects if o.material_slots and o.active_material == panel]
+    above.location.z = 5
+    picture = api.spectral_picture(bands=6, samples=4)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.3
+
+
 def glowing(tree, socket):
     """Let white come from a node that is no plain color."""
     ramp = tree.nodes.new("ShaderNodeCombineXYZ")

@@ -104,6 +104,49 @@ def test_a_bowl_is_blacker_than_its_wall():
     assert found.radiance.mean() == pytest.approx(truth, rel=5e-3)
 
 
+def grooves(name, slopes, start):
+    """V-grooves of slopes, radians, side by side, each one unit wide and long enough."""
+    corners, faces = [], []
+    for number, slope in enumerate(slopes):
+        left, deep = start + number, -0.5 * np.tan(slope)
+        first = len(corners)
+        for x, z in ((left, 0), (left + 0.5, deep), (left + 1, 0)):
+            corners += [(x, -2000, z), (x, 2000, z)]
+        faces += [[first, first + 2, first + 3, first + 1]]
+        faces += [[first + 2, first + 4, first + 5, first + 3]]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(corners, [], faces)
+    mesh.materials.append(bpy.data.materials.new(name))
+    thing = bpy.data.objects.new(name, mesh)
+    thing[thermal.PROPERTY] = 330.0
+    bpy.context.scene.collection.objects.link(thing)
+
+
+def test_grooves_raise_emissivity_as_the_model_says():
+    """Plates of facets of ε, whose slopes have the distribution of σ = 30°, looked down on."""
+    own, sigma = (0.5, 0.3, 0.1), np.radians(30)
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    slopes = (nodes + 1) * np.pi / 4
+    weights = weights * np.exp(-(slopes**2) / (2 * sigma**2)) * np.sin(slopes)
+    columns, rows = len(own) * len(slopes), 4
+    scene = looking((columns / 2, 0, 1))
+    for number, epsilon in enumerate(own):
+        grooves(f"ε {epsilon}", slopes, number * len(slopes))
+    camera = scene.camera.data
+    camera.type, camera.ortho_scale, camera.clip_end = "ORTHO", columns, 1e4
+    scene.render.resolution_x, scene.render.resolution_y = columns, rows
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1.0
+    known = {f"ε {epsilon}": epsilon for epsilon in own}
+    found = thermal.render(scene, thermal.Wanted(sky=0.0, known=known, samples=128))
+    of_each = found.radiance.mean(axis=0).reshape(len(own), -1) / black(330.0)
+    plate = of_each @ weights / weights.sum()
+    facets = 1 - np.array(own)
+    assert plate == pytest.approx(
+        emissivity.directional(facets, 0.0, sigma, slopes="oren-nayar"), abs=3e-3
+    )
+    assert plate == pytest.approx([0.573, 0.373, 0.142], abs=4e-3)
+
+
 def test_vertices_have_temperatures_and_unknown_materials_are_named():
     scene = looking((0, 0, 1))
     thing = square("Floor", FLOOR)

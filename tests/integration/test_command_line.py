@@ -22,6 +22,7 @@ VERBS = (
     "experiment",
     "gloss",
     "import",
+    "infrared",
     "lab",
     "list",
     "merge",

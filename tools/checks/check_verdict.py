@@ -126,7 +126,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--percentage", type=int, default=25)
-    parser.add_argument("--verdict-percentage", type=int, help="of 480 × 270 pixels; 100")
+    parser.add_argument("--verdict-percentage", type=int, help="of 480 × 270 pixels; 50")
     parser.add_argument("--scene", action="append", choices=demo_scenes.SCENES)
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()

@@ -87,7 +87,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_light(parser: argparse.ArgumentParser) -> None:
+def add_light(
+    parser: argparse.ArgumentParser,
+    words: str = "a lamp, world or emitting material, and the spectrum that it has: a CIE "
+    "illuminant, such as Lamp=F11, or a file, such as Lamp=sodium.spdx, or a table; repeatable",
+) -> None:
     """Declare --light."""
     parser.add_argument(
         "--light",
@@ -95,8 +99,7 @@ def add_light(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME=LIGHT",
-        help="a lamp, world or emitting material, and the spectrum that it has: a CIE illuminant, "
-        "such as Lamp=F11, or a file, such as Lamp=sodium.spdx, or a table; repeatable",
+        help=words,
     )
 
 

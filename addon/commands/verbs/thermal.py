@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--band",
-        type=_band,
+        type=band,
         default=thermal.BAND,
         metavar="FIRST-LAST",
         help="wavelengths of the camera in nm; 8000-14000",
@@ -57,19 +57,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help="of materials without infrared data, which are named; 0.95",
     )
+    add_material(parser, "its emissivity, such as Foil=0.05")
+    parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
+    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
+    parser.add_argument(
+        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
+    )
+
+
+def add_material(parser: argparse.ArgumentParser, number: str) -> None:
+    """Declare --material, where a number is what it is called."""
     parser.add_argument(
         "--material",
         type=_material,
         action="append",
         default=[],
         metavar="NAME=WHAT",
-        help="a material and its emissivity, such as Foil=0.05, a preset or a file of one sample; "
-        "repeatable",
-    )
-    parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
-    parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
-    parser.add_argument(
-        "--percentage", type=int, metavar="N", help="of the resolution, instead of the scene's"
+        help=f"a material and {number}, a preset or a file of one sample; repeatable",
     )
 
 
@@ -88,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
         options.ambient,
         options.sky,
         options.emissivity,
-        {name: _known(what) for name, what in options.material},
+        {name: known(what) for name, what in options.material},
         options.samples,
         options.percentage,
     )
@@ -122,7 +126,8 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _known(what: str) -> Sample | float:
+def known(what: str) -> Sample | float:
+    """Give what stands for a material: a number, a sample of presets or library, or a file's."""
     from ....core.errors import InputError
     from ... import api
 
@@ -139,7 +144,8 @@ def _known(what: str) -> Sample | float:
     return samples[0]
 
 
-def _band(text: str) -> tuple[float, float]:
+def band(text: str) -> tuple[float, float]:
+    """Read first and last wavelength."""
     try:
         first, last = (float(part) for part in text.split("-"))
     except ValueError:
@@ -151,6 +157,6 @@ def _band(text: str) -> tuple[float, float]:
 def _material(text: str) -> tuple[str, str]:
     name, _, what = text.partition("=")
     if not (name and what):
-        msg = f"{text!r} is no material and its emissivity; write Foil=0.05"
+        msg = f"{text!r} is no material and what it is; write Foil=0.05"
         raise argparse.ArgumentTypeError(msg)
     return name, what

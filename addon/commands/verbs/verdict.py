@@ -33,12 +33,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"ΔE00 within which 95 %% of the picture shall be, {TOLERANCE:g}",
     )
     add_light(parser)
-    parser.add_argument("--samples", type=int, metavar="N", help="of the small pictures; 5")
+    parser.add_argument("--samples", type=int, metavar="N", help="of the small pictures; 8")
     parser.add_argument(
         "--percentage",
         type=int,
         metavar="N",
-        help="of the resolution; what comes to 480 × 270 pixels unless given",
+        help="of the resolution; what comes to 240 × 135 pixels unless given",
     )
 
 
