@@ -50,6 +50,26 @@ def test_spectrasuite_with_decimal_commas():
     assert "does not name what was measured" in sample.notes[0]
 
 
+@pytest.mark.parametrize(
+    ("line", "instrument", "told"),
+    [
+        (b"Geometry: d/8 SCE", "de:8", ""),
+        (b"Comment: integrating sphere ISP-50-8-R-GT, 8/d, SPIN", "di:8", ""),
+        (b"chalk, SCE", "de:8", "SCE, follows from 'chalk, SCE'"),
+        (b"Comment: SCI-FI poster of 8/9", "45a:0", "assumed"),
+    ],
+)
+def test_header_lines_of_ocean_optics_tell_the_geometry(tmp_path, line, instrument, told):
+    lines = (FIXTURES / "ocean_optics" / "oceanview.txt").read_bytes().split(b"\n")
+    path = tmp_path / "chalk.txt"
+    path.write_bytes(b"\n".join([lines[0], line, *lines[1:]]))
+    [sample] = readers.read(path)
+    assert (sample.instrument, sample.device) == (instrument, "USB2+H00001")
+    assert told in " ".join(sample.notes)
+    path.write_bytes(b"\n".join([lines[0].replace(b"wall", b"wall_d8_SCE"), *lines[1:]]))
+    assert readers.read(path)[0].instrument == "de:8", "from the name of the graph"
+
+
 def test_oceanview_names_its_mode_and_leaves_a_gap():
     (sample,) = readers.read(FIXTURES / "ocean_optics" / "oceanview.txt")
     nm = [399.5, 400.0, 400.5, 401.5]
