@@ -250,6 +250,15 @@ def test_envi_library_by_either_of_its_files(named):
     )
 
 
+def test_the_description_of_an_envi_library_tells_the_geometry(tmp_path):
+    for name in ("walls.hdr", "walls.sli"):
+        data = (FIXTURES / "envi_library" / name).read_bytes()
+        (tmp_path / name).write_bytes(data.replace(b"{Invented", b"{By a CM-700d, SCE. Invented"))
+    for sample in readers.read(tmp_path / "walls.hdr"):
+        assert (sample.instrument, sample.specular) == ("de:8", "SCE")
+        assert any("follows from 'By a CM-700d, SCE." in note for note in sample.notes)
+
+
 def test_envi_library_that_promises_more_than_there_is(tmp_path):
     (tmp_path / "walls.hdr").write_bytes((FIXTURES / "envi_library" / "walls.hdr").read_bytes())
     (tmp_path / "walls.sli").write_bytes(b"skip" + bytes(36))
@@ -296,6 +305,9 @@ def test_spectra_vista_in_percent_with_detectors_that_overlap(tmp_path):
     assert "order" in sample.altered[0]
     assert sample.altered[1] == "Bands that two detectors share were averaged: 1 of 5."
     data = path.read_bytes()
+    said = tmp_path / "said.sig"
+    said.write_bytes(data.replace(b"comm= ", b"comm= d/8 SCE"))
+    assert readers.read(said)[0].instrument == "de:8", "as the comment says"
     head = data.split(b"data= \n")[0]
     assert "no rows of data" in refusal(tmp_path, head + b"data= \n")
     assert "column 'reflectance'" in refusal(tmp_path, data.replace(b"  12.50", b""))

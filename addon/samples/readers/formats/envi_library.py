@@ -15,9 +15,8 @@ import os
 import numpy as np
 
 from ...sample import Sample
-from ..parts import envi_header, series
-from ..parts.document import Document, open_document
-from ..parts.geometry_words import instrument_of
+from ..parts import envi_header, series, statements
+from ..parts.document import Document, open_document, plain
 
 NAME = "ENVI spectral library"
 ENDINGS = ("sli", "hdr", "slb")
@@ -75,7 +74,7 @@ def read(document: Document) -> list[Sample]:
         raise header.error("key 'reflectance scale factor'", "it has to be above 0; mend it")
     table = np.frombuffer(numbers.data, form, bands * count, start).reshape(count, bands)
     names = envi_header.names(found.get("spectra names", ""))
-    instrument, assumed = instrument_of("")
+    measured = statements.of_remarks([("", plain(found.get("description", "")))])
     samples = []
     for i, row in enumerate(table):
         with np.errstate(invalid="ignore", over="ignore"):
@@ -90,10 +89,9 @@ def read(document: Document) -> list[Sample]:
                 wavelengths=taken.wavelengths,
                 values=taken.values,
                 kind="reading",
-                instrument=instrument,
+                **measured | {"notes": (*notes, *measured["notes"])},
                 source=str(document.path),
                 position=place if count > 1 else "",
-                notes=(*notes, assumed),
                 altered=taken.altered,
             )
         )
