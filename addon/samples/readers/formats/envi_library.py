@@ -74,7 +74,8 @@ def read(document: Document) -> list[Sample]:
         raise header.error("key 'reflectance scale factor'", "it has to be above 0; mend it")
     table = np.frombuffer(numbers.data, form, bands * count, start).reshape(count, bands)
     names = envi_header.names(found.get("spectra names", ""))
-    measured = statements.of_remarks([("", plain(found.get("description", "")))])
+    described = plain(found.get("description", "")).strip("{} ")
+    measured = statements.of_remarks([("", described)])
     samples = []
     for i, row in enumerate(table):
         with np.errstate(invalid="ignore", over="ignore"):
