@@ -31,6 +31,7 @@ if "rough_spectra" not in sys.modules:
     load_extension().register()
 
 from rough_spectra.addon.support import journal
+from rough_spectra.addon.support.openimageio import openimageio
 
 from tools.checks import kill_cases
 from tools.checks.kill_cases import Words
@@ -143,8 +144,9 @@ def _run(words: list[object]) -> subprocess.Popen[bytes]:
 
 def _contents(folder: Path) -> dict[str, object]:
     """Give the files that a user sees; hidden ones are locks and what was not finished."""
+    told = {".blend": _materials, ".exr": _picture}
     return {
-        path.name: _materials(path) if path.suffix == ".blend" else path.read_bytes()
+        path.name: told.get(path.suffix, Path.read_bytes)(path)
         for path in folder.iterdir()
         if path.is_file() and not path.name.startswith(".")
     }
@@ -166,6 +168,18 @@ def _materials(path: Path) -> object:
         for material in bpy.data.materials
         if material.node_tree
     }
+
+
+def _picture(path: Path) -> object:
+    """Give all that a picture holds but when it was written."""
+    file = openimageio().ImageInput.open(str(path))
+    if file is None:
+        return "does not open"
+    spec, pixels = file.spec(), file.read_image(openimageio().FLOAT)
+    file.close()
+    known = [(each.name, str(each.value)) for each in spec.extra_attribs]
+    whole = "breaks off" if pixels is None else pixels.tobytes()
+    return whole, [pair for pair in known if pair[0] != "DateTime"]
 
 
 def _value(value: object) -> object:
