@@ -35,7 +35,12 @@ def main() -> int:
 
     with tempfile.TemporaryDirectory() as folder:
         blend, base = Path(folder) / "large.blend", Path(folder) / "readings"
-        told("make and assign", lambda: make_scene(blend, options.materials, 1) or 0)
+
+        def make() -> int:
+            make_scene(blend, options.materials, 1)
+            return 0
+
+        told("make and assign", make)
         words = ["--blend", str(blend), "--quiet"]
         bake = ["bake", *words, "--predicted-only", "--output", str(base)]
         status = told("bake --predicted-only", lambda: command_line.main(bake))

@@ -142,7 +142,7 @@ def band(label: str) -> float | None:
         return None
     found = float(match[1].replace(",", "."))
     unit = unit_of_wavelengths(match[2] or "") or "nm"
-    return found if unit == "nm" else float(to_nanometers(np.float64(found), unit))
+    return found if unit == "nm" else float(to_nanometers(np.array([found]), unit)[0])
 
 
 def bands_of(cells: list[str], least: float) -> list[float]:
