@@ -24,6 +24,7 @@ PRIORITY = 100
 
 _NUMBERS = (".sli", ".SLI", ".slb", ".SLB", ".dat", ".img", "")
 _MANY = 100_000
+_LONGEST = 1000  # characters of the description that are searched for a geometry
 
 
 def sniff(document: Document) -> bool:
@@ -74,7 +75,7 @@ def read(document: Document) -> list[Sample]:
         raise header.error("key 'reflectance scale factor'", "it has to be above 0; mend it")
     table = np.frombuffer(numbers.data, form, bands * count, start).reshape(count, bands)
     names = envi_header.names(found.get("spectra names", ""))
-    described = plain(found.get("description", "")).strip("{} ")
+    described = plain(found.get("description", "")[:_LONGEST]).strip("{} ")
     measured = statements.of_remarks([("", described)])
     samples = []
     for i, row in enumerate(table):

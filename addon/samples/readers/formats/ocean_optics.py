@@ -27,6 +27,7 @@ ENDINGS = ("txt", "jaz")
 PRIORITY = 90
 
 _PERCENT = 100.0
+_SEARCHED, _LONGEST = 100, 1000  # lines that are searched for a geometry, and characters of each
 _BEGIN = re.compile(r">>>>>\s*(?:begin|comienza|d[ée]but|beginn)", re.IGNORECASE)
 _TITLE = re.compile(
     r"(?:spectrasuite|ooibase32|oceanview|jaz\b.*file|data from .* node|.*de spectrasuite)",
@@ -70,7 +71,7 @@ def read(document: Document) -> list[Sample]:
     found = series.bands(nm, percent / _PERCENT, where, lambda band: f"line {at[band]}")
     device = next((m[1].strip() for m in map(_DEVICE.match, top) if m), "")
     # Names of files and lines that users add say the geometry, if anything does.
-    lines_above = [line.replace("_", " ").partition(":") for line in top]
+    lines_above = [line[:_LONGEST].replace("_", " ").partition(":") for line in top[:_SEARCHED]]
     said = [(key, value) if colon else ("", key) for key, colon, value in lines_above]
     measured = statements.of_remarks([("spectrometer", device), *said])
     return [

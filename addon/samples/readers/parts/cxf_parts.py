@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from array import array
@@ -27,6 +28,7 @@ _NOT_REFLECTANCE = {
     "RadianceSpectrum": "radiance",
     "IrradianceSpectrum": "irradiance",
 }
+_MOST_REMARKS, _LONGEST_REMARK = 100, 1000  # that are searched, and characters of each
 _WORD = re.compile(r"\S+")
 _TYPES = (("Transmittance", "transmittance"), ("Emissive", "emission"))
 
@@ -188,14 +190,12 @@ def _half_said(light: str, view: str) -> str:
 
 def remarks(element: Element) -> list[tuple[str, str]]:
     """Read ``FileInformation``: what it says of all objects, as keys and texts."""
+    said = (part for part in element.iter() if tag(part) in ("Description", "Comment", "Tag"))
     found = []
-    for part in element.iter():
-        kind = tag(part)
-        if kind in ("Description", "Comment"):
-            found.append(("", " ".join((part.text or "").split())))
-        elif kind == "Tag":
-            text = part.get("Value", "") or part.text or ""
-            found.append((part.get("Name", ""), " ".join(text.split())))
+    for part in itertools.islice(said, _MOST_REMARKS):
+        text = (part.get("Value", "") or part.text or "")[:_LONGEST_REMARK]
+        key = part.get("Name", "") if tag(part) == "Tag" else ""
+        found.append((key[:_LONGEST_REMARK], " ".join(text.split())))
     return found
 
 
