@@ -390,7 +390,7 @@ def test_faint_light_is_no_noise_of_color():
 
 def test_lamps_of_two_colors_are_no_noise_of_color():
     """Gray below a red and a blue lamp: Cycles' light tree picks lamps by what they send."""
-    from_above(16)
+    scene = from_above(16)
     for column in range(16):
         strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
     for place, color in ((4, (1, 0.1, 0.1)), (12, (0.1, 0.1, 1))):
@@ -406,7 +406,7 @@ def test_lamps_of_two_colors_are_no_noise_of_color():
 
 def test_a_colored_emitter_is_no_noise_of_color():
     """Gray below a red panel: Cycles samples what shines by how much it does, in each band anew."""
-    scene = from_above(16)
+    from_above(16)
     for column in range(16):
         strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
     panel = new_material("Panel")
