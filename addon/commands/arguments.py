@@ -19,6 +19,23 @@ def add_materials(parser: argparse.ArgumentParser, of_object: str) -> None:
     parser.add_argument("--object", action="append", default=[], metavar="NAME", help=of_object)
 
 
+def add_sigma(parser: argparse.ArgumentParser) -> None:
+    """Declare one roughness for all samples, as σ or as a profilometer's slope."""
+    sigma = parser.add_mutually_exclusive_group()
+    sigma.add_argument(
+        "--sigma",
+        type=float,
+        metavar="DEGREES",
+        help="roughness of all of them, whatever the files say; without it what they say, or 0",
+    )
+    sigma.add_argument(
+        "--rdq", type=float, metavar="SLOPE", help="the same as a profilometer's Rdq = tan σ"
+    )
+    sigma.add_argument(
+        "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
+    )
+
+
 def add_repeatability(parser: argparse.ArgumentParser) -> None:
     """Declare how well readings repeat, in percent."""
     from ...core import estimate

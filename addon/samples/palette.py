@@ -21,6 +21,9 @@ from ...core.errors import DomainError, InputError
 from ..colorimetry import cie_tables, tristimulus
 from . import readers, swatches
 from .readers import open_document
+from .readers.parts import label_words
+from .readers.parts.document import Document, quote
+from .readers.parts.table_start import LEAST_BAND
 from .sample import Sample
 
 _HEX = re.compile(r"#?([0-9a-f]{6})", re.IGNORECASE)
@@ -84,20 +87,17 @@ def read(path: Path) -> tuple[Row, ...]:
         if line.strip() and not line.lstrip().startswith("# ")
     ]
     delimiter = next((d for d in _DELIMITERS if lines and d in lines[0][1]), ",")
-    table = [
-        (number, [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))])
-        for number, line in lines
-    ]
+    table = [(number, _cells(document, number, line, delimiter)) for number, line in lines]
     columns = _columns([cells for _, cells in table[:2]], delimiter)
     if columns is None:
-        return _of_spectra(readers.read(path))
+        return _of_spectra(document, readers.read(path))
     name, places, first = columns
     found = []
     for number, cells in table[first:]:
         given = [cells[place] if place < len(cells) else "" for place in places]
         lab = _lab(given, delimiter)
         if lab is None:
-            msg = f"{', '.join(given)!r} is no color; give L*, a* and b* or #rrggbb"
+            msg = f"{quote(', '.join(given))} is no color; give L*, a* and b* or #rrggbb"
             raise document.error(f"line {number}", msg)
         label = cells[name] if name < len(cells) else ""
         of_code = len(places) == 1
@@ -140,10 +140,11 @@ def checked_light(illuminant: str, observer: str | int) -> tuple[str, int]:
     light = named.get(illuminant.strip().casefold())
     degrees = str(observer).strip().rstrip("°")
     if light is None:
-        msg = f"illuminant {illuminant!r} is not known; choose one of {', '.join(named.values())}"
+        names = ", ".join(named.values())
+        msg = f"illuminant {quote(illuminant)} is not known; choose one of {names}"
         raise DomainError(msg)
     if degrees not in map(str, cie_tables.OBSERVERS):
-        msg = f"observer {observer!r} is not known; choose 2 or 10"
+        msg = f"observer {quote(str(observer))} is not known; choose 2 or 10"
         raise DomainError(msg)
     return light, int(degrees)
 
@@ -175,8 +176,25 @@ def of_sample(sample: Sample) -> Row:
     return Row(sample.name, (lightness, a, b), sample=sample)
 
 
-def _of_spectra(samples: Sequence[Sample]) -> tuple[Row, ...]:
-    return tuple(of_sample(sample) for sample in samples)
+def _of_spectra(document: Document, samples: Sequence[Sample]) -> tuple[Row, ...]:
+    found = []
+    for sample in samples:
+        try:
+            found.append(of_sample(sample))
+        except DomainError as error:
+            msg = f"{document.path}, sample {quote(sample.name)}: {error}"
+            raise InputError(msg) from error
+    return tuple(found)
+
+
+def _cells(document: Document, number: int, line: str, delimiter: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+    except csv.Error:
+        raise document.error(
+            f"line {number}",
+            "one of its fields is too long for a color; shorten it or leave it out",
+        ) from None
 
 
 def _columns(top: list[list[str]], delimiter: str) -> tuple[int, list[int], int] | None:
@@ -190,6 +208,8 @@ def _columns(top: list[list[str]], delimiter: str) -> tuple[int, list[int], int]
     code = next((header.index(word) for word in _CODES if word in header), None)
     if code is not None and len(top) > 1 and _HEX.fullmatch("".join(top[1][code : code + 1])):
         return name, [code], 1
+    if len(label_words.bands_of(top[0], LEAST_BAND)) > 2:
+        return None  # three values below three wavelengths are no L*a*b*
     for first, cells in enumerate(top):
         if len(cells) == 4 and _lab(cells[1:], delimiter) is not None:
             return 0, [1, 2, 3], first

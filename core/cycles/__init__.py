@@ -4,6 +4,7 @@
 
 lobe             the Diffuse BSDF, and the Principled BSDF without gloss
 gloss_lobe       what the gloss of a Principled BSDF adds to that, and what it takes
+gloss_facets     the facets of one of its lobes: what they mirror, shadow and send to each other
 gloss_sphere     the same where light comes from a hemisphere
 gloss_reading    what instruments read of it, and how much of it a reading allows
 gloss_estimate   level and roughness from what instruments read

@@ -16,16 +16,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ..closure.packing import unpack
-from ..gloss import Gloss
+from ..gloss import WHITE, Gloss
 from ..numerics.arrays import Array
 from ..numerics.memoized import FEW, memoized
-from . import gloss_data
+from .gloss_facets import Lobe, at_normal, rise, scaled, shadowing
 
 _KEPT = 64
 _MIRROR = 2e-10
@@ -59,30 +59,22 @@ class Layer(NamedTuple):
         return np.asarray((reading - self.shine) / self.passed)
 
 
-class Lobe(NamedTuple):
-    """One GGX lobe.
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """What gloss wants of directions, for who keeps them: `in_directions` then keeps their lobes.
 
     Parameters
     ----------
-    roughness
-        As its socket has it.
-    refraction
-        Index of refraction.
-    at_normal
-        Reflection at the normal, shape (3,).
-    multiscatter
-        Whether it is scaled for what its facets send to each other.
+    light, view
+        Cosines to the normal, any shape (...).
+    normal, half
+        Cosines of the half vector to the normal, and to light and view.
     """
 
-    roughness: float
-    refraction: float
-    at_normal: Array
-    multiscatter: bool
-
-    @property
-    def square(self) -> float:
-        """α², as GGX counts roughness: the fourth power of the socket's."""
-        return min(max(self.roughness, 0.0), 1.0) ** 4
+    light: Array
+    view: Array
+    normal: Array
+    half: Array
 
 
 def layer(
@@ -106,33 +98,32 @@ def layer(
     >>> np.round(layer(Gloss(level=0), np.pi / 4, 0.0, 0.0).passed, 4).tolist()
     [1.0, 1.0, 1.0]
     """
-    angles = np.broadcast_arrays(
-        *(np.asarray(given, np.float64) for given in (theta_i, theta_r, delta_phi))
-    )
-    if angles[0].size > FEW:
-        return _layer(gloss, *angles)
-    return _of_few(gloss, np.array(angles).tobytes(), angles[0].shape)
+    angles = np.array(np.broadcast_arrays(theta_i, theta_r, delta_phi), np.float64)
+    if angles[0].size <= FEW:
+        return in_directions(gloss, _of_few(angles.tobytes(), angles.shape))
+    at = directions(*angles)
+    return compose(gloss, at.view, lambda lobe: _read(lobe, at))
 
 
 @memoized(maxsize=_KEPT)
-def _of_few(gloss: Gloss, angles: bytes, shape: tuple[int, ...]) -> Layer:
-    """Compute it for the bytes of all angles: while σ is dragged, the gloss stays as it is."""
-    found = _layer(gloss, *np.frombuffer(angles).reshape(3, *shape))
+def in_directions(gloss: Gloss, at: Directions) -> Layer:
+    """Do the same for directions that are asked for again: while σ is dragged, the gloss stays.
+
+    While one socket of it is dragged, what hangs on others stays: each lobe is kept, too.
+
+    Examples
+    --------
+    >>> at = directions(np.array([np.pi / 4]), np.zeros(1), np.zeros(1))
+    >>> np.round(in_directions(Gloss(), at).shine, 4).tolist()
+    [[0.0222, 0.0222, 0.0222]]
+    """
+    found = compose(gloss, at.view, lambda lobe: _kept_read(lobe, at))
     for array in found:
         array.setflags(write=False)
     return found
 
 
-def _layer(gloss: Gloss, light: Array, view: Array, around: Array) -> Layer:
-    at = _geometry(light, view, around)
-
-    def seen(lobe: Lobe) -> Array:
-        return _seen(lobe, at)
-
-    return compose(gloss, at.view, seen)
-
-
-def compose(gloss: Gloss, view: Array, seen: Callable[[Lobe], Array]) -> Layer:
+def compose(gloss: Gloss, view: Array, read: Callable[[Lobe], tuple[Array, Array]]) -> Layer:
     """Lay coat and specular lobe over each other, as Cycles does.
 
     Parameters
@@ -141,188 +132,94 @@ def compose(gloss: Gloss, view: Array, seen: Callable[[Lobe], Array]) -> Layer:
         The node's sockets.
     view
         Cosine of the view, any shape (...).
-    seen
-        Gives what one lobe reads, shape (..., 3): of a direction of light, or of many together.
+    read
+        Gives what one lobe reads, of a direction of light, or of many together, and what Cycles
+        takes it to send on in all: shapes (..., channels) and (..., 1).
 
     Examples
     --------
-    >>> found = compose(Gloss(), np.ones(2), lambda lobe: np.full((2, 3), 0.5))
-    >>> found.shine.tolist()
-    [[0.5, 0.5, 0.5], [0.5, 0.5, 0.5]]
+    >>> half = np.full((2, 1), 0.5)
+    >>> found = compose(Gloss(), np.ones(2), lambda lobe: (half, half / 2))
+    >>> found.shine[0].tolist(), found.passed[0].tolist()
+    ([0.5, 0.5, 0.5], [0.75, 0.75, 0.75])
     """
-    shine, weight = np.zeros((*view.shape, 3)), np.ones((*view.shape, 3))
+    shine, weight = np.zeros((*view.shape, 1)), np.ones((*view.shape, 1))
     if gloss.coat > _FAINT:
         index = max(gloss.coat_ior, 1.0)
         if index > 1:
-            coat = Lobe(gloss.coat_roughness, index, np.full(3, _at_normal(index)), True)
-            shine += gloss.coat * seen(coat)
-            taken = gloss.coat * _albedo(coat, view).max(axis=-1, keepdims=True)
-            weight *= np.clip(1 - taken, 0, 1)
-        # Beer's law along the refracted view.
-        depth = 1 / np.sqrt(1 - (1 - view[..., np.newaxis] ** 2) / index**2)
-        tint = np.maximum(gloss.coat_tint, 0)
-        weight *= 1 + gloss.coat * (tint**depth - 1)
+            coat = Lobe(gloss.coat_roughness, index, (at_normal(index),), True)
+            shown, sent = read(coat)
+            shine, weight = gloss.coat * shown, _left(gloss.coat * sent)
+        if gloss.coat_tint != WHITE:
+            # Beer's law along the refracted view.
+            depth = 1 / np.sqrt(1 - (1 - view[..., np.newaxis] ** 2) / index**2)
+            tint = np.maximum(gloss.coat_tint, 0)
+            weight = weight * (1 + gloss.coat * (tint**depth - 1))
     index, own = _specular(gloss)
     if index != 1:
-        tinted = np.clip(own * np.maximum(gloss.tint, 0), 0, 1)
-        lobe = Lobe(gloss.roughness, index, tinted, gloss.multiscatter)
-        shine += weight * seen(lobe)
-        weight *= np.clip(1 - _albedo(lobe, view).max(axis=-1, keepdims=True), 0, 1)
+        tinted = tuple(min(max(own * max(part, 0.0), 0.0), 1.0) for part in gloss.tint)
+        own_channels = tinted[:1] if len(set(tinted)) == 1 else tinted
+        shown, sent = read(Lobe(gloss.roughness, index, own_channels, gloss.multiscatter))
+        shine, weight = shine + weight * shown, weight * _left(sent)
+    shine, weight = (
+        each.repeat(3, axis=-1) if each.shape[-1] == 1 else each for each in (shine, weight)
+    )
     return Layer(shine, weight)
 
 
-class _Geometry(NamedTuple):
-    """Cosines of light and view to the normal, and of the half vector to normal and view."""
+def directions(theta_i: Array, theta_r: Array, delta_phi: Array) -> Directions:
+    """Give what gloss wants of light, view and the azimuth between them, radians, of one shape.
 
-    light: Array
-    view: Array
-    normal: Array
-    half: Array
-
-
-def _geometry(theta_i: Array, theta_r: Array, delta_phi: Array) -> _Geometry:
+    Examples
+    --------
+    >>> at = directions(np.array([0.3]), np.array([0.3]), np.array([np.pi]))
+    >>> at.normal.round(6).tolist(), at.half.round(6).tolist()
+    ([1.0], [0.955336])
+    """
     light, view = (np.maximum(np.cos(theta), _GRAZING) for theta in (theta_i, theta_r))
     between = light * view + np.sin(theta_i) * np.sin(theta_r) * np.cos(delta_phi)
     # |light + view| is twice the cosine from either to the middle.
     half = np.sqrt(np.maximum((1 + between) / 2, _GRAZING**2))
-    return _Geometry(light, view, np.minimum((light + view) / (2 * half), 1), half)
+    return Directions(light, view, np.minimum((light + view) / (2 * half), 1), half)
 
 
-def _seen(lobe: Lobe, at: _Geometry) -> Array:
-    """Reflectance factor of a GGX lobe, (..., 3)."""
+@memoized(maxsize=_KEPT)
+def _of_few(angles: bytes, shape: tuple[int, ...]) -> Directions:
+    """Give them for the bytes of all angles."""
+    return directions(*np.frombuffer(angles).reshape(shape))
+
+
+@memoized(maxsize=_KEPT)
+def _kept_read(lobe: Lobe, at: Directions) -> tuple[Array, Array]:
+    return _read(lobe, at)
+
+
+def _read(lobe: Lobe, at: Directions) -> tuple[Array, Array]:
+    """Reflectance factor of a GGX lobe, (..., channels), and what it sends on in all, (..., 1)."""
+    gained, sent = scaled(lobe, at.view)
     square = lobe.square
     if square <= _MIRROR:
-        return np.zeros((*at.view.shape, 3))
+        return np.zeros((*at.view.shape, 1)), sent
     spread = square / (1 - at.normal**2 + square * at.normal**2) ** 2
     shadow = 1 + shadowing(square, at.light) + shadowing(square, at.view)
     shape = (spread / (4 * at.light * at.view * shadow))[..., np.newaxis]
-    return np.asarray(reflection(lobe, at.half) * shape * gained(lobe, at.view))
+    own = np.array(lobe.at_normal)
+    reflected = own + (1 - own) * rise(lobe, at.half)[..., np.newaxis]
+    return np.asarray(reflected * shape * gained), sent
 
 
-def reflection(lobe: Lobe, half: Array) -> Array:
-    """Reflection of facets (..., 3) at cosines of the angle to them, of any shape (...).
-
-    Examples
-    --------
-    >>> lobe = Lobe(0.5, 1.5, np.full(3, 0.04), True)
-    >>> np.round(reflection(lobe, np.array([0.0, 1.0])), 4)[:, 0].tolist()
-    [1.0, 0.04]
-    """
-    bent = _remapped(_fresnel(half, lobe.refraction), lobe.refraction)[..., np.newaxis]
-    return np.asarray(lobe.at_normal + (1 - lobe.at_normal) * bent)
-
-
-def gained(lobe: Lobe, view: Array) -> Array:
-    """Give by how much a lobe is scaled for what its facets send to each other, (..., 3).
-
-    Examples
-    --------
-    >>> white = Lobe(1.0, 1.5, np.ones(3), True)
-    >>> np.round(gained(white, np.array(1.0)), 2).tolist()
-    [3.26, 3.26, 3.26]
-    """
-    if not lobe.multiscatter:
-        return np.ones((*view.shape, 3))
-    scale, dimming = _kept(lobe, view)
-    return np.asarray(scale * dimming)
-
-
-def _albedo(lobe: Lobe, view: Array) -> Array:
-    """Give what Cycles takes a lobe to send on in all, (..., 3)."""
-    share = _over_view("share", view, lobe.roughness, _place(lobe.refraction))[..., np.newaxis]
-    albedo = lobe.at_normal + (1 - lobe.at_normal) * share
-    return np.asarray(albedo * _kept(lobe, view)[1] if lobe.multiscatter else albedo)
-
-
-def _kept(lobe: Lobe, view: Array) -> tuple[Array, Array]:
-    """Give what makes up for light that is lost between facets, and how much of it they absorb."""
-    kept = _over_view("kept", view, lobe.roughness)[..., np.newaxis]
-    mean_kept = float(_between(_TABLES["mean kept"], lobe.roughness))
-    missing = (1 - kept) / kept
-    share = _remapped(np.asarray(_mean_fresnel(lobe.refraction)), lobe.refraction)
-    single = lobe.at_normal + (1 - lobe.at_normal) * share
-    multiple = single * mean_kept / (1 - single * (1 - mean_kept))
-    return 1 + missing, (1 + multiple * missing) / (1 + missing)
+def _left(taken: Array) -> Array:
+    """Share of what is below that passes where so much is taken."""
+    return np.asarray(np.minimum(np.maximum(1 - taken, 0), 1))
 
 
 def _specular(gloss: Gloss) -> tuple[float, float]:
     """Index of refraction and reflection at the normal that level and IOR make together."""
     index = max(gloss.ior, 1e-5)
-    own = _at_normal(index)
+    own = at_normal(index)
     if gloss.level == 0.5:
         return index, own
     own *= 2 * max(gloss.level, 0.0)
     root = math.sqrt(min(own, 0.99))
     found = (1 + root) / (1 - root)
     return (1 / found if index < 1 else found), own
-
-
-def _at_normal(index: float) -> float:
-    return ((index - 1) / (index + 1)) ** 2
-
-
-def _fresnel(cosine: Array, index: float) -> Array:
-    """Fresnel reflection of unpolarized light on a dielectric."""
-    inside = index**2 - 1 + cosine**2
-    bent = np.sqrt(np.maximum(inside, 0))
-    across = (cosine - bent) / (cosine + bent)
-    along = (bent - index**2 * cosine) / (bent + index**2 * cosine)
-    return np.where(inside > 0, (across**2 + along**2) / 2, 1.0)
-
-
-def _remapped(fresnel: Array, index: float) -> Array:
-    """Where a reflection lies between that at the normal, 0, and the whole, 1."""
-    own = _at_normal(index)
-    return np.asarray(np.clip((fresnel - own) / (1 - own), 0, 1))
-
-
-def _mean_fresnel(index: float) -> float:
-    """Fresnel reflection over the hemisphere, in Kulla and Conty's fit."""
-    if index < 1:
-        return 0.997118 + index * (0.1014 - index * (0.965241 + index * 0.130607))
-    return (index - 1) / (4.08567 + 1.00071 * index)
-
-
-def shadowing(square: float, cosine: Array) -> Array:
-    """Smith's Λ for GGX, of α² and cosines.
-
-    Examples
-    --------
-    >>> shadowing(0.25, np.array([1.0, 0.5])).round(4).tolist()
-    [0.0, 0.1614]
-    """
-    return np.asarray((np.sqrt(1 + square * (1 / cosine**2 - 1)) - 1) / 2)
-
-
-def _place(index: float) -> float:
-    """Where an index of refraction lies in `gloss_data.SHARE`."""
-    return math.sqrt(abs(index - 1) / (index + 1))
-
-
-def _over_view(name: str, view: Array, *places: float) -> Array:
-    """Read a table linearly between its entries, as Cycles does, at the cosines of a view.
-
-    `places`, from 0 to 1, are those of roughness and, where the table has it, refraction: its last
-    axis and its first. They are one number each, so that a line over the view is left.
-    """
-    line = _TABLES[name]
-    line = _between(np.moveaxis(line, -1, 0), places[0])
-    if len(places) > 1:
-        line = _between(line, places[1])
-    return np.interp(view, np.linspace(0, 1, line.size), line)
-
-
-def _between(table: Array, place: float) -> Array:
-    """Read the first axis of a table at a place from 0 to 1."""
-    along = min(max(place, 0.0), 1.0) * (len(table) - 1)
-    low = min(int(along), len(table) - 2)
-    return np.asarray(table[low] * (1 - (along - low)) + table[low + 1] * (along - low))
-
-
-def _unpacked(size: int, packed: str) -> Array:
-    values = unpack(packed, (gloss_data.STEP,))[:, 0]
-    axes = round(math.log(values.size, size))
-    return np.asarray(values.reshape((size,) * axes))
-
-
-_TABLES = {name: _unpacked(*table) for name, table in gloss_data.TABLES.items()}

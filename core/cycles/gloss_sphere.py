@@ -11,18 +11,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from ..gloss import Gloss
 from ..instruments.geometries import Beam, Instrument
 from ..numerics.arrays import Array
-from .gloss_lobe import Layer, Lobe, compose, gained, reflection, shadowing
+from ..numerics.memoized import memoized
+from .gloss_facets import Lobe, rise, scaled, shadowing
+from .gloss_lobe import Layer, compose
 
 _RADII, _TURNS = 24, 48
 """Facets over the disk that the view sees them on."""
 _VIEW_RADII, _VIEW_TURNS = 2, 4
 """Views within a detector's cone."""
+_KEPT = 64
+_SPREADS = 8
+"""Some 150 kB each."""
 
 
 def layer(gloss: Gloss, instrument: Instrument) -> Layer:
@@ -42,15 +48,10 @@ def layer(gloss: Gloss, instrument: Instrument) -> Layer:
     >>> np.round(found.shine, 4).tolist()
     [0.04, 0.04, 0.04]
     """
-    theta, phi = _views(instrument.view)
-    trap, tilt = math.radians(instrument.trap), math.radians(instrument.view.tilt)
-    dark = np.array([-math.sin(tilt), 0.0, math.cos(tilt)])
-
-    def lit(light: Array) -> Array:
-        return np.asarray(light @ dark < math.cos(trap))
-
-    found = through(gloss, theta, phi, lit if trap else None)
-    # A white reads 1 all the same.
+    theta, _ = _views(instrument.view)
+    found = compose(gloss, np.cos(theta), lambda lobe: _at_instrument(lobe, instrument))
+    # A white reads 1 behind a trap all the same.
+    tilt, trap = math.radians(instrument.view.tilt), math.radians(instrument.trap)
     brighter = 1 / (1 - math.sin(trap) ** 2 * math.cos(tilt))
     return Layer(found.shine.mean(axis=0) * brighter, found.passed.mean(axis=0))
 
@@ -79,50 +80,104 @@ def through(
     >>> np.round(found.shine, 3).tolist()
     [[0.04, 0.04, 0.04]]
     """
-    cosine = np.cos(theta)
-
-    def seen(lobe: Lobe) -> Array:
-        half, light = _mirrored(lobe, theta, phi)
-        # What the view sees of facets, it sees lit by as much as the light is not shadowed.
-        up = light[..., 2]
-        to_view = 1 + shadowing(lobe.square, cosine)[:, np.newaxis]
-        part = to_view / (to_view + shadowing(lobe.square, np.maximum(up, 1e-6)))
-        part = np.where(up > 0, part, 0.0)
-        if lit is not None:
-            part = part * lit(light)
-        mean = (reflection(lobe, half) * part[..., np.newaxis]).mean(axis=1)
-        return np.asarray(mean * gained(lobe, cosine))
-
-    return compose(gloss, cosine, seen)
-
-
-def _mirrored(lobe: Lobe, theta: Array, phi: Array) -> tuple[Array, Array]:
-    """Cosine from each facet to the view, (views, facets), and where it mirrors that to."""
-    alpha = math.sqrt(lobe.square)
-    view = np.stack((np.sin(theta), np.zeros_like(theta), np.cos(theta)), axis=-1)
-    stretched = view * [alpha, alpha, 1]
-    stretched /= np.linalg.norm(stretched, axis=-1, keepdims=True)
-    along = stretched[:, 2:3]  # cosine of the stretched view
-    radius = np.sqrt((np.arange(_RADII) + 0.5) / _RADII)[:, np.newaxis]
-    turn = (np.arange(_TURNS) + 0.5) * (2 * np.pi / _TURNS)
-    across, up = (radius * np.cos(turn)).ravel(), (radius * np.sin(turn)).ravel()
-    rim = np.sqrt(1 - across**2)
-    up = rim + (up - rim) * (1 + along) / 2
-    ahead = np.sqrt(np.maximum(1 - across**2 - up**2, 0))
-    # The stretched view lies in the plane y = 0: one axis of the disk is y, the other is across.
-    sine = np.sqrt(np.maximum(1 - along**2, 0))
-    facet = np.stack(
-        (-up * along + ahead * sine, np.broadcast_to(across, up.shape), up * sine + ahead * along),
-        axis=-1,
+    return compose(
+        gloss, np.cos(theta), lambda lobe: _read(lobe, _spread(lobe.square, theta, phi, lit))
     )
-    facet *= [alpha, alpha, 1]
-    facet /= np.linalg.norm(facet, axis=-1, keepdims=True)
-    half = np.einsum("vfx,vx->vf", facet, view)
-    light = 2 * half[..., np.newaxis] * facet - view[:, np.newaxis]
-    x, y = light[..., 0], light[..., 1]
+
+
+class _Facets(NamedTuple):
+    """What views see of facets.
+
+    Parameters
+    ----------
+    view
+        Cosines of the views, shape (views,).
+    half
+        Cosine from each facet to the view, shape (views, facets).
+    part
+        How much of the light that it mirrors to the view reaches it, of the same shape.
+    mean
+        Of that, shape (views, 1).
+    """
+
+    view: Array
+    half: Array
+    part: Array
+    mean: Array
+
+
+@memoized(maxsize=_KEPT)
+def _at_instrument(lobe: Lobe, instrument: Instrument) -> tuple[Array, Array]:
+    """Give the same as `_read`; while one lobe is dragged, the other stays as it is."""
+    return _read(lobe, _facets(lobe.square, instrument))
+
+
+def _read(lobe: Lobe, facets: _Facets) -> tuple[Array, Array]:
+    """Give what views read of a lobe, (views, channels), and what it sends on, (views, 1)."""
+    own = np.array(lobe.at_normal)
+    risen = np.einsum("vf,vf->v", rise(lobe, facets.half), facets.part) / facets.half.shape[1]
+    gained, sent = scaled(lobe, facets.view)
+    return (own * facets.mean + (1 - own) * risen[:, np.newaxis]) * gained, sent
+
+
+@memoized(maxsize=_SPREADS)
+def _facets(square: float, instrument: Instrument) -> _Facets:
+    """Spread facets for the views of an instrument; while the level is dragged, they stay."""
+    theta, phi = _views(instrument.view)
+    trap, tilt = math.radians(instrument.trap), math.radians(instrument.view.tilt)
+    dark = np.array([-math.sin(tilt), 0.0, math.cos(tilt)])
+
+    def lit(light: Array) -> Array:
+        return np.asarray(light @ dark < math.cos(trap))
+
+    return _spread(square, theta, phi, lit if trap else None)
+
+
+def _spread(
+    square: float, theta: Array, phi: Array, lit: Callable[[Array], Array] | None
+) -> _Facets:
+    """Spread facets evenly over those that each view sees; parameters as in `through`."""
+    # Without a window, what is left and right of the view is alike: one side is enough.
+    half, light = _mirrored(square, theta, phi, _TURNS if lit is not None else _TURNS // 2)
+    view, up = np.cos(theta), light[2]
+    # What the view sees of facets, it sees lit by as much as the light is not shadowed.
+    to_view = 1 + shadowing(square, view)[:, np.newaxis]
+    part = to_view / (to_view + shadowing(square, np.maximum(up, 1e-6)))
+    part = np.where(up > 0, part, 0.0)
+    if lit is not None:
+        part = part * lit(np.stack(light, axis=-1))
+    return _Facets(view, half, part, part.mean(axis=1, keepdims=True))
+
+
+def _mirrored(
+    square: float, theta: Array, phi: Array, turns: int
+) -> tuple[Array, tuple[Array, Array, Array]]:
+    """Cosine from each facet to the view, (views, facets), and where it mirrors that to.
+
+    The latter in its three components. `turns` of the `_TURNS` around the view are spread: the
+    first half of them lies to one side of it.
+    """
+    alpha = math.sqrt(square)
+    sine, cosine = np.sin(theta)[:, np.newaxis], np.cos(theta)[:, np.newaxis]
+    stretched = np.hypot(alpha * sine, cosine)
+    # Cosine and sine of the stretched view.
+    along, aside = cosine / stretched, alpha * sine / stretched
+    radius = np.sqrt((np.arange(_RADII) + 0.5) / _RADII)[:, np.newaxis]
+    turn = (np.arange(turns) + 0.5) * (2 * np.pi / _TURNS) - np.pi / 2
+    across, up = (radius * np.cos(turn)).ravel(), (radius * np.sin(turn)).ravel()
+    squared = across**2
+    rim = np.sqrt(1 - squared)
+    up = rim + (up - rim) * (1 + along) / 2
+    ahead = np.sqrt(np.maximum(1 - squared - up**2, 0))
+    # The stretched view lies in the plane y = 0: one axis of the disk is y, the other is across.
+    x, y = alpha * (ahead * aside - up * along), alpha * across
+    z = up * aside + ahead * along
+    length = np.sqrt(x**2 + y**2 + z**2)
+    x, y, z = x / length, y / length, z / length
+    half = x * sine + z * cosine
+    x, y, z = 2 * half * x - sine, 2 * half * y, 2 * half * z - cosine
     cos, sin = np.cos(phi)[:, np.newaxis], np.sin(phi)[:, np.newaxis]
-    turned = np.stack((x * cos - y * sin, x * sin + y * cos, light[..., 2]), axis=-1)
-    return half, turned
+    return half, (x * cos - y * sin, x * sin + y * cos, z)
 
 
 def _views(beam: Beam) -> tuple[Array, Array]:

@@ -32,6 +32,7 @@ assert presets.load("14").name
 formats = [name for name in sys.modules if name.startswith("rough_spectra.addon.samples.readers.")]
 own = {{"formats", "formats.preset", "parts", "parts.document", "parts.preset_fields"}}
 own |= {{"parts.joining", "parts.name_marks", "parts.geometry_words"}}  # what readers share
+own |= {{"parts.json_object", "parts.unsaid"}}
 assert {{name.partition(".readers.")[2] for name in formats}} <= own, formats
 
 np.set_printoptions(precision=3, suppress=True)

@@ -192,6 +192,15 @@ def test_a_figure_is_the_same_after_others_were_drawn(look, green):
         np.testing.assert_array_equal(compose.picture(figure, low, 200, look), first)
 
 
+def test_an_axis_stays_while_what_it_shows_changes_a_little():
+    """Also where a polished gloss mirrors the light, hundreds of times as bright as white."""
+    for low, high in ((0.21, 0.39), (3.1, 3.9), (4.1, 5.9), (210.0, 299.0), (1001.0, 1999.0)):
+        [top] = {plot.ceiling(peak) for peak in np.linspace(low, high, 50)}
+        assert high <= top <= 2 * low
+    for peak in np.logspace(-1, 9, 200):
+        assert plot.ceiling(peak) >= peak
+
+
 def test_many_balls_are_as_one():
     colors, gloss = np.array([(0.1, 0.2, 0.3), (0.9, 0.5, 0.0)]), Gloss(roughness=0.2)
     for side in (16, 120):

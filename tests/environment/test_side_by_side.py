@@ -155,7 +155,12 @@ time.sleep(60)
 )
 def test_interrupt_ends_all_children(tmp_path, sleep, group, patience, left):
     code = RUN.format(root=str(ROOT), folder=str(tmp_path), sleep=sleep, patience=patience)
-    process = subprocess.Popen([sys.executable, "-c", code], start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        start_new_session=True,
+        # A job that a script put in the background inherits SIGINT ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     try:
         places = [tmp_path / name for name in "ab"]
         end = time.monotonic() + SECONDS

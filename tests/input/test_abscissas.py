@@ -61,6 +61,41 @@ def test_what_is_stated_becomes_nanometers(tmp_path, head, numbers):
 
 
 @pytest.mark.parametrize(
+    ("head", "numbers"),
+    [
+        ("name,{} THz", 299792.458 / NM),
+        ("name,R{} cm-1", 1e7 / NM),
+        ("name,{}cm⁻¹", 1e7 / NM),
+        ("name,{} (1/cm)", 1e7 / NM),
+        ("name,{} cm^-1 (SCI)", 1e7 / NM),
+        ("name,{} Å", NM * 10),
+        ("name,{} eV", H_C_OVER_E * 1e9 / NM),
+        ("Frequency (THz),{}", 299792.458 / NM),
+        ("Wavenumber (cm-1),{}", 1e7 / NM),
+        ("Wavelength (Å),{}", NM * 10),
+        ("Photon energy (eV),{}", H_C_OVER_E * 1e9 / NM),
+        ("Wavelength (µm),{}", NM / 1000),
+        ("# wavelength_unit: eV\nname,{}", H_C_OVER_E * 1e9 / NM),
+        ("X units: THz\nname,{}", 299792.458 / NM),
+    ],
+)
+def test_bands_across_are_converted_as_those_down(tmp_path, head, numbers):
+    above, _, column = head.rpartition(",")
+    columns = [column.format(f"{number:.9g}") for number in numbers.tolist()]
+    (sample,) = read(tmp_path, ",".join([above, *columns]) + "\nbrick,0.125,0.25,0.5,0.75\n")
+    np.testing.assert_allclose(sample.wavelengths, NM, rtol=1e-7)
+    assert sample.values.tolist() == [0.125, 0.25, 0.5, 0.75]
+    assert sample.name == "brick"
+
+
+def test_samples_that_are_called_by_small_numbers_stay_columns(tmp_path):
+    rows = "".join(f"{nm / 1000:g},0.125,0.25\n" for nm in NM.tolist())
+    samples = read(tmp_path, "wavelength (µm),1,2\n" + rows)
+    assert [(sample.name, sample.values[0]) for sample in samples] == [("1", 0.125), ("2", 0.25)]
+    np.testing.assert_allclose(samples[0].wavelengths, NM, atol=1e-6)
+
+
+@pytest.mark.parametrize(
     ("head", "numbers", "said"),
     [
         ("Frequency,brick", 299792.458 / NM, "a frequency or an energy without its unit"),

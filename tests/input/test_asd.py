@@ -56,6 +56,13 @@ def test_the_file_of_the_fixtures():
     assert any("test tile" in note for note in sample.notes)
 
 
+def test_the_comment_tells_the_geometry():
+    data = bytearray(make())
+    data[3:13] = b"d/8, SPEX\0"
+    assert (read(bytes(data)).instrument, read(bytes(data)).specular) == ("de:8", "SCE")
+    assert not any("assumed" in note for note in read(bytes(data)).notes)
+
+
 @pytest.mark.parametrize("form", FORMATS)
 @pytest.mark.parametrize("kind", [0, 1])
 @pytest.mark.parametrize("version", [b"as2", b"as6", b"as7", b"as8"])

@@ -69,6 +69,57 @@ def test_conditions_angles_points_and_what_is_left_out():
         assert part in left
 
 
+GEOMETRY = "<cc:SphereGeometry>Specular_Included</cc:SphereGeometry>"
+
+
+@pytest.mark.parametrize(
+    ("single", "note"),
+    [
+        ("", "that of the device"),
+        (
+            "<cc:SingleAngleConfiguration>Annular</cc:SingleAngleConfiguration>",
+            "that of the device",
+        ),
+        (
+            "<cc:IlluminationAngle>30</cc:IlluminationAngle>",
+            "'light at 30°, view at an angle that is …' is not known",
+        ),
+    ],
+)
+def test_angles_that_are_not_there(tmp_path, single, note):
+    text = TWO.replace(GEOMETRY, f"<cc:SingleAngle>{single}</cc:SingleAngle>")
+    for sample in readers.read(write(tmp_path, text)):
+        assert sample.instrument == ("45a:0" if "30" in single else "di:8"), "its device's"
+        assert any(note in said for said in sample.notes)
+        assert not any("°a:°" in said for said in (sample.geometry, *sample.notes))
+    angle = single.replace("Single", "Multi")
+    text = TWO.replace(GEOMETRY, f"<cc:MultiAngle><cc:Angle>{angle}</cc:Angle></cc:MultiAngle>")
+    for sample in readers.read(write(tmp_path, text)):
+        assert sample.instrument == ("45a:0" if "30" in single else "di:8"), "its device's"
+        assert any("assumed" in said or "device" in said for said in sample.notes)
+
+
+@pytest.mark.parametrize(
+    ("remark", "instrument", "note"),
+    [
+        ("<cc:Description>Tiles, d/8 SCE</cc:Description>", "de:8", ""),
+        ("<cc:Comment>Tiles, SCE</cc:Comment>", "de:8", "SCE, follows from 'Tiles, SCE'"),
+        ('<cc:Tag Name="Geometry" Value="45/0"/>', "45a:0", ""),
+        ("<cc:Description>SCI-FI posters</cc:Description>", "di:8", "that of the device"),
+    ],
+)
+def test_the_description_of_the_file_says_what_no_specification_does(
+    tmp_path, remark, instrument, note
+):
+    said = f"<cc:FileInformation>{remark}"
+    text = TWO.replace("<cc:FileInformation>", said)
+    assert readers.read(write(tmp_path, text))[0].instrument == "di:8", "the specification's"
+    [sample, _] = readers.read(write(tmp_path, text.replace(GEOMETRY, "")))
+    assert sample.instrument == instrument
+    assert note in " ".join(sample.notes)
+    assert "assumed" not in " ".join(sample.notes)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "latin-1"])
 @pytest.mark.parametrize("prefix", ["cc:", "", "x-rite:"])
 def test_prefix_and_encoding_change_nothing(tmp_path, prefix, encoding):

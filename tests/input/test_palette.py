@@ -19,6 +19,7 @@ def read(tmp_path, text):
     [
         "name,L,a,b\nHouse red,43,21,20\nDoor,30,-5.5,4\n",
         "House red,43,21,20\nDoor,30,-5.5,4\n",
+        "\nHouse red,43,21,20\nDoor,30,-5.5,4\n",
         "Name;L*;a*;b*\nHouse red;43,0;21;20\nDoor;30;-5,5;4\n",
         "L*\ta*\tb*\tColor\n43\t21\t20\tHouse red\n30\t-5.5\t4\tDoor\n",
         "number,name,CIE L*,CIE a*,CIE b*\n1,House red,43,21,20\n2,Door,30,−5.5,4\n".replace(
@@ -62,6 +63,12 @@ def test_spectra(tmp_path):
     assert red.sample.values.tolist() == [0.1, 0.1, 0.5, 0.6]
 
 
+def test_white_is_a_color_and_three_bands_are_a_spectrum(tmp_path):
+    assert read(tmp_path, "White,100,0,0\n")[0].lab == (100, 0, 0)
+    [gray] = read(tmp_path, "name,400,550,700\nGray,0.2,0.2,0.2\n")
+    assert gray.sample.wavelengths.tolist() == [400, 550, 700]
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -69,6 +76,10 @@ def test_spectra(tmp_path):
         ("House red,43,21,20\nDoor,x,0,0\n", "line 2: 'x, 0, 0' is no color"),
         ("name,L,a,b\n", "no color is in it"),
         ("name,hex\nHouse red,#734f3d\nDoor,#73\n", "line 3"),
+        ("name,400,500,600\nDoor,0.2,0.2,0.2\n", "sample 'Door': The bands from 400 to 600 nm"),
+        ("House red,43,21,20\n" + "x" * 140_000 + "\n", "line 2: one of its fields is too long"),
+        ("House red,43,21,20\nDoor," + "x" * 1000 + ",0,0\n", "line 2: 'xxx"),
+        ("# illuminant: " + "x" * 1000 + "\nDoor,43,21,20\n", "is not known"),
     ],
 )
 def test_what_is_no_color_is_said_with_its_line(tmp_path, text, said):
@@ -76,6 +87,7 @@ def test_what_is_no_color_is_said_with_its_line(tmp_path, text, said):
         read(tmp_path, text)
     assert said in str(caught.value)
     assert "own.csv" in str(caught.value)
+    assert len(str(caught.value)) < len(str(tmp_path)) + 200, "a sentence, whatever the file holds"
 
 
 def test_what_is_neither_is_refused(tmp_path):

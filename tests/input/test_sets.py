@@ -215,6 +215,31 @@ def test_a_name_in_brackets_tells_a_single_reading(tmp_path):
     assert (sample.name, sample.instrument, sample.specular) == ("Tile sci", "45a:0", "")
 
 
+@pytest.mark.parametrize(
+    ("name", "instrument"),
+    [
+        *((f"{name} SCI", "di:8") for name in ("RAL 9010", "WHITE TILE", "Tile")),
+        *(("SCE_RAL 9010", "de:8"), ("Tile SCE 2", "de:8"), ("RAL 9010 SPIN", "di:8")),
+        *(("SCI-FI POSTER SCE", "de:8"), ("Top SPIN", "di:8"), ("TOP SPIN (SPIN)", "di:8")),
+        *((name, "45a:0") for name in ("SCI-FI POSTER", "Poster (SCI-FI)", "SCI FI POSTER")),
+        *((name, "45a:0") for name in ("BLUE SCI\u2010FI", "Sci-Fi blue", "SCIENCE", "SCENE 2")),
+        *((name, "45a:0") for name in ("TOP SPIN", "SPIN COATED PTFE", "SPIN-COATED", "RAL 9010")),
+    ],
+)
+def test_a_word_in_capitals_is_a_mark_where_it_can_be_one_and_is_told(tmp_path, name, instrument):
+    [sample] = read(tmp_path, table((name, 0.34)))
+    assert (sample.name, sample.instrument) == (name, instrument)
+    told = "it is not, state the geometry" if instrument != "45a:0" else "45°a:0° is assumed"
+    assert any(told in note for note in sample.notes), "never without a word"
+    [sample] = read(tmp_path, table((name, "45/0", 0.34), head="name,geometry"))
+    assert (sample.instrument, sample.notes) == ("45a:0", ()), "the remedy that the note names"
+
+
+def test_of_two_readings_any_such_word_is_a_mark(tmp_path):
+    [sample] = read(tmp_path, table(("TOP SPIN", 0.34), ("TOP SPEX", 0.3)))
+    assert (sample.name, told(sample)) == ("TOP", SPHERE)
+
+
 def test_a_stated_geometry_is_not_overruled_by_a_name(tmp_path):
     rows = ("T (SCI)", "45/0", 0.3), ("T (SCE)", "45/0", 0.4)
     samples = read(tmp_path, table(*rows, head="name,geometry"))

@@ -50,6 +50,26 @@ def test_spectrasuite_with_decimal_commas():
     assert "does not name what was measured" in sample.notes[0]
 
 
+@pytest.mark.parametrize(
+    ("line", "instrument", "told"),
+    [
+        (b"Geometry: d/8 SCE", "de:8", ""),
+        (b"Comment: integrating sphere ISP-50-8-R-GT, 8/d, SPIN", "di:8", ""),
+        (b"chalk, SCE", "de:8", "SCE, follows from 'chalk, SCE'"),
+        (b"Comment: SCI-FI poster of 8/9", "45a:0", "assumed"),
+    ],
+)
+def test_header_lines_of_ocean_optics_tell_the_geometry(tmp_path, line, instrument, told):
+    lines = (FIXTURES / "ocean_optics" / "oceanview.txt").read_bytes().split(b"\n")
+    path = tmp_path / "chalk.txt"
+    path.write_bytes(b"\n".join([lines[0], line, *lines[1:]]))
+    [sample] = readers.read(path)
+    assert (sample.instrument, sample.device) == (instrument, "USB2+H00001")
+    assert told in " ".join(sample.notes)
+    path.write_bytes(b"\n".join([lines[0].replace(b"wall", b"wall_d8_SCE"), *lines[1:]]))
+    assert readers.read(path)[0].instrument == "de:8", "from the name of the graph"
+
+
 def test_oceanview_names_its_mode_and_leaves_a_gap():
     (sample,) = readers.read(FIXTURES / "ocean_optics" / "oceanview.txt")
     nm = [399.5, 400.0, 400.5, 401.5]
@@ -230,6 +250,15 @@ def test_envi_library_by_either_of_its_files(named):
     )
 
 
+def test_the_description_of_an_envi_library_tells_the_geometry(tmp_path):
+    for name in ("walls.hdr", "walls.sli"):
+        data = (FIXTURES / "envi_library" / name).read_bytes()
+        (tmp_path / name).write_bytes(data.replace(b"{Invented", b"{By a CM-700d, SCE. Invented"))
+    for sample in readers.read(tmp_path / "walls.hdr"):
+        assert (sample.instrument, sample.specular) == ("de:8", "SCE")
+        assert any("follows from 'By a CM-700d, SCE." in note for note in sample.notes)
+
+
 def test_envi_library_that_promises_more_than_there_is(tmp_path):
     (tmp_path / "walls.hdr").write_bytes((FIXTURES / "envi_library" / "walls.hdr").read_bytes())
     (tmp_path / "walls.sli").write_bytes(b"skip" + bytes(36))
@@ -276,6 +305,9 @@ def test_spectra_vista_in_percent_with_detectors_that_overlap(tmp_path):
     assert "order" in sample.altered[0]
     assert sample.altered[1] == "Bands that two detectors share were averaged: 1 of 5."
     data = path.read_bytes()
+    said = tmp_path / "said.sig"
+    said.write_bytes(data.replace(b"comm= ", b"comm= d/8 SCE"))
+    assert readers.read(said)[0].instrument == "de:8", "as the comment says"
     head = data.split(b"data= \n")[0]
     assert "no rows of data" in refusal(tmp_path, head + b"data= \n")
     assert "column 'reflectance'" in refusal(tmp_path, data.replace(b"  12.50", b""))

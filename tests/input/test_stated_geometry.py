@@ -132,6 +132,26 @@ def test_free_text_and_devices_count(tmp_path, above):
     assert (sample.instrument, sample.specular, sample.notes) == ("di:8", "SCI", ())
 
 
+@pytest.mark.parametrize(
+    ("above", "instrument"),
+    [
+        *(("# Tiles, SCI\n", "di:8"), ("Wall: by hand, SCE\n", "de:8")),
+        *(("# SCI-FI posters\n", "45a:0"), ("Wall: SPIN-COATED\n", "45a:0")),
+    ],
+)
+def test_a_sphere_that_follows_from_a_word_is_told(tmp_path, above, instrument):
+    [sample] = read(tmp_path, table("name", "T", above=above))
+    assert sample.instrument == instrument
+    [note] = sample.notes
+    if instrument == "45a:0":
+        assert "assumed" in note
+    else:
+        words = above.strip("# \n")
+        assert f"{sample.specular}, follows from {words!r}" in note
+    [sample] = read(tmp_path, table("name,specular", "T,SCE", above=above))
+    assert (sample.instrument, sample.notes) == ("de:8", ()), "the row's own, and not the word's"
+
+
 @pytest.mark.parametrize("above", ["# made on 24/8 at 0:45\n", "# ratio 1/2, speci men, 3d/8x\n"])
 def test_dates_and_ratios_are_no_geometry(tmp_path, above):
     samples = read(tmp_path, table("name", "T 1/2", "U (3/8)", "V 45", above=above))

@@ -39,7 +39,7 @@ LIGHTS = ("D65", "A", "F11")
 COUNTS = (6, 9, 12)
 TRUTH = 36
 TABLE, DATA = ROOT / "docs" / "picture-table.md", ROOT / "docs" / "data" / "picture.csv"
-SHOWN, BANDS, SIZE, SAMPLES = "A", 9, (320, 240), 256
+SHOWN, BANDS, SIZE, SAMPLES = "A", 9, (200, 150), 48
 """The light of the pictures that the manual shows, and how they are rendered."""
 FIELDS = ("light", "picture", "renders", "mean", "usual", "largest", "predicted", "cost")
 

@@ -148,6 +148,35 @@ def _drag(
     return run
 
 
+def _shine(read_at: str) -> Run:
+    """Drag the sockets of a gloss with a coat, of a color that can't have all of it."""
+    import bpy
+    from rough_spectra.addon.blender import surface
+    from rough_spectra.addon.matching.request import Request
+    from rough_spectra.addon.material import derive
+    from rough_spectra.addon.preview import icons
+
+    thing = _plane()
+    material = thing.active_material = _new("Shining")
+    node: Any = surface.shader_node(material)
+    node.inputs["Coat Weight"].default_value = 1.0
+    derive.assign([(material, Request(_fine(0.03, 0.3, 10), 0.5, read_at=read_at))])
+    icons.clear()
+    _pictures(material, 3)
+    draw, values = _drawer(), _sigmas(STEPS // 3)
+
+    def run() -> None:
+        for name in ("Roughness", "Specular IOR Level", "Coat Weight"):
+            for value in next(values):
+                for picture in icons._pictures.values():
+                    picture.drawn = time.monotonic()
+                node.inputs[name].default_value = value
+                bpy.context.view_layer.update()
+                draw(material)
+
+    return run
+
+
 def _edit(scene: bool, is_derived: bool = True) -> Run:
     """Drag the color of a material's node by hand: it is stale, and its pictures follow."""
     import bpy
@@ -566,6 +595,8 @@ TASKS: dict[str, Callable[[Path], Run]] = {
         _fine(0.1, 0.6, 10, instrument="di:8"), model="closure"
     ),
     "drag σ, read at a sphere": lambda _folder: _drag(_fine(step=10), read_at="di:8"),
+    "drag gloss, read at 45°/0°": lambda _folder: _shine("45a:0"),
+    "drag gloss, read at a sphere": lambda _folder: _shine("di:8"),
     "solve by every model": _drag_models,
     "match for two lights": _hemisphere,
     "emissivity of samples": _emissivity,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kill verbs at random moments, and look whether what they write is whole: before it, or after.
 
-    .venv/bpy-5.2/bin/python -m tools.checks.kills --kills 1000
+    .venv/bpy-5.2/bin/python -m tools.checks.kills --kills 1000 [VERB ...]
 
 Each verb first writes its files twice, with different options. Then it is started over the first
 ones with the second options, and killed by SIGKILL somewhere in the time that it takes. Once an
@@ -21,25 +21,24 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 
 import bpy
 
-from tools.checks.check_farm import make_scene
 from tools.run.run_command_line import ROOT, load_extension
 
 if "rough_spectra" not in sys.modules:
     load_extension().register()
 
 from rough_spectra.addon.support import journal
+from rough_spectra.addon.support.openimageio import openimageio
+
+from tools.checks import kill_cases
+from tools.checks.kill_cases import Words
 
 RUNNER = ROOT / "tools" / "run" / "run_command_line.py"
 _EARLIEST = 0.3
 """Of the time that a verb takes: before, nothing but Blender starts."""
-
-Words = Callable[[Path, int], list[object]]
-"""Words of a verb, from the folder that it writes to and which of the two options are meant."""
 
 
 def main() -> int:
@@ -47,61 +46,50 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="tools.checks.kills", description=__doc__.splitlines()[0])
     parser.add_argument("--kills", type=int, default=1000, help="in all, over all verbs")
     parser.add_argument("--minutes", type=float, default=600.0, help="after which it ends")
-    parser.add_argument("--materials", type=int, default=30, help="of the scene")
+    parser.add_argument("--materials", type=int, default=30, help="of the scene without light")
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "kills")
+    parser.add_argument("verbs", nargs="*", metavar="VERB", help="all that write, if none is named")
     options = parser.parse_args()
     folder = options.folder.absolute()
     shutil.rmtree(folder, ignore_errors=True)
-    verbs = {
-        name: Verb(name, words, folder / name) for name, words in _verbs(folder, options).items()
-    }
+    folder.mkdir(parents=True)
     until = time.monotonic() + 60 * options.minutes
+    verbs = []
+    left = []
+    for name, words in _verbs(folder, options).items():
+        try:
+            verbs.append(Verb(name, words, folder / name.replace(" ", "")))
+        except _NotReadyError as error:
+            left.append(name)
+            print(f"{name}: {error}", flush=True)
+            continue
+        print(f"{name}: {verbs[-1].seconds:.1f} s", flush=True)
     random.seed(1)
     for number in range(options.kills):
         if time.monotonic() > until:
             break
-        list(verbs.values())[number % len(verbs)].kill()
-    for verb in verbs.values():
+        verbs[number % len(verbs)].kill()
+    for verb in verbs:
         print(f"{verb.name}: {dict(verb.found)}", flush=True)
-    halves = sum(verb.found["half"] for verb in verbs.values())
-    print(f"{sum(verb.found.total() for verb in verbs.values())} kills, {halves} half", flush=True)
-    return 1 if halves else 0
+    halves = sum(verb.found["half"] for verb in verbs)
+    print(f"{sum(verb.found.total() for verb in verbs)} kills, {halves} half", flush=True)
+    return 1 if halves or left else 0
 
 
 def _verbs(folder: Path, options: argparse.Namespace) -> dict[str, Words]:
-    scene = folder / "scene.blend"
-    make_scene(scene, options.materials, 1)
-    table = folder / "tiles.csv"
-    bands = "".join(
-        f"{nm},{0.3 + nm / 9000:.4f},{0.2 + nm / 9000:.4f}\n" for nm in range(400, 701, 10)
-    )
-    table.write_text("# geometry: 45/0\nwavelength,Tile,Tile rough\n" + bands)
-    parts = folder / "parts"
+    cases = kill_cases.of_tables(folder) | kill_cases.of_scenes(folder, options.materials)
     for shard in ("1/2", "2/2"):
-        words = ["bake", "--blend", scene, "--predicted-only", "--shard", shard]
-        _run([*words, "--output", parts / "x"]).wait()
-    shards = sorted(parts.glob("*.json"))
-    some = ["--material", "Paint 0001", "--material", "Paint 0002"]
-    return {
-        "bake": lambda to, which: [
-            *("bake", "--blend", scene, "--predicted-only", "--output", to / "x"),
-            *(["--read-at", "di:8"] if which else []),
-        ],
-        "export": lambda to, which: [
-            *("export", "--blend", scene, "--output", to / "x", *(some if which else [])),
-            *("--target", "mitsuba", "--target", "pbrt"),
-        ],
-        "import": lambda to, which: [
-            *("import", table, "--folder", to, "--collection", "b" if which else "a"),
-        ],
-        "estimate": lambda to, which: [
-            *("estimate", table, "--smooth", "Tile", "--rough", "Tile rough"),
-            *("--repeatability", which + 1, "--output", to / "x.csv"),
-        ],
-        "merge": lambda to, which: [
-            *("merge", *shards, "--output", to / "x", *(["--format", "csv"] if which else [])),
-        ],
-    }
+        words = [*cases["bake"](folder / "parts", 0), "--shard", shard]
+        _run(words).wait()
+    cases |= kill_cases.of_shards(sorted((folder / "parts").glob("*.json")))
+    unknown = set(options.verbs) - cases.keys()
+    if unknown:
+        raise SystemExit(f"There is no {unknown.pop()!r}; choose from: {', '.join(cases)}.")
+    return {name: words for name, words in cases.items() if name in (options.verbs or cases)}
+
+
+class _NotReadyError(Exception):
+    """A verb that does not end well, or whose two options make no difference."""
 
 
 class Verb:
@@ -117,7 +105,10 @@ class Verb:
             status = _run(words(to, which)).wait()
             self.seconds = time.monotonic() - started
             if status:
-                raise SystemExit(f"{name} ends with status {status}: see why by hand")
+                raise _NotReadyError(f"it ends with status {status}; see why by hand")
+        self.before, self.after = _contents(self.old), _contents(self.new)
+        if self.before == self.after:
+            raise _NotReadyError("it writes the same with both options; nothing could be told")
 
     def kill(self) -> None:
         """Start it over the old files, kill it, and look."""
@@ -132,9 +123,9 @@ class Verb:
             process.wait()
         journal.finish(to)
         what = _contents(to)
-        if what == _contents(self.new):
+        if what == self.after:
             self.found["done before" if ended else "new"] += 1
-        elif what == _contents(self.old):
+        elif what == self.before:
             self.found["old"] += 1
         else:
             self.found["half"] += 1
@@ -151,13 +142,48 @@ def _run(words: list[object]) -> subprocess.Popen[bytes]:
     )
 
 
-def _contents(folder: Path) -> dict[str, bytes]:
+def _contents(folder: Path) -> dict[str, object]:
     """Give the files that a user sees; hidden ones are locks and what was not finished."""
+    told = {".blend": _materials, ".exr": _picture}
     return {
-        path.name: path.read_bytes()
+        path.name: told.get(path.suffix, Path.read_bytes)(path)
         for path in folder.iterdir()
         if path.is_file() and not path.name.startswith(".")
     }
+
+
+def _materials(path: Path) -> object:
+    """Give what a .blend's materials are set to: its bytes hold addresses, which differ."""
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False)
+    except RuntimeError as error:
+        return f"does not open: {error}"
+    return {
+        material.name: [
+            (node.bl_idname, socket.name, _value(socket.default_value))
+            for node in material.node_tree.nodes
+            for socket in node.inputs
+            if hasattr(socket, "default_value")
+        ]
+        for material in bpy.data.materials
+        if material.node_tree
+    }
+
+
+def _picture(path: Path) -> object:
+    """Give all that a picture holds but when it was written."""
+    file = openimageio().ImageInput.open(str(path))
+    if file is None:
+        return "does not open"
+    spec, pixels = file.spec(), file.read_image(openimageio().FLOAT)
+    file.close()
+    known = [(each.name, str(each.value)) for each in spec.extra_attribs]
+    whole = "breaks off" if pixels is None else pixels.tobytes()
+    return whole, [pair for pair in known if pair[0] != "DateTime"]
+
+
+def _value(value: object) -> object:
+    return tuple(value) if hasattr(value, "__len__") else value  # type: ignore[arg-type]
 
 
 if __name__ == "__main__":

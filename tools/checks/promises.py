@@ -163,16 +163,18 @@ def confined(folder: Path) -> Iterator[None]:
     The latter is where a library keeps what its chapters share.
 
     Python's own audit events tell: they also see what C code of the standard library does. Modules
-    that are imported on the way may be read.
+    that are imported on the way may be read, and leave no bytecode.
     """
     global _allowed
     if not _hooked:
         sys.addaudithook(_audit)
         _hooked.append(True)
     _allowed = folder.resolve()
+    writes_bytecode, sys.dont_write_bytecode = not sys.dont_write_bytecode, True
     try:
         yield
     finally:
+        sys.dont_write_bytecode = not writes_bytecode
         _allowed = None
 
 

@@ -89,7 +89,7 @@ def room(path: str) -> None:
         for each, pixels, title in zip(
             axes, shown, ("RGB, one render", "Spectral, nine bands in three renders"), strict=False
         ):
-            each.imshow(to_srgb(pixels / bright))
+            each.imshow(to_srgb(pixels / bright), interpolation="bilinear")
             each.set_title(title)
         drawn = axes[2].imshow(apart, cmap="magma", vmin=0, vmax=np.ceil(np.quantile(apart, 0.99)))
         axes[2].set_title(f"ΔE00 between them, {apart.mean():.1f} on average")

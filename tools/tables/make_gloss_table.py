@@ -34,7 +34,7 @@ TABLES = {
 
 HEAD = '''# SPDX-FileCopyrightText: 2011-2022 Blender Foundation
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of Cycles for `core.cycles.gloss_lobe`, by tools/tables/make_gloss_table.py.
+"""Tables of Cycles for `core.cycles.gloss_facets`, by tools/tables/make_gloss_table.py.
 
 Of what a GGX lobe of facets that absorb nothing returns: "kept", over the cosine of the view and
 the roughness; "mean kept", its mean over the hemisphere. "share" is where the lobe's reflection

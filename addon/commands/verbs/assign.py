@@ -9,6 +9,7 @@ import math
 from pathlib import Path
 
 from ...support.shown_text import inform, tell
+from ..arguments import add_sigma
 
 NAME = "assign"
 SUMMARY = "give materials of the file measured spectra"
@@ -53,19 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="a material, repeatable: of --preset, or the only ones of --by-name",
     )
-    sigma = parser.add_mutually_exclusive_group()
-    sigma.add_argument(
-        "--sigma",
-        type=float,
-        metavar="DEGREES",
-        help="roughness of all of them, whatever the files say; without it what they say, or 0",
-    )
-    sigma.add_argument(
-        "--rdq", type=float, metavar="SLOPE", help="the same as a profilometer's Rdq = tan σ"
-    )
-    sigma.add_argument(
-        "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
-    )
+    add_sigma(parser)
     parser.add_argument("--kind", choices=("reading", "albedo"), help="what the spectra are")
     add_white_arguments(parser)
     parser.add_argument(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ....core.errors import InputError
 from ...support.shown_text import inform, tell
+from ..arguments import add_sigma
 
 if TYPE_CHECKING:
     from ...matching.emission import Named
@@ -41,19 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="BASE",
         help="folder and base name: BASE.csv, BASE.bands.csv, BASE.png",
     )
-    sigma = parser.add_mutually_exclusive_group()
-    sigma.add_argument(
-        "--sigma",
-        type=float,
-        metavar="DEGREES",
-        help="roughness of all of them, whatever the files say; without it what they say, or 0",
-    )
-    sigma.add_argument(
-        "--rdq", type=float, metavar="SLOPE", help="the same as a profilometer's Rdq = tan σ"
-    )
-    sigma.add_argument(
-        "--sdq", type=float, metavar="SLOPE", help="the same as a profilometer's Sdq = √2 tan σ"
-    )
+    add_sigma(parser)
     parser.add_argument(
         "--angles",
         type=float,

@@ -34,10 +34,8 @@ class _Ball(NamedTuple):
         Pixels that are shaded as one, in both directions.
     lit
         Which of these the light reaches, bool.
-    angles
-        Light, view and the azimuth between them there, radians, each (lit,).
-    directions
-        What the diffuse lobe wants of these.
+    directions, glossy
+        What the diffuse lobe and gloss want of light and view there, each (lit,).
     cosine
         Of the light's angle, (lit, 1).
     coverage
@@ -46,8 +44,8 @@ class _Ball(NamedTuple):
 
     step: int
     lit: Array
-    angles: tuple[Array, Array, Array]
     directions: tuple[Array, ...]
+    glossy: gloss_lobe.Directions
     cosine: Array
     coverage: Array
 
@@ -86,7 +84,7 @@ def balls(
     terms = cycles.lobe(np.asarray(roughness, float), *seen.directions)
     shown = cycles.reflected(colors[:, np.newaxis], terms)
     if gloss is not None:
-        shown = gloss_lobe.layer(gloss, *seen.angles).over(shown)
+        shown = gloss_lobe.in_directions(gloss, seen.glossy).over(shown)
     image = np.ones((len(colors), *seen.lit.shape, 4), np.float32)
     image[..., :3] = 0
     image[:, seen.lit, :3] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
@@ -110,7 +108,8 @@ def _of_size(side: int) -> _Ball:
     fine_x, fine_y = _places(side * _FINER, 1)
     inside = fine_x**2 + fine_y**2 < 1
     coverage: Array = inside.reshape(side, _FINER, side, _FINER).mean(axis=(1, 3), dtype=np.float32)
-    return _Ball(step, lit, angles, cycles.directions(*angles), toward[:, np.newaxis], coverage)
+    wanted = cycles.directions(*angles), gloss_lobe.directions(*angles)
+    return _Ball(step, lit, *wanted, toward[:, np.newaxis], coverage)
 
 
 def _places(side: int, step: int) -> tuple[Array, Array]:

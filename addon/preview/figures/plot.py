@@ -85,7 +85,9 @@ def ceiling(peak: float) -> float:
     for top in (0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 3.0):
         if peak <= top:
             return top
-    return float(np.ceil(peak))
+    # A mirror's light in a polished gloss is hundreds of times that of white.
+    decade = 10.0 ** math.floor(math.log10(peak))
+    return next(step * decade for step in (2, 3, 4, 6, 8, 10, 20) if peak <= step * decade)
 
 
 def label(value: float) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import Sample, check_spectrum
-from ..parts import geometry_words
+from ..parts import statements
 from ..parts.document import Document
 
 NAME = "ASD binary file (.asd)"
@@ -106,8 +106,9 @@ def read(document: Document) -> list[Sample]:
             notes.append("The file says that the dark signal was not subtracted from the counts.")
     elif data_type == _RAW:
         raise document.not_reflectance("", "counts")
-    notes += _stated(document)
-    instrument, note = geometry_words.instrument_of("")
+    comment = _comment(document)
+    notes += _stated(document, comment)
+    measured = statements.of_remarks([("", comment)])
     wavelengths, values = check_spectrum(
         nm, stored, str(document.path), lambda band: f"channel {band + 1}"
     )
@@ -117,10 +118,8 @@ def read(document: Document) -> list[Sample]:
             wavelengths=wavelengths,
             values=values,
             kind="reading",
-            instrument=instrument,
+            **measured | {"device": _device(document), "notes": (*notes, *measured["notes"])},
             source=str(document.path),
-            device=_device(document),
-            notes=(*notes, note),
             altered=altered,
         )
     ]
@@ -170,11 +169,16 @@ def _reference(document: Document, start: int, channels: int) -> NDArray[np.floa
     return _spectrum(document, start + 20 + described, channels, "white reference")[0]
 
 
-def _stated(document: Document) -> list[str]:
+def _comment(document: Document) -> str:
+    """Return what the user wrote into the header, or nothing where it is no text."""
+    text = " ".join(document.data[_COMMENT].partition(b"\0")[0].decode("latin-1").split())
+    return text if text.isprintable() else ""
+
+
+def _stated(document: Document, comment: str) -> list[str]:
     """Return what the header says that the user should see."""
     notes = []
-    comment = " ".join(document.data[_COMMENT].partition(b"\0")[0].decode("latin-1").split())
-    if comment and comment.isprintable():
+    if comment:
         notes.append(f"The file's comment: {comment!r}.")
     flags = document.data[_SATURATION]
     saturated = [name for bit, name in _DETECTORS.items() if flags & bit]

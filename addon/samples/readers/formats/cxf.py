@@ -11,13 +11,14 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import Sample, check_spectrum
-from ..parts import cxf_parts, cxf_xml, geometry_words
+from ..parts import cxf_parts, cxf_xml, geometry_words, statements
 from ..parts.cxf_parts import Specification, Spectrum, Thing
 from ..parts.document import Document, quote
 
@@ -56,6 +57,7 @@ def read(document: Document) -> list[Sample]:
     """
     things: list[Thing] = []
     specifications: dict[str, Specification] = {}
+    remarks: list[tuple[str, str]] = []
     pieces = cxf_xml.parts(document)
     root = next(pieces)
     if cxf_xml.tag(root) != "CxF" or _OLD.search(str(root.tag)):
@@ -63,6 +65,8 @@ def read(document: Document) -> list[Sample]:
     for piece in pieces:
         if cxf_xml.tag(piece) == "Object":
             things.append(cxf_parts.thing(document, len(things) + 1, piece))
+        elif cxf_xml.tag(piece) == "FileInformation":
+            remarks += cxf_parts.remarks(piece)
         else:
             name, found = cxf_parts.specification(document, piece)
             specifications[name] = found
@@ -71,6 +75,7 @@ def read(document: Document) -> list[Sample]:
         raise _nothing(document, left)
     several = {_of(specifications, one).condition for _, one in wanted}
     notes = _note_of_left(left)
+    of_file = statements.measured_by(remarks)
     names = Counter(id(thing) for thing, _ in wanted)
     grids: dict[tuple[float, float, int], NDArray[np.float64]] = {}
     samples = []
@@ -87,6 +92,7 @@ def read(document: Document) -> list[Sample]:
                 thing,
                 spectrum,
                 specifications,
+                of_file,
                 f"{name} ({suffix})" if suffix else name,
                 nm,
                 notes,
@@ -167,11 +173,14 @@ def _sample(
     thing: Thing,
     spectrum: Spectrum,
     specifications: dict[str, Specification],
+    of_file: dict[str, Any],
     name: str,
     nm: NDArray[np.float64],
     notes: tuple[str, ...],
 ) -> Sample:
     said = _of(specifications, spectrum)
+    if not (said.geometry or said.angles or said.specular) and of_file:
+        said = _with_remarks(said, of_file)
     chosen = _choose(said, spectrum)
     position = f"object {thing.number}"
     check_spectrum(nm, spectrum.values, f"{document.path}, {position}")
@@ -201,6 +210,20 @@ def _sample(
     )
 
 
+def _with_remarks(said: Specification, of_file: dict[str, Any]) -> Specification:
+    """Return a specification that says no geometry with what the file's description says of it."""
+    known = statements.finish(of_file)
+    geometry, specular = known.get("geometry", ""), known.get("specular", "")
+    follows = statements.of_mention(of_file.get("mentioned", ""), geometry, specular)
+    return replace(
+        said,
+        geometry=geometry,
+        specular=specular,
+        device=said.device or known.get("device", ""),
+        notes=(follows, *said.notes) if follows else said.notes,
+    )
+
+
 def _choose(said: Specification, spectrum: Spectrum) -> _Chosen:
     """Return the instrument; of several angles the one that the spectrum's name says."""
     geometry = said.geometry
@@ -216,7 +239,8 @@ def _choose(said: Specification, spectrum: Spectrum) -> _Chosen:
     device = "" if geometry else geometry_words.geometry_of_device(said.device)
     if device:
         notes.append(f"The geometry {device} is that of the device {quote(said.device)}.")
-    instrument, note = geometry_words.instrument_of(geometry or device, said.specular)
+    known = geometry or device or ("d/8" if said.specular else "")
+    instrument, note = geometry_words.instrument_of(known, said.specular)
     return _Chosen(instrument, geometry, (note, *notes) if note else tuple(notes))
 
 

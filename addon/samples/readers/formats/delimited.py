@@ -85,7 +85,7 @@ def read(document: Document) -> list[Sample]:
     if len(top) > 1 and long_tables.is_long(header, top[1].fields):
         next(table)
         return long_tables.read(document, said, fields, header, top[0].line, table)
-    if _is_across(document, header, top, comma):
+    if _is_across(document, said, header, top, comma):
         next(table)
         if len(top) > 1 and label_words.band(header[0]) and len(top[1].fields) == len(header) + 1:
             header = ["", *header]  # names without a name above them
@@ -112,7 +112,13 @@ def _plain_number(cell: str, comma: bool) -> float | None:
         return None
 
 
-def _is_across(document: Document, header: list[str], top: list[Row], comma: bool) -> bool:
+def _is_across(
+    document: Document,
+    said: label_words.Comments,
+    header: list[str],
+    top: list[Row],
+    comma: bool,
+) -> bool:
     """Return whether the first row names the bands, or the first column does.
 
     Raises
@@ -121,6 +127,8 @@ def _is_across(document: Document, header: list[str], top: list[Row], comma: boo
         Neither does, or both could.
     """
     rows = [row for row in top[1:] if _plain_number(row.fields[0], comma) is not None]
+    if top[1:] and not rows and label_words.small_bands(said, header):
+        return True
     rows = rows or top[1:]  # units and what is said of samples may stand above the numbers
     down = [label_words.band(row.fields[0]) or 0.0 for row in rows]
     column_fits = bool(down) and min(down) >= LEAST_BAND

@@ -15,9 +15,8 @@ import os
 import numpy as np
 
 from ...sample import Sample
-from ..parts import envi_header, series
-from ..parts.document import Document, open_document
-from ..parts.geometry_words import instrument_of
+from ..parts import envi_header, series, statements
+from ..parts.document import Document, open_document, plain
 
 NAME = "ENVI spectral library"
 ENDINGS = ("sli", "hdr", "slb")
@@ -25,6 +24,7 @@ PRIORITY = 100
 
 _NUMBERS = (".sli", ".SLI", ".slb", ".SLB", ".dat", ".img", "")
 _MANY = 100_000
+_LONGEST = 1000  # characters of the description that are searched for a geometry
 
 
 def sniff(document: Document) -> bool:
@@ -75,7 +75,8 @@ def read(document: Document) -> list[Sample]:
         raise header.error("key 'reflectance scale factor'", "it has to be above 0; mend it")
     table = np.frombuffer(numbers.data, form, bands * count, start).reshape(count, bands)
     names = envi_header.names(found.get("spectra names", ""))
-    instrument, assumed = instrument_of("")
+    described = plain(found.get("description", "")[:_LONGEST]).strip("{} ")
+    measured = statements.of_remarks([("", described)])
     samples = []
     for i, row in enumerate(table):
         with np.errstate(invalid="ignore", over="ignore"):
@@ -90,10 +91,9 @@ def read(document: Document) -> list[Sample]:
                 wavelengths=taken.wavelengths,
                 values=taken.values,
                 kind="reading",
-                instrument=instrument,
+                **measured | {"notes": (*notes, *measured["notes"])},
                 source=str(document.path),
                 position=place if count > 1 else "",
-                notes=(*notes, assumed),
                 altered=taken.altered,
             )
         )

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import BRIGHTEST, Sample
-from ..parts import geometry_words, series, statements
+from ..parts import series, statements
 from ..parts.document import Document, plain
 
 NAME = "Galactic SPC file"
@@ -98,11 +98,8 @@ def read(document: Document) -> list[Sample]:
     is_percent = _says_percent(document, header)
     comment = plain(document.data[_COMMENT].partition(b"\0")[0].decode("latin-1"))
     # The notes on the geometry come last, as they do of other formats.
-    measured = statements.finish(statements.measured_by([("", comment)]))
-    assumed = measured.pop("notes", ())
-    if "instrument" not in measured:
-        measured["instrument"], note = geometry_words.instrument_of("")
-        assumed = (*assumed, note)
+    measured = statements.of_remarks([("", comment)])
+    assumed = measured.pop("notes")
     samples = []
     for number, (along, values) in enumerate(_spectra(document, header), start=1):
         place = f"spectrum {number}" if header.spectra > 1 else ""

@@ -19,15 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...sample import Sample
-from ..parts import series, tables
+from ..parts import series, statements, tables
 from ..parts.document import Document
-from ..parts.geometry_words import instrument_of
 
 NAME = "Ocean Optics text file"
 ENDINGS = ("txt", "jaz")
 PRIORITY = 90
 
 _PERCENT = 100.0
+_SEARCHED, _LONGEST = 100, 1000  # lines that are searched for a geometry, and characters of each
 _BEGIN = re.compile(r">>>>>\s*(?:begin|comienza|d[ée]but|beginn)", re.IGNORECASE)
 _TITLE = re.compile(
     r"(?:spectrasuite|ooibase32|oceanview|jaz\b.*file|data from .* node|.*de spectrasuite)",
@@ -69,18 +69,20 @@ def read(document: Document) -> list[Sample]:
     nm, percent, at = _values(document, _rows(lines))
     where = f"{document.path}, line {at[0]}" if at else str(document.path)
     found = series.bands(nm, percent / _PERCENT, where, lambda band: f"line {at[band]}")
-    instrument, assumed = instrument_of("")
+    device = next((m[1].strip() for m in map(_DEVICE.match, top) if m), "")
+    # Names of files and lines that users add say the geometry, if anything does.
+    lines_above = [line[:_LONGEST].replace("_", " ").partition(":") for line in top[:_SEARCHED]]
+    said = [(key, value) if colon else ("", key) for key, colon, value in lines_above]
+    measured = statements.of_remarks([("spectrometer", device), *said])
     return [
         Sample(
             name=_name(document, top),
             wavelengths=found.wavelengths,
             values=found.values,
             kind="reading",
-            instrument=instrument,
+            **measured | {"notes": (*notes, *measured["notes"])},
             source=str(document.path),
             position=f"line {at[0]}",
-            device=next((m[1].strip() for m in map(_DEVICE.match, top) if m), ""),
-            notes=(*notes, assumed),
             altered=found.altered,
         )
     ]

@@ -14,7 +14,7 @@ import re
 import numpy as np
 
 from ...sample import Sample, check_spectrum
-from ..parts import band_order, geometry_words, tables
+from ..parts import band_order, statements, tables
 from ..parts.document import Document
 
 NAME = "Spectra Vista file (.sig)"
@@ -70,18 +70,17 @@ def read(document: Document) -> list[Sample]:
         str(document.path),
         lambda band: f"line {block.lines[order[first[band]]]}",
     )
-    instrument, note = geometry_words.instrument_of("")
+    device = re.sub(r"^HI: ", "", keys.get("instrument", ""))
+    measured = statements.of_remarks(keys.items())
     return [
         Sample(
             name=re.sub(r"\.sig$", "", keys.get("name", "")) or document.path.stem,
             wavelengths=wavelengths,
             values=values,
             kind="reading",
-            instrument=instrument,
+            **measured | {"device": device, "notes": (_RELATIVE, *measured["notes"])},
             source=str(document.path),
             position=f"lines {block.lines[0]} to {block.lines[-1]}",
-            device=re.sub(r"^HI: ", "", keys.get("instrument", "")),
-            notes=(_RELATIVE, note),
             altered=altered,
         )
     ]

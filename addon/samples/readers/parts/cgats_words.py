@@ -112,6 +112,8 @@ def read(table: Table) -> Words:
     known = geometry or geometry_words.geometry_of_device(device) or ("d/8" if specular else "")
     instrument, note = geometry_words.instrument_of(known, specular)
     notes = [note] if note else []
+    if follows := statements.of_mention(found.get("mentioned", ""), geometry, specular):
+        notes.insert(0, follows)
     if known and not geometry and known == geometry_words.geometry_of_device(device):
         notes.insert(0, f"The geometry {known} is that of the device {quote(device)}.")
     weighting = " ".join(table.keys.get("WEIGHTING_FUNCTION", []))

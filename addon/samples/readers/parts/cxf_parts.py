@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from array import array
@@ -27,6 +28,7 @@ _NOT_REFLECTANCE = {
     "RadianceSpectrum": "radiance",
     "IrradianceSpectrum": "irradiance",
 }
+_MOST_REMARKS, _LONGEST_REMARK = 100, 1000  # that are searched, and characters of each
 _WORD = re.compile(r"\S+")
 _TYPES = (("Transmittance", "transmittance"), ("Emissive", "emission"))
 
@@ -152,6 +154,9 @@ def _choose_geometry(found: Specification, measured: Element) -> None:
         kind = tag(part)
         if kind == "SingleAngle":
             light, view = _text(part, "IlluminationAngle"), _text(part, "MeasurementAngle")
+            if not light or not view:
+                found.geometry = _half_said(light, view)
+                continue
             letter = "x" if _text(part, "SingleAngleConfiguration") == "Uniplanar" else "a"
             at_light, at_view = (letter, "") if light[:1] != "0" else ("", letter)
             found.geometry = f"{_plain(light)}°{at_light}:{_plain(view)}°{at_view}"
@@ -162,7 +167,8 @@ def _choose_geometry(found: Specification, measured: Element) -> None:
         elif kind == "MultiAngle":
             for angle in part:
                 light, aspecular = _text(angle, "IlluminationAngle"), _text(angle, "Aspecular")
-                words = f"{_plain(light)}as{_plain(aspecular)}"
+                words = f"{_plain(light)}as{_plain(aspecular)}" if aspecular else ""
+                words = words or _half_said(light, "")
                 azimuth = _text(angle, "Azimuth")
                 if _plain(azimuth) not in ("", "0"):
                     words += f", azimuth {_plain(azimuth)}°"
@@ -171,6 +177,26 @@ def _choose_geometry(found: Specification, measured: Element) -> None:
             found.refused = found.refused or "emission"
         elif kind == "UnknownGeometry":
             found.geometry = " ".join((part.text or "").split())
+
+
+def _half_said(light: str, view: str) -> str:
+    """Return words for a geometry that lacks an angle, or nothing where it lacks both."""
+    if not light and not view:
+        return ""
+    unsaid = "an angle that is not said"
+    of_light, of_view = (f"{_plain(angle)}°" if angle else unsaid for angle in (light, view))
+    return f"light at {of_light}, view at {of_view}"
+
+
+def remarks(element: Element) -> list[tuple[str, str]]:
+    """Read ``FileInformation``: what it says of all objects, as keys and texts."""
+    said = (part for part in element.iter() if tag(part) in ("Description", "Comment", "Tag"))
+    found = []
+    for part in itertools.islice(said, _MOST_REMARKS):
+        text = (part.get("Value", "") or part.text or "")[:_LONGEST_REMARK]
+        key = part.get("Name", "") if tag(part) == "Tag" else ""
+        found.append((key[:_LONGEST_REMARK], " ".join(text.split())))
+    return found
 
 
 def _points(document: Document, place: str, element: Element, specification: str) -> Spectrum:

@@ -18,7 +18,7 @@ from .xml_faults import faults_named
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-_WHOLE = ("Object", "ColorSpecification")
+_WHOLE = ("FileInformation", "Object", "ColorSpecification")
 _PIECE = 2**16  # bytes that are parsed at a time
 _LONG_TAG = re.compile(rb"<[^<>!?][^<>]{65536}")  # its attributes would take a lot of memory
 _BYTES_AN_ELEMENT = 8
@@ -27,7 +27,7 @@ _DEEPEST = 50  # levels; the standard's own elements reach about ten
 
 
 def parts(document: Document) -> Iterator[Element]:
-    """Yield the root as it begins, then each object and each specification, whole.
+    """Yield the root as it begins, then what describes the file, objects and specifications, whole.
 
     Raises
     ------

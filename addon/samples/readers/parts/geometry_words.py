@@ -52,12 +52,14 @@ _GLANZ, _BRILLANT, _MIRROR = (
     r"(?:brillan\w*|sp[ée]culaire)\W*",
     "正反射光?(?:成分)?を?",
 )
+# "SCI-FI POSTER" and "spin-coated" go on behind a hyphen; "SCI" of a measurement does not.
+_NO_PART = r"(?![A-Za-z]|[-\u2010\u2011\u2013.'\u2019&][A-Za-z]|[\s_](?:FI|fi)(?![A-Za-z]))"
 _INCLUDED = re.compile(
-    rf"(?<![a-z])(?:sci|r?spin|rsin|spi|i\+e)(?![a-z])|(?<![a-z]){_SPECULAR}incl|incl\w*\W*specular|"
+    rf"(?<![a-z])(?:sci|r?spin|rsin|spi|i\+e){_NO_PART}|(?<![a-z]){_SPECULAR}incl|incl\w*\W*specular|"
     rf"{_GLANZ}(?:ein|inkl)|\b(?:mit|inkl\w*)\W*glanz|{_BRILLANT}inclu|{_MIRROR}含"
 )
 _EXCLUDED = re.compile(
-    rf"(?<![a-z])(?:sce|r?spex|rsex|spe)(?![a-z])|(?<![a-z]){_SPECULAR}(?:excl|not incl|removed)|"
+    rf"(?<![a-z])(?:sce|r?spex|rsex|spe){_NO_PART}|(?<![a-z]){_SPECULAR}(?:excl|not incl|removed)|"
     rf"excl\w*\W*specular|without\W*specular|gloss trap\W*open|"
     rf"{_GLANZ}(?:aus|exkl)|\bohne\W*glanz|glanzfalle|{_BRILLANT}exclu|{_MIRROR}除"
 )
@@ -69,9 +71,9 @@ _MENTIONED = re.compile(
     r"sph[èe]re int[ée]grante|"
     r"(?:direction\w*\W*hemispher\w*|hemispher\w*\W*direction\w*))(?![\w/:]|\.\d)"
 )
-# Capitals alone, and words with what they belong to: "sci" may be part of a name.
+# Capitals alone, and words with what they belong to: "sci" may be part of a name, as "SPIN COATED".
 _SPECULAR_WORDS = re.compile(
-    r"(?<![A-Za-z])(?:SCI|SCE|R?SPIN|R?SPEX|RSIN|RSEX)(?![A-Za-z])|"
+    rf"(?<![A-Za-z])(?:SCI|SCE|R?SPIN(?!\W+[A-Z]{{2}})|R?SPEX|RSIN|RSEX){_NO_PART}|"
     r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:in|ex)cl|"
     r"[Gg]lanz(?:anteil)?\W*(?:ein|aus|inkl|exkl)|\b(?:mit|ohne)\W*Glanz|Glanzfalle|"
     r"(?:[Bb]rillan\w*|[Ss]p[ée]culaire)\W*(?:in|ex)clu|正反射"
@@ -130,6 +132,11 @@ def in_text(text: str) -> tuple[str, str]:
     # "Integrating sphere, d/8": the angle says more.
     geometry = next((words for words in found if re.search(r"\d", words)), "".join(found[:1]))
     return geometry, (specular_of(text) if says else "")
+
+
+def is_specular(text: str) -> bool:
+    """Return whether a text is a maker's word for specular light in or out, and nothing else."""
+    return bool(re.fullmatch(r"\W*R?(?:SCI|SCE|SPIN|SPEX|SIN(?<=RSIN)|SEX(?<=RSEX))\W*", text))
 
 
 def specular_of(text: str) -> str:

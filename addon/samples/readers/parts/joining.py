@@ -126,7 +126,10 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
     if condition:
         sample = replace(sample, condition=condition[1])
     if mark.specular and not sample.specular and _may_be_a_sphere(sample):
-        note = f"That it is a sphere's reading, {mark.specular}, follows from its name."
+        note = (
+            f"That it is a sphere's reading, {mark.specular}, follows from its name; if it is not, "
+            "state the geometry in the file."
+        )
         return _measured(sample, sample.geometry or "d/8", note, mark.specular)
     bare = not sample.specular and (not sample.geometry or sample.geometry.startswith(ANGLE))
     if mark.geometry and bare:

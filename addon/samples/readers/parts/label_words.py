@@ -30,9 +30,11 @@ _BAND = re.compile(
     # What stands before: R400, %R400, nm400, SPECTRAL_NM_400, X400 (as R names columns), R[400].
     r"%?\s*(?:r|refl(?:ectance)?|spec(?:tral)?(?:[ _]?nm)?|nm|wl|w|wavelength|λ|x)?\s*%?"
     r"[ _.\[(-]{0,2}(\d{1,5}(?:[.,]\d{1,17})?)"
-    r"[\])]?\s*[\[(]?(nm|[µμu]m)?[\])]?\s*[\[(]?%?[\])]?",
+    r"[\])]?\s*[\[(]?(nm|[µμu]m|å|cm\s?\^?[-−–]1|cm⁻¹|1\s?/\s?cm|thz|ev)?[\])]?"
+    r"\s*[\[(]?%?[\])]?",
     re.IGNORECASE,
 )
+_NUMBER = re.compile(r"\d{1,2}(?:[.,]\d{1,17})?")
 _LONGEST = 100  # characters of a value that are looked at for a unit
 _LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a name stands before
 # ArgyllCMS' family of names is percent, as CGATS readers know.
@@ -131,16 +133,16 @@ class Comments:
 def band(label: str) -> float | None:
     """Return the wavelength that a column name such as ``R400 nm``, ``nm400``, ``400`` states.
 
-    As it stands, or in nanometers where the name itself says micrometers. A mark such as ``(SCI)``
-    counts for nothing.
+    As it stands, or in nanometers where the name itself says another unit, such as ``428 THz``. A
+    mark such as ``(SCI)`` counts for nothing.
     """
     text = label.strip()[:40]
     match = _BAND.fullmatch(text) or _BAND.fullmatch(name_marks.of_band(text)[0])
     if not match:
         return None
     found = float(match[1].replace(",", "."))
-    # Rounded as in `delimited`: 0.57 µm is 570 nm.
-    return round(found * 1000.0, 9) if (match[2] or "nm").lower() != "nm" else found
+    unit = unit_of_wavelengths(match[2] or "") or "nm"
+    return found if unit == "nm" else float(to_nanometers(np.array([found]), unit)[0])
 
 
 def bands_of(cells: list[str], least: float) -> list[float]:
@@ -162,6 +164,19 @@ def bands_of(cells: list[str], least: float) -> list[float]:
         if not together or (len(at) < _LEAST_BARE and at[0] > 1):
             return []
     return [band(cells[i]) or 0.0 for i in at]
+
+
+def small_bands(said: Comments, header: list[str]) -> list[int]:
+    """Return which columns are bands in µm or eV, of which the corner or a comment states the unit.
+
+    Their numbers are as small as those that samples are called by, so that all of them have to be
+    numbers.
+    """
+    corner = header[0] if band(header[0]) is None else ""
+    unit = said.wavelength_unit or unit_of_wavelengths(corner)
+    found = [i for i, label in enumerate(header) if i or not corner]
+    small = unit in ("µm", "eV") and len(found) > 1
+    return found if small and all(_NUMBER.fullmatch(header[i]) for i in found) else []
 
 
 def are_in_order(cells: list[str], least: float) -> bool:

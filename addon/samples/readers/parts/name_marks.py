@@ -84,10 +84,16 @@ def of_name(name: str) -> Mark:
         return _of_geometry(name, match)
     base = name[: len(name) - len(match[0])].rstrip()
     if match[1]:
-        return Mark(base, specular=_component(match[1]), sure=bool(base))
+        sure = bool(base) and (match is inside or _stands_out(match[1], base))
+        return Mark(base, specular=_component(match[1]), sure=sure)
     if match[3]:
         return Mark(base, aspecular=_degrees(match[3]), sure=bool(match[2]))
     return Mark(base, angle=_degrees(match[4]))
+
+
+def _stands_out(word: str, base: str) -> bool:
+    """Return whether a word behind a name is a mark: "TOP SPIN" may be what a color is called."""
+    return word.upper() != "SPIN" or bool(re.search(r"[a-z\d]", base))
 
 
 def _of_geometry(name: str, match: re.Match[str]) -> Mark:

@@ -16,7 +16,7 @@ from .....core.instruments import REGISTRY
 from .....core.numerics.memoized import memoized
 from ...sample import MOST_GLOSS_UNITS, Sample
 from . import joining, name_marks, tables
-from .document import Document, quote
+from .document import Document, plain, quote
 from .geometry_words import (
     EMITTED,
     EMITTING,
@@ -25,6 +25,7 @@ from .geometry_words import (
     in_text,
     instrument_of,
     is_geometry,
+    is_specular,
     specular_of,
 )
 from .label_words import Comments
@@ -73,7 +74,7 @@ _KEYS = {
     **dict.fromkeys(("winkel", "messwinkel"), "angle"),
     **dict.fromkeys(("probe", "probenname", "echantillon", "試料", "試料名"), "name"),
 }
-GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit"}
+GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit", "mentioned"}
 """Fields of `stated` from which the geometry follows."""
 _OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device"}
 _REMARK = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
@@ -154,10 +155,22 @@ def mentioned(text: str) -> Mapping[str, Any]:
     As `stated` does.
     """
     geometry, specular = in_text(text)
+    if specular and not geometry and not is_specular(text):
+        return {"specular": specular, "mentioned": text.strip(" :")}  # a word may be a name's
     if geometry or specular:
         return ({"geometry": geometry} if geometry else {}) | _specular(specular)
     device = device_in_text(text)
     return {"device": device} if device else {}
+
+
+def of_mention(text: str, geometry: str, specular: str) -> str:
+    """Return the note on a sphere that follows from a word in a text; empty where it does not."""
+    if not text or geometry or specular != specular_of(text):
+        return ""
+    return (
+        f"That it is a sphere's reading, {specular}, follows from {quote(plain(text))}; if it is "
+        "not, state the geometry in the file."
+    )
 
 
 def measured_by(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
@@ -175,6 +188,20 @@ def measured_by(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
         for name, content in mentioned(value).items():
             free.setdefault(name, content)
     return own if own.keys() & GEOMETRIES else free | own
+
+
+def of_remarks(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
+    """Return arguments for `Sample` that keys and texts of a file give, as `finish` does.
+
+    For formats that have no place of their own for the geometry: where nothing says it, the
+    instrument is the one that is assumed, with the note on it.
+    """
+    found = finish(measured_by(pairs))
+    notes = found.pop("notes", ())
+    if "instrument" not in found:
+        found["instrument"], note = instrument_of("")
+        notes = (*notes, note)
+    return {**found, "notes": notes}
 
 
 _HOW = {*GEOMETRIES, "condition", "device"}
@@ -215,6 +242,8 @@ def finish(fields: dict[str, Any]) -> dict[str, Any]:
     geometry, specular = found.get("geometry", ""), found.get("specular", "")
     # A sphere's, and not one of both readings.
     sphere = "d/8" if found.pop("sphere", "") else ""
+    if follows := of_mention(found.pop("mentioned", ""), geometry, specular):
+        notes.insert(0, follows)
     device = found.get("device", "")
     of_device = "" if geometry or specular or sphere else geometry_of_device(device)
     if of_device:
@@ -357,4 +386,4 @@ def _stated_specular(key: str, value: str) -> dict[str, Any]:
 
 
 def _specular(found: str) -> dict[str, Any]:
-    return {"specular": found} if found else {}
+    return {"specular": found, "mentioned": ""} if found else {}  # said, whatever a remark says

@@ -58,6 +58,7 @@ def read(
         The rows below.
     """
     bands = [i for i, label in enumerate(header) if (label_words.band(label) or 0) >= LEAST_BAND]
+    bands = bands or label_words.small_bands(said, header)
     inside = set(bands)
     others = [i for i in range(len(header)) if i not in inside]
     name = next((i for i in others if _NAME_COLUMN.fullmatch(header[i])), None)
@@ -143,7 +144,7 @@ def _of_mark(mark: str) -> dict[str, Any]:
     if not mark:
         return {}
     if mark in ("SCI", "SCE"):
-        return {"specular": mark}
+        return dict(statements.stated("specular", mark))
     return {"aspecular" if name_marks.aspecular_of(mark) is not None else "angle": mark}
 
 
