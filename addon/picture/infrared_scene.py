@@ -118,7 +118,7 @@ class InfraredScene:
     def _surfaces(self, found: Colors) -> list[dict[str, Any]]:
         """Say what surfaces reflect in each part."""
         given = {}
-        shown = {each.place for each in (*found.measured, *found.colored)}
+        shown = {each.place for each in found.measured} | {each.place for each in found.colored}
         for name, value in self._wanted.materials.items():
             place, measured = self._given(name, value)
             if place not in shown:
