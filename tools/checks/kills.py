@@ -39,6 +39,8 @@ from tools.checks.kill_cases import Words
 RUNNER = ROOT / "tools" / "run" / "run_command_line.py"
 _EARLIEST = 0.3
 """Of the time that a verb takes: before, nothing but Blender starts."""
+_AIMED, _WRITING = 0.5, 0.05
+"""How many kills come after a file appeared or changed, and seconds within which they do."""
 
 
 def main() -> int:
@@ -116,7 +118,13 @@ class Verb:
         shutil.rmtree(to, ignore_errors=True)
         shutil.copytree(self.old, to)
         process = _run(self.words(to, 1))
-        time.sleep(random.uniform(_EARLIEST, 1.05) * self.seconds)
+        if random.random() < _AIMED:
+            before = _listing(to)
+            while process.poll() is None and _listing(to) == before:
+                time.sleep(0.0005)
+            time.sleep(random.uniform(0.0, _WRITING))
+        else:
+            time.sleep(random.uniform(_EARLIEST, 1.05) * self.seconds)
         ended = process.poll() is not None
         if not ended:
             os.killpg(process.pid, signal.SIGKILL)
@@ -140,6 +148,18 @@ def _run(words: list[object]) -> subprocess.Popen[bytes]:
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
+
+
+def _listing(folder: Path) -> set[tuple[str, int, int]]:
+    """Give what is there, hidden files too, and when it was written."""
+    found = set()
+    for entry in os.scandir(folder):
+        try:
+            state = entry.stat()
+        except FileNotFoundError:
+            continue  # moved to its place meanwhile
+        found.add((entry.name, state.st_size, state.st_mtime_ns))
+    return found
 
 
 def _contents(folder: Path) -> dict[str, object]:
