@@ -14,12 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ...core.errors import MaterialError
 from . import uv_coverage
 from .background_job import Job
 
 SIDE = 355
 """Tiles of a side, each a place in the UV maps. Half as many as the square has places: a tile costs
 more, and places that follow no grid need fewer."""
+
+_IMAGES = ("ShaderNodeTexImage", "ShaderNodeTexEnvironment")
 
 if TYPE_CHECKING:
     from ...core.numerics.arrays import Array
@@ -35,6 +38,8 @@ class Look(Job):
 
     Raises
     ------
+    MaterialError
+        If an image on the way is missing.
     OutputError
         As in `Job`.
     """
@@ -53,6 +58,7 @@ class Look(Job):
         for socket in sockets:
             index = next(i for i, each in enumerate(socket.node.inputs) if each == socket)
             asked.append((owners[socket.id_data], socket.node.name, index))
+            _refuse_missing(owners[socket.id_data], socket)
 
         def prepare(folder: Path) -> dict[str, Any]:
             blend = folder / "materials.blend"
@@ -100,6 +106,35 @@ def seen(sockets: Sequence[Any]) -> list[Array]:
         return look.colors()
     finally:
         look.close()
+
+
+def _refuse_missing(material: Any, socket: Any) -> None:
+    """Refuse a texture without its image: renders show magenta in its place."""
+    waiting, seen = [link.from_node for link in socket.links], set()
+    while waiting:
+        node = waiting.pop()
+        if node in seen:
+            continue
+        seen.add(node)
+        waiting += [link.from_node for each in node.inputs for link in each.links]
+        if node.bl_idname not in _IMAGES:
+            continue
+        where = f"Material {material.name!r}, node {node.name!r}"
+        if node.image is None:
+            msg = f"{where} has no image; choose one, or unlink the node."
+            raise MaterialError(msg)
+        if _is_missing(node.image):
+            msg = (
+                f"{where}: the file of image {node.image.name!r} is missing; find it (File ▸ "
+                "External Data ▸ Find Missing Files), or unlink the node."
+            )
+            raise MaterialError(msg)
+
+
+def _is_missing(image: Any) -> bool:
+    if image.source != "FILE" or image.packed_file is not None:
+        return False
+    return not Path(bpy.path.abspath(image.filepath, library=image.library)).is_file()
 
 
 def _leave_places(folder: Path, number: int, material: Any) -> list[str]:

@@ -12,6 +12,8 @@ from __future__ import annotations
 BEYOND_WHITE = "more than the"
 MISSES = "misses its target by"
 """What each of the sentences says, for who asks whether a target can be met."""
+TOO_DARK = "too dark"
+"""What is said of a texture that no scale brings to its sample."""
 
 
 def of_gamut(name: str, space: str, channel: str, value: float, missed: float) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...core.color import color_difference
 from ...core.cycles import instrument_lobe
+from . import outside
 from .scene_match import percentile
 
 if TYPE_CHECKING:
@@ -175,8 +176,8 @@ def _notes(found: Scaled, reached: Array) -> list[str]:
     if not reached.all():
         names = ", ".join(np.array(["red", "green", "blue"])[~reached])
         notes.append(
-            f"The texture is too dark in {names} for any scale to reach the sample: the mean is "
-            f"ΔE00 {found.delta_e:.2f} off."
+            f"The texture is {outside.TOO_DARK} in {names} for any scale to reach the sample: the "
+            f"mean is ΔE00 {found.delta_e:.2f} off."
         )
     elif found.delta_e > _APART:
         notes.append(f"The mean reading of the texture is ΔE00 {found.delta_e:.2f} off.")

@@ -94,7 +94,7 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
     if known.kind == "kept":
         return _kept(known)
     if found.surface is not None and found.surface.scaled:
-        return Verdict("right", "texture follows sample")
+        return _scaled(found, known.stamp)
     if settled.obstacle(found.surface) is not None:
         return Verdict("open", "cannot be predicted", "measure")
     if apart is None or known.stamp is None:
@@ -103,6 +103,17 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
     if previewed and judged.mark != "off":
         return Verdict("near", "preview is Eevee", "rendered")
     return judged
+
+
+def _scaled(found: Snapshot, last: Stamp | None) -> Verdict:
+    """Judge a texture by its mean reading, which is all that a scale decides."""
+    apart = 0.0 if last is None else last.delta_e_instrument
+    if last is None or apart < perceptibility.SIDE_BY_SIDE:
+        return Verdict("right", "texture follows sample")
+    words, remedy = "differs: texture too dark", ""
+    if not any(outside.TOO_DARK in each for each in last.warnings):
+        words, remedy = _DIFFERS[limit(found, last, None)]
+    return Verdict("near" if apart < perceptibility.VISIBLE else "off", words, remedy)
 
 
 def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:

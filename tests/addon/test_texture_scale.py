@@ -4,6 +4,7 @@
 
 import math
 
+import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon.blender import shader_nodes, texture_colors, texture_scale, working_space
@@ -298,3 +299,25 @@ def test_a_channel_that_is_black_is_told():
     assert found.factors[2] == 1
     assert found.delta_e > 5
     assert any("too dark in blue" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("path", "sentence"),
+    [
+        (None, r"'Image Texture' has no image; choose one, or unlink"),
+        ("//gone/wall.png", r"the file of image 'wall.png' is missing; find it"),
+    ],
+)
+def test_an_image_that_is_missing_is_refused(make_material, path, sentence):
+    """Renders show magenta in its place, and the scale was that of magenta."""
+    material = make_material("Wall")
+    tree, shader = material.node_tree, socket(material)
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = None if path is None else bpy.data.images.new("wall.png", 1, 1)
+    if path is not None:
+        node.image.source, node.image.filepath = "FILE", path
+    tree.links.new(node.outputs["Color"], shader)
+    with pytest.raises(MaterialError, match=sentence):
+        derive.assign([(material, request())])
+    assert not material.rough_spectra.stamp
+    assert [each.bl_idname for each in tree.nodes].count("ShaderNodeMix") == 0

@@ -141,6 +141,17 @@ def textured():
     tree.links.new(noise.outputs["Color"], shader(bpy.data.materials["Wall"]).inputs["Color"])
 
 
+def too_dark():
+    """A texture without green, which no scale makes brick: its log alone told of it."""
+    tree = wall().node_tree
+    noise, ramp = (tree.nodes.new(f"ShaderNode{name}") for name in ("TexNoise", "ValToRGB"))
+    for end, red in zip(ramp.color_ramp.elements, (0.2, 0.8), strict=True):
+        end.color = (red, 0.0, red / 4, 1.0)
+    tree.links.new(noise.outputs[0], ramp.inputs[0])
+    tree.links.new(ramp.outputs["Color"], shader(bpy.data.materials["Wall"]).inputs["Color"])
+    OPS.renew()
+
+
 def metallic():
     material = wall()
     material.rough_spectra.shader = "PRINCIPLED"
@@ -182,7 +193,8 @@ STATES = {
     "muted": (muted, "off: node is muted", "unmute"),
     "kept": (kept, "open: edited, and kept", "renew"),
     "textured": (textured, "off: texture not matched", "renew"),
-    "metallic": (metallic, "open: cannot be predicted", "measure"),
+    "metallic": (metallic, "open: cannot be predicted", "remove_obstacle"),
+    "too dark": (too_dark, "off: differs: texture too dark", None),
     "flat": (flat, "off: differs: roughness missing", "switch_to_cycles"),
     "shiny": (shiny, "off: differs: too glossy", "remove_gloss"),
     "steep": (steep, "off: brighter than possible", "set_roughness"),
@@ -204,7 +216,7 @@ def test_one_verdict_in_few_words_and_the_one_thing_to_do(name):
         assert count[1] <= NUMBERS, closed(region=region)
 
 
-@pytest.mark.parametrize("name", ["edited", "muted", "flat", "shiny", "another space"])
+@pytest.mark.parametrize("name", ["edited", "muted", "metallic", "flat", "shiny", "another space"])
 def test_the_remedy_makes_it_look_right(name):
     STATES[name][0]()
     apply(judged()[1])
@@ -574,7 +586,7 @@ def test_details_offer_what_their_sentence_names():
         page = drawn()
         assert f"{name} is in use" in " ".join(page)
         assert f"rough_spectra.remove_obstacle: Set {name} to 0" in page
-        assert judged()[1][0] == "rough_spectra.measure"
+        assert judged()[1][0] == "rough_spectra.remove_obstacle"
         done = OPS.remove_obstacle("EXEC_DEFAULT", kind="NEUTRAL", socket=name)
         assert done == {"FINISHED"}
     assert not any("remove_obstacle" in text for text in drawn())

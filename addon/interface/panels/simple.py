@@ -167,11 +167,11 @@ def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial)
     text.draw(row.column(), words)
     row = row.row()
     told = here.format.fitting(texts)
-    if found.remedy == "renew":
+    if found.remedy in {"renew", "measure"}:
         against = renewal.reason_against(shown.uid, shown.facts)
         if against and obstacle.draw(row, here, shown):
             return
-        row.enabled = against == ""
+        row.enabled = found.remedy == "measure" or against == ""
     button = row.operator(name, text=told, translate=False)
     if found.remedy in {"renew", "matte", "measure"}:
         button.scope = "ACTIVE"
