@@ -266,7 +266,9 @@ def test_a_linked_material_is_made_local_where_it_says_so(scene_file):
     assert not thing.is_editable
     told, remedy = judged()
     assert told == "open: linked: settings locked"
+    assert enabled_of(closed(), "rough_spectra.choose_sample") == "enabled: False"
     apply(remedy)
+    assert enabled_of(closed(), "rough_spectra.choose_sample") == "enabled: True"
     assert thing.active_material.is_editable
     assert thing.active_material.rough_spectra.sample_name
     assert judged()[0] == "right: looks right"

@@ -83,7 +83,9 @@ def draw(layout: Any, context: Any) -> None:
     group, shown = material.rough_spectra, here.shown
     column, inset = _beside_picture(layout, here, shown)
     row_of_balls = balls.icon_ids(shown.uid, shown.facts, here.scale)
-    _draw_sample(column, here, group.sample_name, inset)
+    chosen = column.column()
+    chosen.enabled = shown.state.kind != "linked"  # Make Local stands below
+    _draw_sample(chosen, here, group.sample_name, inset)
     _draw_balls(column, row_of_balls, shown, here.format.room(inset))
     _draw_sliders(column, group, here, shown, inset)
     _draw_verdict(layout, here, shown)
