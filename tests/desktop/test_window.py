@@ -104,8 +104,8 @@ BLENDERS_OWN = (
     # calls of all threads in one plain number (`py_call_level`): now and then one gets lost.
     "Python context internal state bug",
 )
-TOLD = (" σ 20°: ", "The texture is scaled so that its mean")
-"""What a user is told of the samples in a library that a scene builds, and of a texture."""
+TOLD = (" σ 20°: ", "The texture is scaled so that its mean", "45°a:0° is assumed.")
+"""What a user is told of the samples in a library that a scene builds, of a texture, and of files."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
 
 
