@@ -105,7 +105,7 @@ BLENDERS_OWN = (
     "Python context internal state bug",
 )
 TOLD = (" σ 20°: ", "The texture is scaled so that its mean", "45°a:0° is assumed.")
-"""What a user is told of the samples in a library that a scene builds, of a texture, and of files."""
+"""What a user is told of samples in a library that a scene builds, of a texture, and of files."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
 
 
