@@ -137,11 +137,13 @@ def band(label: str) -> float | None:
     mark such as ``(SCI)`` counts for nothing.
     """
     text = label.strip()[:40]
+    if text.isalpha():  # most of a text's words; the patterns take longer
+        return None
     match = _BAND.fullmatch(text) or _BAND.fullmatch(name_marks.of_band(text)[0])
     if not match:
         return None
     found = float(match[1].replace(",", "."))
-    unit = unit_of_wavelengths(match[2] or "") or "nm"
+    unit = (unit_of_wavelengths(match[2]) if match[2] else "") or "nm"
     return found if unit == "nm" else float(to_nanometers(np.array([found]), unit)[0])
 
 

@@ -99,7 +99,8 @@ def field_of(key: str) -> str:
     gloss = _GLOSS_KEY.fullmatch(plain)
     if gloss:
         return f"{_GLOSS} {gloss[1] or gloss[2]}"
-    return _KEYS.get(plain) or _KEYS.get(_plain(_REMARK.sub("", key)), "")
+    bare = _REMARK.sub("", key)
+    return _KEYS.get(plain) or (_KEYS.get(_plain(bare), "") if bare != key else "")
 
 
 def _plain(key: str) -> str:
