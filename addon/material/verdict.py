@@ -110,10 +110,13 @@ def _scaled(found: Snapshot, last: Stamp | None) -> Verdict:
     apart = 0.0 if last is None else last.delta_e_instrument
     if last is None or apart < perceptibility.SIDE_BY_SIDE:
         return Verdict("right", "texture follows sample")
-    words, remedy = "differs: texture too dark", ""
-    if not any(outside.TOO_DARK in each for each in last.warnings):
-        words, remedy = _DIFFERS[limit(found, last, None)]
-    return Verdict("near" if apart < perceptibility.VISIBLE else "off", words, remedy)
+    mark: Mark = "near" if apart < perceptibility.VISIBLE else "off"
+    if any(outside.TOO_DARK in each for each in last.warnings):
+        return Verdict(mark, "differs: texture too dark")
+    words, remedy = _DIFFERS[limit(found, last, None)]
+    if remedy == "wide" and not has_wider_space(found.working_space):
+        remedy = ""
+    return Verdict(mark, words, remedy)
 
 
 def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
