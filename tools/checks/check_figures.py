@@ -49,7 +49,7 @@ def main() -> int:
             capture_output=True,
             text=True,
         ).stdout
-    print(status and f"not what the code draws now:\n{status}" or "all figures are current")
+    print((status and f"not what the code draws now:\n{status}") or "all figures are current")
     return 1 if status else 0
 
 
