@@ -16,7 +16,7 @@ import bpy
 
 from ...core.errors import MaterialError
 from . import uv_coverage
-from .background_job import Job
+from .background_job import Job, waited
 
 SIDE = 355
 """Tiles of a side, each a place in the UV maps. Half as many as the square has places: a tile costs
@@ -100,12 +100,8 @@ def seen(sockets: Sequence[Any]) -> list[Array]:
     CancelledError
         On an interrupt from the keyboard.
     """
-    look = Look(sockets)
-    try:
-        look.wait()
+    with waited(Look(sockets)) as look:
         return look.colors()
-    finally:
-        look.close()
 
 
 def _refuse_missing(material: Any, socket: Any) -> None:

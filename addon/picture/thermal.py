@@ -23,7 +23,7 @@ from ...core.emissivity import band as bands
 from ...core.emissivity import planck
 from ...core.errors import DomainError, MaterialError
 from ...core.numerics.arrays import Array
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..matching import emission
 from ..material import snapshot, storage
 from ..samples.sample import Sample
@@ -269,12 +269,8 @@ def render(
     scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
 ) -> ThermalPicture:
     """Render what a thermal camera sees and wait for it; see `Thermal`."""
-    job = Thermal(scene, wanted)
-    try:
-        job.wait(progress)
+    with waited(Thermal(scene, wanted), progress) as job:
         return job.result()
-    finally:
-        job.close()
 
 
 def _sent(ends: Array, kelvin: Array) -> Array:

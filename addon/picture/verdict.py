@@ -22,6 +22,7 @@ from ...core.bands import IN_A_PASS
 from ...core.errors import DomainError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
+from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra, standard_spaces
 from ..colorimetry.rgb_space import WorkingSpace
 from ..scene import analysis
@@ -298,12 +299,8 @@ class Judging(Rendering):
 
 def judge(scene: Any, progress: Callable[[int, int], None] | None = None, **wanted: Any) -> Verdict:
     """Ask for a verdict and wait for it; arguments as of `Judging`."""
-    job = Judging(scene, **wanted)
-    try:
-        job.wait(progress)
+    with waited(Judging(scene, **wanted), progress) as job:
         return job.verdict()
-    finally:
-        job.close()
 
 
 def _do(rung: Rung) -> str:
