@@ -119,7 +119,7 @@ def _refuse_missing(material: Any, socket: Any) -> None:
         if node.image is None:
             msg = f"{where} has no image; choose one, or unlink the node."
             raise MaterialError(msg)
-        if _is_missing(node.image):
+        if is_missing(node.image):
             msg = (
                 f"{where}: the file of image {node.image.name!r} is missing; find it (File ▸ "
                 "External Data ▸ Find Missing Files), or unlink the node."
@@ -127,7 +127,8 @@ def _refuse_missing(material: Any, socket: Any) -> None:
             raise MaterialError(msg)
 
 
-def _is_missing(image: Any) -> bool:
+def is_missing(image: Any) -> bool:
+    """Whether the file of an image is not there: renders show magenta then."""
     if image.source != "FILE" or image.packed_file is not None:
         return False
     return not Path(bpy.path.abspath(image.filepath, library=image.library)).is_file()

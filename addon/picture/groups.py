@@ -129,9 +129,9 @@ class Gathering(Rendering):
                 )
                 raise MaterialError(msg)
             for name in found:
-                library = thing.library.filepath if thing.library else ""
-                if [thing.name, library] not in members[name]:
-                    members[name].append([thing.name, library])
+                _, *place = key("objects", thing)
+                if place not in members[name]:
+                    members[name].append(place)
         return [
             {"name": name, "objects": members[name], "world": of[0] == "worlds"}
             for of, name in by.items()

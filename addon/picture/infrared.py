@@ -97,7 +97,7 @@ class Infrared(Job):
     smaller = "render a smaller picture"
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
-        scene_copy.check(scene, "an infrared picture")
+        scene_copy.check(scene, "an infrared picture", wanted.percentage)
         layer = scene_copy.layer_of(scene)
         space = working_space.current()
         found = colors.find(scene_copy.evaluated(scene, layer), scene, space, is_visible=False)

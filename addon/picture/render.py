@@ -274,7 +274,7 @@ def render(
 
 
 def _check(scene: Any, wanted: Wanted) -> None:
-    scene_copy.check(scene, "a spectral picture")
+    scene_copy.check(scene, "a spectral picture", wanted.percentage)
     if wanted.direct and scene.cycles.use_denoising:
         msg = (
             f"Scene {scene.name!r} is denoised, and direct light apart needs renders that are "

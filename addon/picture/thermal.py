@@ -145,7 +145,7 @@ class Thermal(Job):
     smaller = "render a smaller picture"
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
-        scene_copy.check_camera(scene)
+        scene_copy.check_view(scene, wanted.percentage)
         layer = scene_copy.layer_of(scene)
         self._wanted = wanted
         self._ends = np.linspace(*wanted.band, wanted.parts + 1)
@@ -223,11 +223,10 @@ class Thermal(Job):
             # Emissivity changes slowly with temperature: that of the mean is taken.
             kelvin = float(values.mean()) if len(values) else kelvin
         slots = [slot.material for slot in thing.material_slots] or [None]
-        library = thing.library.filepath if thing.library else ""
         keys = [(material, kelvin, by_vertex) for material in slots]
         return {
             "name": thing.name,
-            "library": library,
+            "library": scene_copy.path_of(thing.library),
             "slots": [self._variants.setdefault(key, len(self._variants)) for key in keys],
             "coldest": float(values.min()) if by_vertex and len(values) else kelvin,
         }
