@@ -18,7 +18,7 @@ import bpy
 from ...core.errors import OutputError
 from ...core.instruments import DEFAULT
 from ..blender import blend_file
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..samples.readers.formats import library as library_format
 from ..support import atomic_files, journal
 from . import catalogs, shelf
@@ -187,12 +187,8 @@ def build(
     CancelledError
         On an interrupt from the keyboard.
     """
-    job = Build(assets, folder, settings)
-    try:
-        job.wait(progress)
+    with waited(Build(assets, folder, settings), progress) as job:
         return job.publish()
-    finally:
-        job.close()
 
 
 def add_to_preferences(folder: Path) -> str | None:

@@ -14,10 +14,10 @@ import shutil
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 import bpy
 
@@ -25,7 +25,39 @@ from ...core.errors import CancelledError, OutputError, OwnFaultError, RoughSpec
 from ..support import events
 from . import job_failure, second_blender
 
+Progress = Callable[[int, int], None]
+"""Is told how much is done, and of how much."""
+
 _POLL_SECONDS = 0.05
+
+
+class Waitable(Protocol):
+    """What runs beside us: a job, or several one after the other."""
+
+    def wait(self, progress: Progress | None = None) -> None:
+        """Wait for the end."""
+
+    def close(self) -> None:
+        """Stop what still runs, and leave nothing behind."""
+
+
+_Waited = TypeVar("_Waited", bound=Waitable)
+
+
+@contextmanager
+def waited(job: _Waited, progress: Progress | None = None) -> Iterator[_Waited]:
+    """Wait for a job's end, let its result be used, and close it, whatever happens.
+
+    Raises
+    ------
+    CancelledError
+        On an interrupt from the keyboard.
+    """
+    try:
+        job.wait(progress)
+        yield job
+    finally:
+        job.close()
 
 
 class Job:
@@ -90,7 +122,7 @@ class Job:
             pass  # the other Blender is still starting
         return ended
 
-    def wait(self, progress: Callable[[int, int], None] | None = None) -> None:
+    def wait(self, progress: Progress | None = None) -> None:
         """Wait for the end.
 
         Raises

@@ -16,7 +16,7 @@ import bpy
 
 from ...core.errors import MaterialError
 from . import uv_coverage
-from .background_job import Job
+from .background_job import Job, waited
 
 SIDE = 355
 """Tiles of a side, each a place in the UV maps. Half as many as the square has places: a tile costs
@@ -100,12 +100,8 @@ def seen(sockets: Sequence[Any]) -> list[Array]:
     CancelledError
         On an interrupt from the keyboard.
     """
-    look = Look(sockets)
-    try:
-        look.wait()
+    with waited(Look(sockets)) as look:
         return look.colors()
-    finally:
-        look.close()
 
 
 def _refuse_missing(material: Any, socket: Any) -> None:
@@ -123,7 +119,7 @@ def _refuse_missing(material: Any, socket: Any) -> None:
         if node.image is None:
             msg = f"{where} has no image; choose one, or unlink the node."
             raise MaterialError(msg)
-        if _is_missing(node.image):
+        if is_missing(node.image):
             msg = (
                 f"{where}: the file of image {node.image.name!r} is missing; find it (File ▸ "
                 "External Data ▸ Find Missing Files), or unlink the node."
@@ -131,7 +127,8 @@ def _refuse_missing(material: Any, socket: Any) -> None:
             raise MaterialError(msg)
 
 
-def _is_missing(image: Any) -> bool:
+def is_missing(image: Any) -> bool:
+    """Whether the file of an image is not there: renders show magenta then."""
     if image.source != "FILE" or image.packed_file is not None:
         return False
     return not Path(bpy.path.abspath(image.filepath, library=image.library)).is_file()

@@ -46,6 +46,14 @@ class ProgressLine:
         self._told = -1
         self._open = False
 
+    def __enter__(self) -> ProgressLine:
+        """Give itself; the line ends with the block."""
+        return self
+
+    def __exit__(self, *_why: object) -> None:
+        """End the line, whatever happened."""
+        self.close()
+
     def __call__(self, done: int, total: int) -> None:
         """Show the state, unless it was shown a moment ago, or nobody wants to know."""
         said = heard()

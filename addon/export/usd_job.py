@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from .entry import Entry
 from .names import facts, numbers
 
@@ -54,12 +54,8 @@ def write(entries: Sequence[Entry], path: Path) -> None:
     CancelledError
         On an interrupt from the keyboard.
     """
-    job = _Export(entries)
-    try:
-        job.wait()
+    with waited(_Export(entries)) as job:
         text = job.output(_FILE).read_text(encoding="utf-8")
-    finally:
-        job.close()
     path.write_text(_TEXT.sub(_array, text), encoding="utf-8")
 
 

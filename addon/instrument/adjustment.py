@@ -18,6 +18,7 @@ import numpy as np
 
 from ...core.errors import MaterialError
 from ..blender import colors, second_blender, shader_nodes, working_space
+from ..blender.background_job import waited
 from ..matching import color_search, solve
 from ..matching.color_search import MEASUREMENTS, Found
 from ..material import last_measurement, measured_match
@@ -206,12 +207,8 @@ def adjust(
         As `Adjustment` and `finish` do; nothing was changed then.
     """
     shader_nodes.refuse_read_only(material)
-    adjustment = Adjustment(material, request, place)
-    try:
-        adjustment.wait(progress)
+    with waited(Adjustment(material, request, place), progress) as adjustment:
         return finish(adjustment)
-    finally:
-        adjustment.close()
 
 
 def finish(adjustment: Adjustment) -> Adjusted:

@@ -18,7 +18,7 @@ import bpy
 import numpy as np
 
 from ...core.numerics.arrays import Array
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from .arrangement import Arrangement, Shot, told
 
 SAMPLES = 16
@@ -157,12 +157,8 @@ def measure(
     """
     if not materials:
         return np.empty((len(geometries), 0, 2, 3))
-    measurement = Measurement(materials, geometries, samples, rays)
-    try:
-        measurement.wait(progress)
+    with waited(Measurement(materials, geometries, samples, rays), progress) as measurement:
         return measurement.result()
-    finally:
-        measurement.close()
 
 
 def _library_path(material: Any) -> str | None:

@@ -21,7 +21,7 @@ import numpy as np
 from ...core.color import color_difference
 from ...core.errors import MaterialError
 from ...core.numerics.arrays import Array
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..matching import scene_match
 from ..readings.document import SpotRead
 from . import unseen
@@ -280,12 +280,8 @@ def measure(
     CancelledError
         On an interrupt from the keyboard.
     """
-    measurement = SpotMeasurement(spots, arrangements)
-    try:
-        measurement.wait(progress)
+    with waited(SpotMeasurement(spots, arrangements), progress) as measurement:
         return measurement.result()
-    finally:
-        measurement.close()
 
 
 def _asked(spot: Spot, arrangements: Sequence[Arrangement]) -> dict[str, Any]:

@@ -23,7 +23,7 @@ import numpy.typing as npt
 from ...core.errors import DomainError
 from ...core.heights import Mesh
 from ...core.numerics.arrays import Array
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..instrument.measure import Geometry
 
 AZIMUTHS = 64
@@ -196,12 +196,10 @@ def measure(
     CancelledError
         On an interrupt from the keyboard.
     """
-    experiment = Experiment(mesh, albedos, spot, geometry=geometry, seeds=seeds, samples=samples)
-    try:
-        experiment.wait(progress)
+    with waited(
+        Experiment(mesh, albedos, spot, geometry=geometry, seeds=seeds, samples=samples), progress
+    ) as experiment:
         return experiment.result()
-    finally:
-        experiment.close()
 
 
 def spot_readings(picture: Array, period: Sequence[float], spot: float) -> Array:

@@ -12,22 +12,24 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import bpy
 import numpy as np
 
 from ...core.errors import MaterialError, RoughSpectraError
 from ...core.gloss import Gloss
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
-from ..blender import shader_nodes, sockets
+from ..blender import shader_nodes, sockets, texture_colors
 from ..blender import surface as surface_of
 from ..blender.links import link_to
 from ..colorimetry import illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import surface_spectra
 from ..material import settled, state, storage
-from ..scene import emission
+from ..scene import emission, visibility
 from . import chosen_light
 from .light_spectra import KnownLight
+from .scene_copy import path_of
 
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
 _GLOWS = {
@@ -48,6 +50,8 @@ _PARTS = {
     ("ShaderNodeBsdfPrincipled", "Coat Tint"): "Coat Weight",
 }
 """Sockets of lobes that a node may be without, and those that say how much of them it has."""
+_DRAWN = {"GREASEPENCIL", "GPENCIL"}
+"""Types of objects that Blender draws over what Cycles has rendered; see the worker."""
 _EVEN = 1e-6
 """Spread of a color's channels below which it is gray, which is the same in all bands."""
 
@@ -59,7 +63,7 @@ class Place:
     Parameters
     ----------
     of
-        Collection of `bpy.data`, name and library's path of what it belongs to.
+        Collection of `bpy.data`, name and library's whole path of what it belongs to.
     node, socket
         Name of the node, and number of its input; empty and -1 for an attribute.
     attribute
@@ -230,23 +234,29 @@ class _Search:
     def of(self, depsgraph: Any, scene: Any) -> Colors:
         lights: dict[Any, None] = {}
         materials: dict[Any, None] = {}
+        rendered = visibility.Rendered(depsgraph.view_layer)
         for instance in depsgraph.object_instances:
             thing = instance.object
             if thing.type == "LIGHT":
-                lights.setdefault(thing.data.original)
-                continue
-            slots = [slot.material for slot in thing.material_slots]
-            slots += getattr(thing.data, "materials", None) or []
-            for material in slots:
-                if material is not None:
-                    materials.setdefault(material.original)
+                if rendered.shows(instance):
+                    lights.setdefault(thing.data.original)
+            elif thing.type in _DRAWN:
+                self._found.tell(title("Object", thing), "left out: Grease Pencil is no light")
+            else:
+                materials |= _materials(thing)
+        for thing in rendered.unseen():
+            if thing.type == "LIGHT":
+                lights.setdefault(thing.data)
+            else:
+                materials |= _materials(thing)
         override = depsgraph.view_layer.material_override
         for material in [override.original] if override is not None else materials:
             self._material(material)
         for light in lights:
             self._light(light)
-        if scene.world is not None:
-            self._world(scene.world)
+        world = getattr(depsgraph.view_layer, "world_override", None) or scene.world
+        if world is not None:
+            self._world(world)
         return self._found
 
     def _title(self, kind: str, data: Any) -> str:
@@ -370,6 +380,9 @@ class _Search:
             if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
                 inner = node.node_tree
                 self._tree(inner, key("node_groups", inner), name, set(), times, kelvin)
+            image = getattr(node, "image", None)
+            if image is not None and texture_colors.is_missing(image):
+                self._found.tell(name, f"magenta, as the file of image {image.name!r} is missing")
             if not any(output.type == "SHADER" for output in node.outputs):
                 continue
             self._node(node, name)
@@ -452,6 +465,13 @@ class _Search:
             self._found.leave(name, "its thin film")
 
 
+def _materials(thing: Any) -> dict[Any, None]:
+    """Give the materials of an object, evaluated or not."""
+    slots = [slot.material for slot in thing.material_slots]
+    slots += getattr(thing.data, "materials", None) or []
+    return dict.fromkeys(material.original for material in slots if material is not None)
+
+
 def _are_apart(xyz: Array, other: Array) -> bool:
     """Whether two lights are seen to be of different colors."""
     one, two = (illuminant_spectra.to_uv(each) for each in (xyz, other))
@@ -497,5 +517,15 @@ def title(kind: str, data: Any) -> str:
 
 def key(collection: str, data: Any) -> tuple[str, str, str]:
     """Give where a datablock is found, as in `Place`."""
-    library = data.library
-    return collection, str(data.name), "" if library is None else str(library.filepath)
+    return collection, str(data.name), path_of(data.library)
+
+
+def owner(of: tuple[str, str, str]) -> Any:
+    """Give the datablock that is found there; see `key`."""
+    collection, name, path = of
+    blocks = getattr(bpy.data, collection)
+    for library in bpy.data.libraries if path else (None,):
+        found = blocks.get((name, None if library is None else library.filepath))
+        if found is not None and path_of(library) == path:
+            return found
+    raise KeyError(of)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...core.errors import MaterialError
 from ...core.numerics.arrays import Array
+from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra
 from . import passes
 from .colors import Shining, key
@@ -128,9 +129,9 @@ class Gathering(Rendering):
                 )
                 raise MaterialError(msg)
             for name in found:
-                library = thing.library.filepath if thing.library else ""
-                if [thing.name, library] not in members[name]:
-                    members[name].append([thing.name, library])
+                _, *place = key("objects", thing)
+                if place not in members[name]:
+                    members[name].append(place)
         return [
             {"name": name, "objects": members[name], "world": of[0] == "worlds"}
             for of, name in by.items()
@@ -169,12 +170,8 @@ def gather(
     scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
 ) -> Lights:
     """Render each lamp's light and wait for it; see `Gathering`."""
-    job = Gathering(scene, wanted)
-    try:
-        job.wait(progress)
+    with waited(Gathering(scene, wanted), progress) as job:
         return job.lights()
-    finally:
-        job.close()
 
 
 def _own(each: Shining, white: Array) -> Array:

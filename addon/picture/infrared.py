@@ -19,7 +19,7 @@ import numpy as np
 
 from ...core.numerics.arrays import Array
 from ..blender import working_space
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from . import colors, scene_copy
 from .infrared_scene import InfraredScene
 from .infrared_wanted import IN_A_RENDER, Wanted
@@ -97,7 +97,7 @@ class Infrared(Job):
     smaller = "render a smaller picture"
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
-        scene_copy.check(scene, "an infrared picture")
+        scene_copy.check(scene, "an infrared picture", wanted.percentage)
         layer = scene_copy.layer_of(scene)
         space = working_space.current()
         found = colors.find(scene_copy.evaluated(scene, layer), scene, space, is_visible=False)
@@ -150,9 +150,5 @@ def render(
     scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
 ) -> InfraredPicture:
     """Render an infrared picture and wait for it; see `Infrared`."""
-    job = Infrared(scene, wanted)
-    try:
-        job.wait(progress)
+    with waited(Infrared(scene, wanted), progress) as job:
         return job.result()
-    finally:
-        job.close()

@@ -207,9 +207,8 @@ class InfraredScene:
 
 def _own(each: Shining) -> Light | None:
     """Give what a lamp itself tells: a table kept with it, or the temperature that is set."""
-    collection, name, library = each.place.of
-    if collection in {"lights", "worlds"}:
-        data = getattr(bpy.data, collection)[name, library or None]
+    if each.place.of[0] in {"lights", "worlds"}:
+        data = colors.owner(each.place.of)
         if data.rough_spectra.spectrum != chosen_light.COLOR:
             kept = chosen_light.source(data)
             return None if kept is None else infrared_light.measured(kept)

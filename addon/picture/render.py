@@ -18,7 +18,7 @@ from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
 from ..blender import working_space
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..colorimetry import cie_tables, illuminant_spectra
 from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
 from .passes import Pass
@@ -269,16 +269,12 @@ def render(
     scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
 ) -> SpectralPicture:
     """Render a spectral picture and wait for it; see `Rendering`."""
-    job = Rendering(scene, wanted)
-    try:
-        job.wait(progress)
+    with waited(Rendering(scene, wanted), progress) as job:
         return job.result()
-    finally:
-        job.close()
 
 
 def _check(scene: Any, wanted: Wanted) -> None:
-    scene_copy.check(scene, "a spectral picture")
+    scene_copy.check(scene, "a spectral picture", wanted.percentage)
     if wanted.direct and scene.cycles.use_denoising:
         msg = (
             f"Scene {scene.name!r} is denoised, and direct light apart needs renders that are "

@@ -23,7 +23,7 @@ from ...core.emissivity import band as bands
 from ...core.emissivity import planck
 from ...core.errors import DomainError, MaterialError
 from ...core.numerics.arrays import Array
-from ..blender.background_job import Job
+from ..blender.background_job import Job, waited
 from ..matching import emission
 from ..material import snapshot, storage
 from ..samples.sample import Sample
@@ -145,7 +145,7 @@ class Thermal(Job):
     smaller = "render a smaller picture"
 
     def __init__(self, scene: Any, wanted: Wanted) -> None:
-        scene_copy.check_camera(scene)
+        scene_copy.check_view(scene, wanted.percentage)
         layer = scene_copy.layer_of(scene)
         self._wanted = wanted
         self._ends = np.linspace(*wanted.band, wanted.parts + 1)
@@ -223,11 +223,10 @@ class Thermal(Job):
             # Emissivity changes slowly with temperature: that of the mean is taken.
             kelvin = float(values.mean()) if len(values) else kelvin
         slots = [slot.material for slot in thing.material_slots] or [None]
-        library = thing.library.filepath if thing.library else ""
         keys = [(material, kelvin, by_vertex) for material in slots]
         return {
             "name": thing.name,
-            "library": library,
+            "library": scene_copy.path_of(thing.library),
             "slots": [self._variants.setdefault(key, len(self._variants)) for key in keys],
             "coldest": float(values.min()) if by_vertex and len(values) else kelvin,
         }
@@ -269,12 +268,8 @@ def render(
     scene: Any, wanted: Wanted, progress: Callable[[int, int], None] | None = None
 ) -> ThermalPicture:
     """Render what a thermal camera sees and wait for it; see `Thermal`."""
-    job = Thermal(scene, wanted)
-    try:
-        job.wait(progress)
+    with waited(Thermal(scene, wanted), progress) as job:
         return job.result()
-    finally:
-        job.close()
 
 
 def _sent(ends: Array, kelvin: Array) -> Array:

@@ -31,8 +31,10 @@ def main(job_path: Path) -> None:
     scene = prepare(job)
     kept = np.load(folder / "table.npz")
     variants = [variant(each) for each in job["variants"]]
-    for each in job["objects"]:
-        thing = bpy.data.objects[each["name"], each["library"] or None]
+    things = [worker.owner(["objects", each["name"], each["library"]]) for each in job["objects"]]
+    if len(bpy.data.libraries):  # slots of linked objects cannot be set
+        bpy.ops.object.make_local(type="ALL")
+    for each, thing in zip(job["objects"], things, strict=True):
         dress(thing, [variants[number][0] for number in each["slots"]])
         if any(job["variants"][number]["by_vertex"] for number in each["slots"]):
             for number in range(job["renders"]):
@@ -55,7 +57,10 @@ def prepare(job: dict[str, Any]) -> Any:
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.render.film_transparent = False
-    scene.view_layers[job["layer"]].material_override = None
+    layer = scene.view_layers[job["layer"]]
+    layer.material_override = None
+    if hasattr(layer, "world_override"):
+        layer.world_override = None
     cycles = scene.cycles
     cycles.max_bounces = cycles.diffuse_bounces = cycles.min_light_bounces = BOUNCES
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0

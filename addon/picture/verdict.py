@@ -19,13 +19,14 @@ import bpy
 import numpy as np
 
 from ...core.bands import IN_A_PASS
-from ...core.errors import DomainError
+from ...core.errors import DomainError, MaterialError
 from ...core.limits import TOLERANCE
 from ...core.numerics.arrays import Array
+from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra, standard_spaces
 from ..colorimetry.rgb_space import WorkingSpace
 from ..scene import analysis
-from . import passes
+from . import colors, passes
 from .colors import Measured
 from .passes import Pass
 from .picture import SEEN, Comparison, compare
@@ -172,6 +173,7 @@ class Judging(Rendering):
             msg = f"The tolerance is ΔE00 {tolerance:g}; give a number above 0."
             raise DomainError(msg)
         self._tolerance = tolerance
+        self._scene_name = scene.name
         asked = samples or min(SAMPLES, scene.cycles.samples)
         self._halves = asked > 1
         each = asked // 2 if self._halves else asked
@@ -200,8 +202,16 @@ class Judging(Rendering):
         ------
         OutputError
             If the second Blender failed.
+        MaterialError
+            If the picture is black.
         """
         picture = self.result()
+        if not picture.xyz.any():
+            msg = (
+                f"Scene {self._scene_name!r} is black: no light reaches the camera, and there is "
+                "nothing to compare; light what it sees."
+            )
+            raise MaterialError(msg)
         side = min(_WIDEST, math.ceil(math.sqrt(_IN_A_BLOCK / self._samples)))
         pictures = self._pictures("", side)
         halves = [self._pictures(f"-half-{n}", side) for n in (0, 1)] if self._halves else []
@@ -289,8 +299,7 @@ class Judging(Rendering):
     def _light_on(self, measured: Measured) -> Array:
         """Give the spectrum of the light that falls on a material, by its lights' shares."""
         assert self._report is not None
-        _, name, library = measured.place.of
-        view = self._report.views.get(bpy.data.materials[name, library or None])
+        view = self._report.views.get(colors.owner(measured.place.of))
         if view is None:
             return np.asarray(self._lamps.spectra.sum(axis=0))
         return np.sum([light.share * np.array(light.spd) for light in view.lights], axis=0)
@@ -298,12 +307,8 @@ class Judging(Rendering):
 
 def judge(scene: Any, progress: Callable[[int, int], None] | None = None, **wanted: Any) -> Verdict:
     """Ask for a verdict and wait for it; arguments as of `Judging`."""
-    job = Judging(scene, **wanted)
-    try:
-        job.wait(progress)
+    with waited(Judging(scene, **wanted), progress) as job:
         return job.verdict()
-    finally:
-        job.close()
 
 
 def _do(rung: Rung) -> str:
@@ -319,6 +324,8 @@ def _do(rung: Rung) -> str:
 
 
 def _time(seconds: float) -> str:
+    if seconds < 0.5:
+        return "less than a second"
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
@@ -327,6 +334,9 @@ def _time(seconds: float) -> str:
 def _fitting(render: Any) -> int:
     """Give the percentage at which the picture has no more pixels than `SIZE`."""
     whole = render.resolution_x * render.resolution_y
+    if render.use_border:  # of which alone there are pixels
+        across = render.border_max_x - render.border_min_x
+        whole *= max(across * (render.border_max_y - render.border_min_y), 1 / whole)
     fits = math.floor(100 * math.sqrt(SIZE[0] * SIZE[1] / whole))
     return max(1, min(fits, render.resolution_percentage))
 

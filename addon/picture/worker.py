@@ -12,6 +12,7 @@ random numbers are the same. The file that is open here is a copy, and is not sa
 
 import importlib.util
 import json
+import os
 import re
 import sys
 import time
@@ -35,6 +36,8 @@ _OLDER |= {"Dir": "Direct", "Col": "Color", "Emit": "Emission", "Env": "Environm
 """How Blender 4.5 shortens the names of passes in files, as in DiffDir."""
 
 
+DRAWN = {"GREASEPENCIL", "GPENCIL"}
+"""Types of objects that are drawn over what Cycles has rendered."""
 _ENOUGH = 200_000
 """Pixels by which the part of a picture is counted."""
 
@@ -117,8 +120,12 @@ def prepare(job: dict[str, Any]) -> Any:
     for layer in scene.view_layers:
         layer.use = layer.name == job["layer"]
     render = scene.render
-    # What comes after the render is not linear: it cannot be done to bands.
+    # What is drawn into the render or comes after it is no light: it cannot be done to bands.
     render.use_compositing = render.use_sequencer = render.use_multiview = False
+    render.use_freestyle = render.use_stamp = False
+    for thing in bpy.data.objects:
+        if thing.type in DRAWN:
+            thing.hide_render = True
     render.use_persistent_data = True
     render.resolution_percentage = job["percentage"]
     scene.cycles.samples = job["samples"]
@@ -212,10 +219,11 @@ def gather(layer: Any, scene: Any, groups: list[dict[str, Any]]) -> None:
         layer.lightgroups.remove(layer.lightgroups[0])
     for group in groups:
         layer.lightgroups.add(name=group["name"])
-        for name, library in group["objects"]:
-            bpy.data.objects[name, library or None].lightgroup = group["name"]
+        for place in group["objects"]:
+            owner(["objects", *place]).lightgroup = group["name"]
         if group["world"]:
-            scene.world.lightgroup = group["name"]
+            world = getattr(layer, "world_override", None) or scene.world
+            world.lightgroup = group["name"]
 
 
 def take_groups(scene: Any, folder: Path, name: str, groups: list[dict[str, Any]]) -> None:
@@ -275,9 +283,20 @@ def whole(kind: str) -> str:
 
 
 def owner(of: list[str]) -> Any:
-    """Find a datablock of a collection by its name and its library's path."""
-    collection, name, library = of
-    return getattr(bpy.data, collection)[name, library or None]
+    """Find a datablock of a collection by its name and its library's whole path."""
+    collection, name, path = of
+    blocks = getattr(bpy.data, collection)
+    for library in bpy.data.libraries if path else (None,):
+        file = None if library is None else library.filepath
+        found = blocks.get((name, file))
+        if found is not None and (file is None or whole_path(file) == path):
+            return found
+    raise shared.LibraryError(f"{path or 'the file'} has no {name!r} any more")
+
+
+def whole_path(path: str) -> str:
+    """Give a library's path as who asked for the render gives it."""
+    return os.path.normpath(bpy.path.abspath(path))
 
 
 def setter(edit: dict[str, Any]) -> Any:

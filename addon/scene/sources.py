@@ -75,8 +75,9 @@ def find(
         found = _of_light(thing, np.array(instance.matrix_world), space, warnings)
         if found is not None:
             lamps.append(found)
-    if scene.world is not None and _lights_diffuse(scene.world):
-        parts, unread = world.read(scene.world, space)
+    lit_by = getattr(depsgraph.view_layer, "world_override", None) or scene.world
+    if lit_by is not None and _lights_diffuse(lit_by):
+        parts, unread = world.read(lit_by, space)
         lamps += [Lamp(part.name, part.source, part.rgb, part.temperature) for part in parts]
         warnings += unread
     lamps += _glowing(surfaces, space, warnings)

@@ -51,6 +51,21 @@ class Rendered:
             self._hidden[collection] = hidden - shown
         return self._hidden[collection]
 
+    def unseen(self) -> list[Any]:
+        """Give what a render shows and viewports don't, and what that instances: original objects.
+
+        It is not evaluated: what its modifiers would make is unknown.
+        """
+        found: dict[Any, None] = {}
+        for thing in self._objects:
+            if not thing.visible_get(view_layer=self._layer):
+                found.setdefault(thing)
+                inner = thing.instance_collection if thing.instance_type == "COLLECTION" else None
+                if inner is not None:
+                    hidden = self._hidden_in(inner)
+                    found |= dict.fromkeys(each for each in inner.all_objects if each not in hidden)
+        return sorted(found, key=lambda thing: thing.name)
+
     def left_out(self) -> str:
         """Name what a render shows and viewports don't: it is not evaluated; empty if nothing."""
         hidden = sorted(

@@ -107,11 +107,8 @@ def run(options: argparse.Namespace) -> int:
         author=options.author or build.AUTHOR,
         read_at=options.read_at,
     )
-    progress = ProgressLine("rendering previews")
-    try:
+    with ProgressLine("rendering previews") as progress:
         built = build.build(assets, options.output, settings, progress)
-    finally:
-        progress.close()
     for name, sentences in built.warnings.items():
         for sentence in sentences:
             tell(f"warning: material {name!r}: {sentence}")

@@ -237,12 +237,9 @@ def measure(
         raise MaterialError(faults[0])  # nothing is left to do for any of them
     index, count = getattr(options, "shard", (1, 1))
     mine = surfaces[index - 1 :: count]
-    progress = ProgressLine("measuring", count=len(mine))
-    try:
+    with ProgressLine("measuring", count=len(mine)) as progress:
         gloss = getattr(options, "gloss", False)
         result = api.bake(mine, with_measurement, progress, options.read_at, gloss)
-    finally:
-        progress.close()
     if with_measurement:
         _tell_unseen(mine, result)
     return result

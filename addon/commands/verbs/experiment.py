@@ -92,11 +92,8 @@ def _of_readings(options: argparse.Namespace) -> Found:
         msg = f"{options.mapping} has the samples; leave --kind and --sigma out, or it."
         raise InputError(msg)
     surfaces = known_surfaces.read(options.mapping)
-    progress = ProgressLine("judging")
-    try:
+    with ProgressLine("judging") as progress:
         reads, inferred = judge.judge(surfaces, options.repeatability / 100, progress)
-    finally:
-        progress.close()
     panels = figures.panels_of_readings(surfaces, inferred)
     note = f"Readings as listed in {options.mapping.name}."
     return Found(reads, inferred, panels, (), (note,))
@@ -110,15 +107,9 @@ def _of_meshes(options: argparse.Namespace) -> Found:
     if bool(options.kind) != bool(options.sigma):
         raise InputError("Give --kind and --sigma together, or neither.")
     plan = [(kind, sigma) for kind in options.kind or () for sigma in options.sigma]
-    progress = ProgressLine("measuring")
-    try:
+    with ProgressLine("measuring") as progress:
         grays = meshes.measure(
             plan or meshes.PLAN, cells=options.cells, samples=options.rays, progress=progress
         )
-    finally:
-        progress.close()
-    progress = ProgressLine("judging")
-    try:
+    with ProgressLine("judging") as progress:
         return colored.found(grays, options.repeatability / 100, progress)
-    finally:
-        progress.close()

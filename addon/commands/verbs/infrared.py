@@ -79,11 +79,8 @@ def run(options: argparse.Namespace) -> int:
         options.samples,
         options.percentage,
     )
-    progress = ProgressLine("rendering")
-    try:
+    with ProgressLine("rendering") as progress:
         found = infrared.render(scene, wanted, progress)
-    finally:
-        progress.close()
     for name, why in found.assumed.items():
         tell(f"warning: {name} has no infrared data ({why}); it is as bright as to the eye")
     for name, why in found.dark.items():

@@ -91,8 +91,7 @@ def run(options: argparse.Namespace) -> int:
         path=options.map,
     )
     albedos = options.albedo if spectrum is None else spectrum.reflectance
-    progress = ProgressLine("measuring")
-    try:
+    with ProgressLine("measuring") as progress:
         found = api.measure_rough(
             rough,
             albedos,
@@ -101,8 +100,6 @@ def run(options: argparse.Namespace) -> int:
             samples=options.rays,
             progress=progress,
         )
-    finally:
-        progress.close()
     wavelengths = None if spectrum is None else spectrum.wavelengths
     with atomic_files.publication() as files:
         files.write(target, readings.to_csv(rough, found, wavelengths))

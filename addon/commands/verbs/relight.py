@@ -99,8 +99,7 @@ def _rendered(options: argparse.Namespace) -> Lights:
 
     if options.kept is not None:
         atomic_files.check_target(options.kept)
-    progress = ProgressLine("rendering")
-    try:
+    with ProgressLine("rendering") as progress:
         lights = api.picture_lights(
             scene_of(options),
             bands=options.bands,
@@ -108,8 +107,6 @@ def _rendered(options: argparse.Namespace) -> Lights:
             percentage=options.percentage,
             progress=progress,
         )
-    finally:
-        progress.close()
     if options.kept is not None:
         relight.write(lights, options.kept)
     return lights

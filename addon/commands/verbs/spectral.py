@@ -142,8 +142,7 @@ def _one(options: argparse.Namespace, scene: Any) -> int:
     from ... import api
     from ..progress import ProgressLine, counted
 
-    progress = ProgressLine("rendering")
-    try:
+    with ProgressLine("rendering") as progress:
         picture = api.spectral_picture(
             scene,
             tolerance=options.tolerance,
@@ -156,8 +155,6 @@ def _one(options: argparse.Namespace, scene: Any) -> int:
             lights=dict(options.light),
             progress=progress,
         )
-    finally:
-        progress.close()
     _tell(picture, options, set())
     written = api.write_picture(
         picture, options.output, options.spectral, at_bands=options.at_bands

@@ -79,8 +79,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("There is nothing to save without --material; leave --save out.")
     if options.material is not None:
         destination(options.save)  # before the work that could not be saved
-    progress = ProgressLine("lines")
-    try:
+    with ProgressLine("lines") as progress:
         made = api.make_texture(
             options.image,
             options.output,
@@ -92,8 +91,6 @@ def run(options: argparse.Namespace) -> int:
             scale=options.scale,
             progress=progress,
         )
-    finally:
-        progress.close()
     for note in made.notes:
         tell(f"note: {options.image.name}: {note}")
     told = f"{made.width} × {made.height} pixels of {holds}; wrote {made.path.name}"

@@ -96,11 +96,8 @@ def run(options: argparse.Namespace) -> int:
         options.samples,
         options.percentage,
     )
-    progress = ProgressLine("rendering")
-    try:
+    with ProgressLine("rendering") as progress:
         found = thermal.render(scene, wanted, progress)
-    finally:
-        progress.close()
     for name in found.assumed:
         tell(
             f"warning: material {name!r} has no infrared data; its emissivity is taken as "

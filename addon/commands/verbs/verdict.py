@@ -49,8 +49,7 @@ def run(options: argparse.Namespace) -> int:
     from ..result import add
     from .spectral import scene_of
 
-    progress = ProgressLine("rendering")
-    try:
+    with ProgressLine("rendering") as progress:
         found = api.picture_verdict(
             scene_of(options),
             tolerance=options.tolerance,
@@ -59,8 +58,6 @@ def run(options: argparse.Namespace) -> int:
             lights=dict(options.light),
             progress=progress,
         )
-    finally:
-        progress.close()
     if found.untranslated:
         names = ", ".join(found.untranslated)
         tell(f"warning: {names}: stays RGB in part, on {found.touched:.0%} of the picture")
