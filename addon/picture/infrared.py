@@ -142,7 +142,7 @@ class Infrared(Job):
             self._there.told,
             self._there.assumed,
             self._there.dark,
-            tuple(seconds),
+            tuple(clock for clock, _ in seconds),
         )
 
 

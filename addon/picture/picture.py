@@ -81,6 +81,8 @@ class SpectralPicture:
     touched
         Part of the picture that shows materials of which something stayed red, green and blue;
         None where there are none.
+    processor_seconds
+        As `seconds`, those of all processor cores together.
     """
 
     rgb: Array
@@ -98,6 +100,7 @@ class SpectralPicture:
     direct_words: str = ""
     white: Array | None = None
     touched: float | None = None
+    processor_seconds: tuple[float, ...] = ()
 
 
 def compare(plain: Array, shown: Array, xyz: Array, plain_xyz: Array, white: Array) -> Comparison:

@@ -244,7 +244,7 @@ class Rendering(Job):
             comparison,
             {name: tuple(rules) for name, rules in self._found.told.items()},
             {name: tuple(left) for name, left in self._found.untranslated.items()},
-            tuple(seconds),
+            tuple(clock for clock, _ in seconds),
             spectra.of(
                 channels,
                 passes.surfaces_of(self._found, self._space),
@@ -256,6 +256,7 @@ class Rendering(Job):
             self._light.words,
             self._lamps.white_by(self._wanted.observer),
             self._touched(),
+            tuple(processor for _, processor in seconds),
         )
 
     @property

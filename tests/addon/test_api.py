@@ -107,7 +107,7 @@ FIELDS = {
     "Loss": "material exporter delta_e_instrument delta_e_mean sentence",
     "Made": "path wanted width height roughness mean infeasible outside notes",
     "SpectralPicture": "rgb xyz observer wavelengths direct predicted enough comparison rules "
-    "untranslated seconds spectra direct_words white touched",
+    "untranslated seconds spectra direct_words white touched processor_seconds",
     "Pixel": "column row wavelengths radiance xyz lab delta_e",
     "ThermalPicture": "band radiance kelvin assumed temperatures",
     "InfraredPicture": "ends parts alpha told assumed dark seconds",

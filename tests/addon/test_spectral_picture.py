@@ -303,6 +303,8 @@ def test_without_bounces_no_band_is_rendered_and_all_is_exact(lit):
     scene.cycles.max_bounces = 0
     picture = api.spectral_picture(compare=False)
     assert (picture.direct, len(picture.seconds), picture.wavelengths.size) == (True, 1, 0)
+    assert len(picture.processor_seconds) == 1
+    assert picture.processor_seconds[0] > 0
     assert list(files.told(picture)) == [
         "no bands, direct light apart, there is no other, so every color is exact"
     ]

@@ -6,11 +6,11 @@
 
 The room of `tools.checks.check_spectral`. Truth is 36 bands in twelve renders with the same random
 numbers, so that what is left is spectral, and noise cancels; check_spectral.py holds such pictures
-to Mitsuba. Costs are in ordinary renders of the same run. Mitsuba's spectral path tracer stands in
-at the noise of Cycles: its time is scaled by the square of the two programs' noise, each measured
-as what two seeds differ by. --write puts docs/picture-table.md and docs/data/picture.csv in
-place, which tools/manual/picture_figures.py draws; --room FILE.npz leaves larger pictures of it for
-the same.
+to Mitsuba. Costs are in ordinary renders of the same run, by processor time,
+which other programs don't lengthen. Mitsuba's spectral path tracer stands in at the noise of
+Cycles: its time is scaled by the square of the two programs' noise, each measured as what two seeds
+differ by. --write puts docs/picture-table.md and docs/data/picture.csv in place, which
+tools/manual/picture_figures.py draws; --room FILE.npz leaves larger pictures of it for the same.
 """
 
 from __future__ import annotations
@@ -125,17 +125,17 @@ class Room:
 
     def mitsuba(self, python: str) -> None:
         """Add Mitsuba's spectral path tracer, as long as it takes to the noise of Cycles."""
-        pictures, seconds = room.by_mitsuba(python, self._light, self._samples)
+        pictures, seconds = room.by_mitsuba(python, self._light, self._samples, "--plain")
         theirs = [each[::-1] for each in pictures]
         ours = [room.blocks(self.spectral(COUNTS[-1], seed, compare=False).xyz) for seed in (1, 2)]
         noise, their_noise = (self._apart(*each).mean() / np.sqrt(2) for each in (ours, theirs))
-        cost = seconds / self._truth.seconds[0] * (their_noise / noise) ** 2
+        cost = seconds / self._truth.processor_seconds[0] * (their_noise / noise) ** 2
         off = self._apart(np.mean(ours, axis=0), np.mean(theirs, axis=0))
         self._row("Mitsuba, spectral, as little noise", off, 0, cost)
         print(f"noise of one picture: Cycles {noise:.3f}, Mitsuba {their_noise:.3f}", flush=True)
 
     def _add_spectral(self, name: str, picture: Any) -> None:
-        ordinary, *passes = picture.seconds
+        ordinary, *passes = picture.processor_seconds
         cost = sum(passes) / ordinary
         self._add(name, picture.xyz, len(passes), cost, picture.predicted.mean)
 
