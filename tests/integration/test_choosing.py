@@ -141,7 +141,7 @@ def test_objects_without_a_material_share_a_new_one_that_is_called_as_the_sample
     assert [thing.active_material for thing in things] == [material] * 3
     assert material.name == "Brick"
     choose(GREEN)
-    assert material.name == "Brick"
+    assert material.name == "ColorChecker 14 Green"
 
 
 def test_one_of_several_that_cannot_be_set_leaves_all_as_they_were():
@@ -265,3 +265,67 @@ def test_the_list_begins_with_everyday_materials_and_ends_with_yours(tmp_path, m
     assert list(dict.fromkeys(listed)) == ["everyday", "colorchecker", "atelier"]
     monkeypatch.undo()
     choose_sample._fill()
+
+
+def untouched(name):
+    """A material as the button New makes it, in Blender 4.5 too."""
+    made = bpy.data.materials.new(name)
+    if not made.use_nodes:
+        made.use_nodes = True
+    return made
+
+
+def test_objects_that_nobody_gave_a_material_share_one(empty_file):
+    """Bare, or with what Blender itself made; of one's own, every object keeps its own."""
+    plain, more = untouched("Material"), untouched("Material")
+    typed, changed = untouched("Floor"), untouched("Material")
+    node = next(node for node in changed.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Roughness"].default_value = 0.2
+    things = [mesh_object(m.name, m) for m in (plain, more, typed, changed)]
+    things.append(mesh_object("Bare"))
+    choose(BRICK, scope="EACH")
+    [first, second, third, fourth, bare] = [thing.active_material for thing in things]
+    assert first == second == bare == plain
+    assert (third, fourth) == (typed, changed)
+    names = [material.name for material in (first, third, fourth)]
+    assert names == ["Brick", "Floor", "Material.002"]
+    assert all(m.rough_spectra.sample_name == "Brick" for m in (first, third, fourth))
+    assert not more.rough_spectra.spectrum
+
+
+def test_the_cube_of_the_first_file_shares_its_material(empty_file):
+    bpy.ops.wm.read_factory_settings()
+    cube = bpy.data.objects["Cube"]
+    other = mesh_object("Other", untouched("Material"))
+    cube.select_set(True)
+    bpy.context.view_layer.objects.active = cube
+    choose(BRICK, scope="EACH")
+    assert other.active_material == cube.active_material
+    assert cube.active_material.name == "Brick"
+
+
+def test_a_name_of_ours_follows_the_sample_and_one_of_the_users_never(empty_file):
+    taken = mesh_object("Taken")
+    choose(BRICK)
+    wall = mesh_object("Wall")
+    choose(BRICK)
+    assert wall.active_material.name == "Brick.001"
+    choose(GREEN)
+    assert wall.active_material.name == "ColorChecker 14 Green"
+    choose(BRICK)
+    assert wall.active_material.name == "Brick.001"
+    wall.active_material.name = "Old wall"
+    choose(GREEN)
+    assert wall.active_material.name == "Old wall"
+    assert taken.active_material.name == "Brick"
+
+
+def test_a_name_that_blender_cut_is_still_ours(empty_file, tmp_path):
+    long = "Weathered " * 40
+    path = tmp_path / "long.csv"
+    path.write_text(f"nm,{long.strip()}\n" + "\n".join(f"{nm},0.4" for nm in range(400, 701, 20)))
+    wall = mesh_object("Wall")
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(path))
+    assert len(wall.active_material.name) < len(long)
+    choose(BRICK)
+    assert wall.active_material.name == "Brick"
