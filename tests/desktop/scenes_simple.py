@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What everybody does in the panel, with one click or drag each."""
 
+import math
+
 import bpy
+import driver
 from driver import TICK, area, click, find, move, press, scene, window, write
 from stage import empty_file, green_file, ours, state, undo_step, wall
 
@@ -101,3 +104,40 @@ def grease_pencil(found):
         found["shown"] = True
     except LookupError:
         found["shown"] = False
+
+
+@scene
+def choosing_the_files_own(found):
+    """Make brick rougher on the wall, and choose it for the next object: the first row is it."""
+    yield from empty_file()
+    with driver.over(area("PROPERTIES")):
+        bpy.ops.rough_spectra.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+    wall().rough_spectra.sigma, wall().rough_spectra.gloss = math.radians(40), 0.5
+    other = bpy.data.objects.new("Other", wall_mesh())
+    bpy.context.scene.collection.objects.link(other)
+    bpy.data.objects["Wall"].select_set(False)
+    other.select_set(True)
+    bpy.context.view_layer.objects.active = other
+    undo_step("Other")
+    yield 1.0
+    _, y = yield from find(area("PROPERTIES"), "rough_spectra.find_nearest", 0.95)
+    yield from click(area("PROPERTIES").x + area("PROPERTIES").width // 2, y)
+    yield 1.0
+    yield from write("brick")
+    yield 1.0
+    driver.grab("files_own")
+    yield from press("RET")
+    yield 1.0
+    made = bpy.data.objects["Other"].active_material
+    found["same"] = made is not None and made == wall()
+    found["materials"] = len(bpy.data.materials)
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = bpy.data.objects["Other"].active_material is None
+
+
+def wall_mesh():
+    """Give a mesh as the wall's, without a material."""
+    mesh = bpy.data.objects["Wall"].data.copy()
+    mesh.materials.clear()
+    return mesh

@@ -359,3 +359,7 @@ def test_choosing_a_light_spectrum(scene):
     assert scene["before"] == "F11"
     assert scene["chosen"] == ["MEASURED", "sodium.csv"]
     assert scene["undone"] == "F11"
+
+
+def test_choosing_the_files_own(scene):
+    assert scene == {"same": True, "materials": 1, "undone": True}

@@ -358,8 +358,8 @@ def assign_sample(
     Each material keeps its light, model, tolerance, shader and gloss, unless the operator was told
     otherwise, and its roughness if the user set it. Objects without a material, or with one that
     nobody touched since Blender made it, share one that is called as the sample. So is one
-    afterwards whose name was ours; a name that the user typed stays. `looked` is as of `derive.assign`; `sigma`, radians,
-    counts instead of the operator's.
+    afterwards whose name was ours; a name that the user typed stays. `looked` is as of
+    `derive.assign`; `sigma`, radians, counts instead of the operator's.
 
     Returns
     -------
