@@ -3,6 +3,7 @@
 """What everybody does in the panel, with one click or drag each."""
 
 import math
+import time
 
 import bpy
 import driver
@@ -141,3 +142,58 @@ def wall_mesh():
     mesh = bpy.data.objects["Wall"].data.copy()
     mesh.materials.clear()
     return mesh
+
+
+@scene
+def dragging_for_all(found):
+    """Select three objects with a material each, drag Roughness and click a ball; undo both."""
+    yield from green_file()
+    names = ["Wall", "Second", "Third"]
+    for name in names[1:]:
+        thing = bpy.data.objects.new(name, wall_mesh())
+        bpy.context.scene.collection.objects.link(thing)
+        thing.active_material = wall().copy()
+        thing.select_set(True)
+    undo_step("Three")
+    yield 1.0
+    found["before"] = _all(names)
+    x, y = yield from find(area("PROPERTIES"), "sigma_of_all")
+    times = _timed()
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield TICK
+    for step in range(1, 25):
+        yield from move(x + 3 * step, y)
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x + 72, y=y)
+    yield 0.5
+    found["milliseconds"] = sorted(times)
+    found["dragged"] = _all(names)
+    driver.grab("for_all")
+    x, y = yield from find(area("PROPERTIES"), "rough_spectra.set_roughness", 0.9)
+    yield from click(x, y)
+    yield 0.5
+    found["clicked"] = _all(names)
+    for step in ("ball undone", "drag undone"):
+        yield from press("Z", ctrl=True)
+        yield 0.5
+        found[step] = _all(names)
+
+
+def _all(names):
+    """Give σ in degrees and the state of each object's material."""
+    kind = ours("addon.material.state").state
+    found = [bpy.data.objects[name].active_material for name in names]
+    return [[round(math.degrees(m.rough_spectra.sigma), 2), kind(m).kind] for m in found]
+
+
+def _timed():
+    """Note how long each step takes from now on, in milliseconds."""
+    together, times = ours("addon.material.together"), []
+    real = together.set_sigma
+
+    def timed(*arguments):
+        begin = time.perf_counter()
+        real(*arguments)
+        times.append(1e3 * (time.perf_counter() - begin))
+
+    together.set_sigma = timed
+    return times
