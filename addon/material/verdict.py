@@ -30,6 +30,7 @@ Remedy = Literal[
 WIDE_SPACE = "ACEScg"
 """Working space that holds nearly all colors of surfaces."""
 
+_WORKBENCH = "BLENDER_WORKBENCH"
 _WIDE = {WIDE_SPACE, "Linear Rec.2020"}
 _NOTHING = 0.005
 """ΔE00 that is written as 0.00."""
@@ -40,7 +41,7 @@ Numbers = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
 
 _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
-    "engine": ("differs: roughness missing", "cycles"),
+    "engine": ("differs: Eevee lacks roughness", "cycles"),
     "lights": ("differs: several lights", ""),
     "gloss": ("differs: too glossy", "matte"),
     "white": ("differs: beyond white", ""),
@@ -50,7 +51,7 @@ _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
     "nothing": ("differs: unknown", ""),
 }
 
-_NEARLY: dict[Limit, str] = {"engine": "roughness missing", "gloss": "slightly too glossy"}
+_NEARLY: dict[Limit, str] = {"engine": "Eevee lacks roughness", "gloss": "slightly too glossy"}
 """What is said of these where the difference is small: what to do is plain then."""
 
 
@@ -152,9 +153,12 @@ def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
     words, remedy = _DIFFERS[why]
     if remedy == "wide" and not has_wider_space(found.working_space):
         remedy = ""
-    if seen < perceptibility.VISIBLE:
-        return Verdict("near", _NEARLY.get(why, perceptibility.words(seen)), remedy)
-    return Verdict("off", words, remedy)
+    near = seen < perceptibility.VISIBLE
+    if near:
+        words = _NEARLY.get(why, perceptibility.words(seen))
+    if found.engine == _WORKBENCH:  # by its name: the roughness is there, and the engine lacks it
+        words = words.replace("Eevee", "Workbench")
+    return Verdict("near" if near else "off", words, remedy)
 
 
 def has_wider_space(name: str) -> bool:

@@ -24,6 +24,8 @@ from tests.integration.test_panels import OPS, Layout, context, drawn
 BRICK, CYAN = "everyday/brick", "colorchecker/18-cyan"
 MARKS = {simple.icon_value(icon): mark for mark, icon in simple._MARKS.items()}
 WORDS, NUMBERS = 20, 3
+_ENGINE = bpy.types.RenderSettings.bl_rna.properties["engine"]
+ENGINES = {item.identifier for item in _ENGINE.enum_items}
 
 
 class Shown(Layout):
@@ -195,7 +197,7 @@ STATES = {
     "textured": (textured, "off: texture not matched", "renew"),
     "metallic": (metallic, "open: cannot be predicted", "remove_obstacle"),
     "too dark": (too_dark, "off: differs: texture too dark", None),
-    "flat": (flat, "off: differs: roughness missing", "switch_to_cycles"),
+    "flat": (flat, "off: differs: Workbench lacks roughness", "switch_to_cycles"),
     "shiny": (shiny, "off: differs: too glossy", "remove_gloss"),
     "steep": (steep, "off: brighter than possible", "set_roughness"),
     "another space": (other_space, "off: color space changed", "renew"),
@@ -223,12 +225,22 @@ def test_the_remedy_makes_it_look_right(name):
     assert judged()[0] == "right: looks right"
 
 
+def test_it_is_the_engine_that_is_said_to_lack_the_roughness():
+    """Below a roughness of 20° it would sound as if that one were missing."""
+    flat()
+    eevee = next(e for e in snapshot._FLAT_ENGINES if e in ENGINES and e != "BLENDER_WORKBENCH")
+    bpy.context.scene.render.engine = eevee
+    told, _ = judged()
+    assert told == "off: differs: Eevee lacks roughness"
+    assert len(told.rpartition(":")[2].split()) <= 3
+
+
 def test_a_small_difference_names_its_reason_where_something_can_be_done():
     """As with the cube of a factory start, whose engine leaves the roughness out."""
     wall(degrees=15)
     bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
     told, remedy = judged()
-    assert told == "near: roughness missing"
+    assert told == "near: Workbench lacks roughness"
     assert remedy[0] == "rough_spectra.switch_to_cycles"
 
 
