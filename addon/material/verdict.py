@@ -17,6 +17,7 @@ from ..colorimetry import perceptibility
 from ..matching import outside
 from . import settled, state
 from .derivation import DERIVATION, Stamp
+from .last_measurement import LastMeasurement
 from .properties import SCHEMA
 from .snapshot import Snapshot, digest
 from .state import State
@@ -73,7 +74,12 @@ class Verdict(NamedTuple):
     remedy: Remedy = ""
 
 
-def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdict:
+def of(
+    found: Snapshot,
+    apart: Numbers | None,
+    previewed: bool = False,
+    measured: LastMeasurement | None = None,
+) -> Verdict:
     """Judge a material with a spectrum.
 
     Parameters
@@ -84,6 +90,8 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
         ΔE00 of what it shows; None until they are computed, or where there are none.
     previewed
         Whether the window shows it by another engine than the scene's.
+    measured
+        Its last measurement, which counts where nothing is predicted.
     """
     known = state.evaluate(found)
     if known.kind == "linked":
@@ -91,13 +99,13 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
     if known.kind == "error":
         return _failed(found)
     if known.kind == "stale":
-        return _stale(found, known.stamp)
+        return _stale(found, known.stamp, measured)
     if known.kind == "kept":
         return _kept(known)
     if found.surface is not None and found.surface.scaled:
         return _scaled(found, known.stamp)
     if settled.obstacle(found.surface) is not None:
-        return Verdict("open", "cannot be predicted", "measure")
+        return _measured(measured)
     if apart is None or known.stamp is None:
         return Verdict("open", "comparing")
     judged = _judged(found, known.stamp, apart)
@@ -176,7 +184,22 @@ def _failed(found: Snapshot) -> Verdict:
     return Verdict("off", "could not follow", "renew")
 
 
-def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
+def _measured(last: LastMeasurement | None) -> Verdict:
+    """Judge by a measurement what no number is predicted of; its ΔE00 is told in Details."""
+    if last is None or last.delta_e is None:
+        return Verdict("open", "cannot be predicted", "measure")
+    if not last.current:
+        return Verdict("open", "changed since measured", "measure")
+    if last.delta_e >= perceptibility.VISIBLE:
+        return Verdict("off", "measured: differs", "measure")
+    near = last.delta_e >= perceptibility.SIDE_BY_SIDE
+    words = perceptibility.words(last.delta_e) if near else "looks right"
+    if last.unlike:
+        return Verdict("open", f"measured flat: {words}")
+    return Verdict("near" if near else "right", f"measured: {words}")
+
+
+def _stale(found: Snapshot, last: Stamp | None, measured: LastMeasurement | None) -> Verdict:
     surface = found.surface
     if last is None:
         return Verdict("off", "not matched yet", "renew")
@@ -185,7 +208,7 @@ def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
     if surface is not None and surface.muted:
         return Verdict("off", "node is muted", "unmute")
     if surface is not None and surface.disturbing:
-        return Verdict("open", "cannot be predicted", "measure")
+        return _measured(measured)
     if surface is not None and surface.roughness_linked:
         return Verdict("off", "roughness is linked", "renew")
     if surface is not None and surface.linked:

@@ -162,7 +162,7 @@ def _draw_sliders(
 
 def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
     """Say whether it looks right, and offer what helps."""
-    found = verdict.of(shown.facts, shown.apart(), here.previewed)
+    found = verdict.of(shown.facts, shown.apart(), here.previewed, here.measured)
     words = sentences.of(found.words, _MARKS[found.mark], here.style)
     if not found.remedy:
         text.draw(layout, words)
