@@ -197,3 +197,30 @@ def _timed():
 
     together.set_sigma = timed
     return times
+
+
+@scene
+def asking_before_acescg(found):
+    """Press Use ACEScg: it asks, ESC leaves the file as it is, and only the button changes it."""
+    yield from empty_file()
+    with driver.over(area("PROPERTIES")):
+        bpy.ops.rough_spectra.choose_sample("EXEC_DEFAULT", sample="colorchecker/18-cyan")
+    undo_step("Cyan")
+    yield 1.5
+    button = yield from find(area("PROPERTIES"), "rough_spectra.use_wide_gamut", 0.8)
+    yield from click(*button)
+    yield 1.0
+    driver.grab("asking")
+    found["asked"] = bpy.data.colorspace.working_space
+    yield from press("ESC")
+    yield 0.5
+    found["escaped"] = bpy.data.colorspace.working_space
+    yield from move(*button)
+    yield from click(*button)
+    yield 1.0
+    yield from press("RET")
+    yield 1.0
+    found["confirmed"] = [bpy.data.colorspace.working_space, state()["kind"]]
+    yield from press("Z", ctrl=True)
+    yield 1.0
+    found["undone"] = [bpy.data.colorspace.working_space, state()["kind"]]

@@ -374,3 +374,9 @@ def test_dragging_for_all(scene):
     assert scene["ball undone"] == scene["dragged"]
     assert scene["drag undone"] == scene["before"]
     assert len(scene["milliseconds"]) > 3
+
+
+def test_asking_before_acescg(scene):
+    assert scene["asked"] == scene["escaped"] == "Linear Rec.709"
+    assert scene["confirmed"] == ["ACEScg", "fresh"]
+    assert scene["undone"] == ["Linear Rec.709", "fresh"]
