@@ -20,6 +20,10 @@ SHADERS = ("lambert", "rough")
 """Blender's materials: the Diffuse BSDF with roughness 0 and with the matched one."""
 
 
+SLANTING_DEGREES = 45.0
+"""From the surface's normal: farther down than where an instrument's light comes from."""
+
+
 @dataclass(frozen=True)
 class Choice:
     """The cheapest that is good enough.
@@ -47,6 +51,7 @@ def choose_shader(
     errors_rough: npt.ArrayLike,
     tolerance: float = TOLERANCE,
     gloss: bool = False,
+    slanting: npt.ArrayLike | None = None,
 ) -> Choice:
     """Choose Blender's Lambertian or its rough material, both with the same reading at 45°/0°.
 
@@ -58,6 +63,10 @@ def choose_shader(
         Largest ΔE00 allowed.
     gloss
         Whether both lie under a gloss, which was set by hand and is kept: the reason says so.
+    slanting
+        In which of the directions light or view is more than `SLANTING_DEGREES` from the normal,
+        bool, of the same shape; None where nobody knows. Where only these are off by more than is
+        allowed, the reason says so.
 
     Returns
     -------
@@ -69,28 +78,39 @@ def choose_shader(
     >>> choice.model, choice.error
     ('rough', 0.3)
     >>> choice.reason
-    'rough: ΔE00 0.30 in the worst direction, within the 1 allowed; without roughness 2.50.'
+    'rough: within ΔE00 1 in all directions, at most 0.30; without roughness up to 2.50.'
+    >>> choose_shader([0.4, 2.5], [0.1, 1.3], slanting=[False, True]).reason.partition(";")[0]
+    'rough: off by more than ΔE00 1 in 50 % of directions, all slanting, at most 1.30'
     """
-    lambert, rough = (
-        float(np.max(np.where(np.isfinite(e), e, np.inf)))
-        for e in (np.asarray(errors_lambert), np.asarray(errors_rough))
-    )
-    errors = dict(zip(SHADERS, (lambert, rough), strict=True))
-    limit = f"the {tolerance:g} allowed"
-    kept = " with gloss, which is kept as it is set" if gloss else ""
-    if lambert <= tolerance:
-        worst = _number(lambert, tolerance)
-        reason = f"lambert{kept}: ΔE00 {worst} in the worst direction, within {limit}."
-        return Choice("lambert", lambert, errors, reason)
-    model = "rough" if rough <= tolerance or rough < lambert else "lambert"
-    other = SHADERS[1 - SHADERS.index(model)]
+    apart = {
+        name: np.where(np.isfinite(error), error, np.inf)
+        for name, error in zip(
+            SHADERS, map(np.asarray, (errors_lambert, errors_rough)), strict=True
+        )
+    }
+    errors = {name: float(error.max()) for name, error in apart.items()}
+    kept = " with gloss" if gloss else ""
+    if errors["lambert"] <= tolerance:
+        reason = f"lambert{kept}: {_off(apart['lambert'], tolerance, slanting)}."
+        return Choice("lambert", errors["lambert"], errors, reason)
+    is_rough = errors["rough"] <= tolerance or errors["rough"] < errors["lambert"]
+    model, other = SHADERS[::-1] if is_rough else SHADERS
     reason = (
-        f"{model}{kept}: ΔE00 {_number(errors[model], tolerance)} in the worst direction, "
-        f"{'within' if errors[model] <= tolerance else 'the closest there is to'} {limit}; "
-        f"{'without' if model == 'rough' else 'with'} roughness "
-        f"{_number(errors[other], tolerance)}."
+        f"{model}{kept}: {_off(apart[model], tolerance, slanting)}; "
+        f"{'without' if is_rough else 'with'} roughness up to {_number(errors[other], tolerance)}."
     )
     return Choice(model, errors[model], errors, reason)
+
+
+def _off(errors: npt.NDArray[np.float64], tolerance: float, slanting: npt.ArrayLike | None) -> str:
+    """Say in how many directions a material is off, and how far at most."""
+    far = errors > tolerance
+    most = f"at most {_number(float(errors.max()), tolerance)}"
+    if not far.any():
+        return f"within ΔE00 {tolerance:g} in all directions, {most}"
+    where = "" if slanting is None or np.any(far & ~np.asarray(slanting)) else ", all slanting"
+    share = max(round(100 * float(far.mean())), 1)
+    return f"off by more than ΔE00 {tolerance:g} in {share} % of directions{where}, {most}"
 
 
 def _number(error: float, tolerance: float) -> str:

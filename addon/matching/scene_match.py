@@ -166,7 +166,7 @@ def choose_shader(
     The material, and one sentence for a person.
     """
     worst = float(lambert.over_scene.max())
-    kept = " with gloss, which is kept as it is set" if gloss else ""
+    kept = " with gloss" if gloss else ""
     if worst <= tolerance:
         words = f"at most ΔE00 {worst:.2f} off in its scene, within {tolerance:g}."
         return lambert, f"lambert{kept}: {words}"

@@ -7,13 +7,14 @@ The targets are computed spectrally and turned into RGB at the end: RGB(ρ²) is
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ...core import cycles, instruments, ladder, reading
-from ...core.choice import choose_shader
+from ...core.choice import SLANTING_DEGREES, choose_shader
 from ...core.color import color_difference
 from ...core.cycles import gloss_reading, instrument_lobe, matching
 from ...core.gloss import Gloss
@@ -145,8 +146,13 @@ def _solve(
     flat = np.broadcast_to(smooth[:, np.newaxis], rough.shape)
     apart = color_difference.delta_e(perceive(np.stack((rough, flat))), wanted)
     (over_hemisphere, lambert), (met, met_smooth) = apart[..., :-1], apart[..., -1]
+    slanting = np.maximum(*geometries[:2]) > math.radians(SLANTING_DEGREES)
     shaders = [
-        choose_shader(lambert[i], over_hemisphere[i], request.tolerance, gloss is not None)
+        choose_shader(
+            *(lambert[i], over_hemisphere[i], request.tolerance),
+            gloss=gloss is not None,
+            slanting=slanting,
+        )
         if reason != ASKED_FOR
         else None
         for i, (request, reason) in enumerate(settled)

@@ -8,7 +8,7 @@ announce, thereby know nothing of those who subscribe: what derives, and what dr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -60,6 +60,9 @@ class Derived(NamedTuple):
 setting_changed = Event()
 """Announced with the material, one with a spectrum, whose setting was changed."""
 
+several_changed = Event()
+"""Announced with a list of materials with a spectrum that had a setting changed in one go."""
+
 derived = Event()
 """Announced, as `Derived`, when a setting was followed at once."""
 
@@ -74,6 +77,12 @@ def paused() -> Iterator[None]:
         yield
     finally:
         _pauses.pop()
+
+
+def announce_several(materials: Sequence[Any]) -> None:
+    """Announce that settings of several materials were changed, while `paused`."""
+    if materials and not _pauses:
+        several_changed.announce(materials)
 
 
 def on_setting(group: Any, _context: Any) -> None:

@@ -215,15 +215,60 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
     except RoughSpectraError as error:
         material.rough_spectra.error = str(error)
         return Derived(material, snapshot.of(material), None)
+    known = _follow(place, (request, written), palette, known, space)
+    request = replace(request, model=solution.model)
+    return Derived(material, known, Solved(request, solution, space))
+
+
+def follow_settings(pairs: Sequence[tuple[Any, Snapshot]]) -> list[Derived]:
+    """Do the same for several materials whose settings were changed at once.
+
+    Those that have all settings and gloss in common are solved once.
+
+    Parameters
+    ----------
+    pairs
+        Each as of `follow_setting`.
+
+    Returns
+    -------
+    What was found, of those that were solved; the others became the same.
+    """
+    done: list[Derived] = []
+    solved: dict[tuple[Any, ...], Solved | None] = {}
+    for material, known in pairs:
+        surface = known.surface
+        key = known.inputs, surface and (surface.gloss, surface.shader)
+        found = solved.get(key)
+        if found is None or surface is None or surface.linked or surface.scaled:
+            done.append(follow_setting(material, known))
+            solved[key] = done[-1].solved
+            continue
+        try:
+            place, request = _stored(material, material)
+        except RoughSpectraError as error:
+            material.rough_spectra.error = str(error)
+            continue
+        _follow(place, (request, found.solution), None, known, found.space)
+    return done
+
+
+def _follow(
+    place: shader_nodes.SocketTarget,
+    found: tuple[Request, Solution],
+    palette: Palette | None,
+    known: Snapshot,
+    space: WorkingSpace,
+) -> Snapshot:
+    """Write what was solved for a setting, and give the facts since; parameters as they go."""
+    request, written = found
+    material = place.material
     node = _write(place, written, palette)
     text = storage.set_stamp(material, written, space.name, node, known.inputs, request.gloss)
     if place.make or known.surface is None:
-        known = snapshot.of(material)
-    else:
-        surface = shader_nodes.written(known.surface, written.color, written.roughness)
-        known = known._replace(stamp=text, error="", surface=surface)
-    request = replace(request, model=solution.model)
-    return Derived(material, known, Solved(request, solution, space))
+        return snapshot.of(material)
+    surface = shader_nodes.written(known.surface, written.color, written.roughness)
+    return known._replace(stamp=text, error="", surface=surface)
 
 
 def _renew(

@@ -30,6 +30,20 @@ def _on_setting(material: Any) -> None:
         _derive(material, known)
 
 
+def _on_several(materials: Any) -> None:
+    """Derive color and roughness of all that follow; those that are alike are solved once."""
+    from . import derive, snapshot, state
+
+    known = [(material, snapshot.of(material)) for material in materials]
+    follow = [pair for pair in known if state.follows(pair[1])]
+    if not follow:
+        return
+    with changes.paused():
+        done = derive.follow_settings(follow)
+    for each in done:
+        changes.derived.announce(each)
+
+
 def _derive(material: Any, known: Any) -> None:
     from . import derive
 
@@ -100,6 +114,7 @@ def _on_update(scene: Any, depsgraph: Any) -> None:
 def register() -> None:
     """Follow settings and animation from now on, in every file."""
     changes.setting_changed.subscribe(_on_setting)
+    changes.several_changed.subscribe(_on_several)
     bpy.app.handlers.frame_change_post.append(_on_frame)
     bpy.app.handlers.depsgraph_update_post.append(_on_update)
 
@@ -108,4 +123,5 @@ def unregister() -> None:
     """Undo `register`."""
     bpy.app.handlers.depsgraph_update_post.remove(_on_update)
     bpy.app.handlers.frame_change_post.remove(_on_frame)
+    changes.several_changed.unsubscribe(_on_several)
     changes.setting_changed.unsubscribe(_on_setting)

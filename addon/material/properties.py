@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import bpy
 from bpy.props import (
     BoolProperty,
     EnumProperty,
@@ -24,7 +25,7 @@ from bpy.types import Material, PropertyGroup
 from ...core import limits, models, white_scale
 from ...core.instruments import DEFAULT, REGISTRY
 from ..matching import shaders
-from . import changes, gloss
+from . import changes, gloss, together
 
 SCHEMA = 1
 """Version of what is stored; raise it with each change, and let `storage` lift older files."""
@@ -104,8 +105,9 @@ OBSERVER_ITEMS = (
 
 SIGMA = {
     "name": "σ",
-    "description": "Roughness: the angle whose tangent is the rms slope of a profile across the "
-    "surface, a profilometer's Rdq. Sdq, of an area, is √2 larger",
+    "description": "How rough it is: 0° is smooth as a painted wall, 15° as fine plaster, 30° as "
+    "brick, 45° as gravel. It is σ, the angle whose tangent is the rms slope of a profile across "
+    "the surface, a profilometer's Rdq; Sdq, of an area, is √2 larger",
     "subtype": "ANGLE",
     "precision": 1,
     "step": 100,
@@ -113,6 +115,11 @@ SIGMA = {
     "max": limits.MATCHED_SIGMA,
 }
 """The slider of σ, wherever it stands."""
+
+_GLOSS = (
+    "How shiny it is: 0 is matte, 1 a mirror. It sets how sharp the shine is; how strong it is, "
+    "Specular IOR Level, stays as it was set, and so does the coat"
+)
 
 WHITE = {"name": "White", "description": "What the values are relative to"}
 PLAQUE = {
@@ -139,6 +146,14 @@ def _gloss(group: Any) -> float:
 
 def _put_gloss(group: Any, value: float) -> None:
     gloss.put(group.id_data, value)
+
+
+def _put_sigma_of_all(group: Any, value: float) -> None:
+    together.set_sigma(group.id_data, bpy.context.selected_objects, value)
+
+
+def _put_gloss_of_all(group: Any, value: float) -> None:
+    together.set_gloss(group.id_data, bpy.context.selected_objects, value)
 
 
 class RoughSpectraMaterial(PropertyGroup):
@@ -178,8 +193,7 @@ class RoughSpectraMaterial(PropertyGroup):
     )
     gloss: FloatProperty(
         name="Gloss",
-        description="How sharp the shine is, from 0, which is matte, to that of a mirror; how "
-        "strong it is, Specular IOR Level, stays as it was set, and so does the coat",
+        description=_GLOSS,
         subtype="FACTOR",
         precision=2,
         min=0.0,
@@ -188,6 +202,24 @@ class RoughSpectraMaterial(PropertyGroup):
         set=_put_gloss,
         update=changes.on_setting,
         options=set(),  # what it sets can be animated, and it would be set twice
+    )
+    sigma_of_all: FloatProperty(
+        **SIGMA
+        | {"description": f"{SIGMA['description']}. Of all selected objects of this sample"},
+        get=lambda group: float(group.sigma),
+        set=_put_sigma_of_all,
+        options=set(),  # one material's σ is animated
+    )
+    gloss_of_all: FloatProperty(
+        name="Gloss",
+        description=f"{_GLOSS}. Of all selected objects of this sample",
+        subtype="FACTOR",
+        precision=2,
+        min=0.0,
+        max=1.0,
+        get=_gloss,
+        set=_put_gloss_of_all,
+        options=set(),
     )
     illuminant: EnumProperty(
         name="Illuminant",

@@ -17,6 +17,7 @@ from ..colorimetry import perceptibility
 from ..matching import outside
 from . import settled, state
 from .derivation import DERIVATION, Stamp
+from .last_measurement import LastMeasurement
 from .properties import SCHEMA
 from .snapshot import Snapshot, digest
 from .state import State
@@ -30,6 +31,7 @@ Remedy = Literal[
 WIDE_SPACE = "ACEScg"
 """Working space that holds nearly all colors of surfaces."""
 
+_WORKBENCH = "BLENDER_WORKBENCH"
 _WIDE = {WIDE_SPACE, "Linear Rec.2020"}
 _NOTHING = 0.005
 """ΔE00 that is written as 0.00."""
@@ -40,7 +42,7 @@ Numbers = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
 
 _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
-    "engine": ("differs: roughness missing", "cycles"),
+    "engine": ("differs: Eevee lacks roughness", "cycles"),
     "lights": ("differs: several lights", ""),
     "gloss": ("differs: too glossy", "matte"),
     "white": ("differs: beyond white", ""),
@@ -50,7 +52,7 @@ _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
     "nothing": ("differs: unknown", ""),
 }
 
-_NEARLY: dict[Limit, str] = {"engine": "roughness missing", "gloss": "slightly too glossy"}
+_NEARLY: dict[Limit, str] = {"engine": "Eevee lacks roughness", "gloss": "slightly too glossy"}
 """What is said of these where the difference is small: what to do is plain then."""
 
 
@@ -72,7 +74,12 @@ class Verdict(NamedTuple):
     remedy: Remedy = ""
 
 
-def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdict:
+def of(
+    found: Snapshot,
+    apart: Numbers | None,
+    previewed: bool = False,
+    measured: LastMeasurement | None = None,
+) -> Verdict:
     """Judge a material with a spectrum.
 
     Parameters
@@ -83,6 +90,8 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
         ΔE00 of what it shows; None until they are computed, or where there are none.
     previewed
         Whether the window shows it by another engine than the scene's.
+    measured
+        Its last measurement, which counts where nothing is predicted.
     """
     known = state.evaluate(found)
     if known.kind == "linked":
@@ -90,13 +99,13 @@ def of(found: Snapshot, apart: Numbers | None, previewed: bool = False) -> Verdi
     if known.kind == "error":
         return _failed(found)
     if known.kind == "stale":
-        return _stale(found, known.stamp)
+        return _stale(found, known.stamp, measured)
     if known.kind == "kept":
         return _kept(known)
     if found.surface is not None and found.surface.scaled:
         return _scaled(found, known.stamp)
     if settled.obstacle(found.surface) is not None:
-        return Verdict("open", "cannot be predicted", "measure")
+        return _measured(measured)
     if apart is None or known.stamp is None:
         return Verdict("open", "comparing")
     judged = _judged(found, known.stamp, apart)
@@ -152,9 +161,12 @@ def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
     words, remedy = _DIFFERS[why]
     if remedy == "wide" and not has_wider_space(found.working_space):
         remedy = ""
-    if seen < perceptibility.VISIBLE:
-        return Verdict("near", _NEARLY.get(why, perceptibility.words(seen)), remedy)
-    return Verdict("off", words, remedy)
+    near = seen < perceptibility.VISIBLE
+    if near:
+        words = _NEARLY.get(why, perceptibility.words(seen))
+    if found.engine == _WORKBENCH:  # by its name: the roughness is there, and the engine lacks it
+        words = words.replace("Eevee", "Workbench")
+    return Verdict("near" if near else "off", words, remedy)
 
 
 def has_wider_space(name: str) -> bool:
@@ -172,7 +184,22 @@ def _failed(found: Snapshot) -> Verdict:
     return Verdict("off", "could not follow", "renew")
 
 
-def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
+def _measured(last: LastMeasurement | None) -> Verdict:
+    """Judge by a measurement what no number is predicted of; its ΔE00 is told in Details."""
+    if last is None or last.delta_e is None:
+        return Verdict("open", "cannot be predicted", "measure")
+    if not last.current:
+        return Verdict("open", "changed since measured", "measure")
+    if last.delta_e >= perceptibility.VISIBLE:
+        return Verdict("off", "measured: differs", "measure")
+    near = last.delta_e >= perceptibility.SIDE_BY_SIDE
+    words = perceptibility.words(last.delta_e) if near else "looks right"
+    if last.unlike:
+        return Verdict("open", f"measured flat: {words}")
+    return Verdict("near" if near else "right", f"measured: {words}")
+
+
+def _stale(found: Snapshot, last: Stamp | None, measured: LastMeasurement | None) -> Verdict:
     surface = found.surface
     if last is None:
         return Verdict("off", "not matched yet", "renew")
@@ -181,7 +208,7 @@ def _stale(found: Snapshot, last: Stamp | None) -> Verdict:
     if surface is not None and surface.muted:
         return Verdict("off", "node is muted", "unmute")
     if surface is not None and surface.disturbing:
-        return Verdict("open", "cannot be predicted", "measure")
+        return _measured(measured)
     if surface is not None and surface.roughness_linked:
         return Verdict("off", "roughness is linked", "renew")
     if surface is not None and surface.linked:

@@ -400,3 +400,23 @@ def test_ticks_that_would_touch_are_thinned_evenly():
         [[x, _]] = axes.place([value], [0])
         width = text.width("30°", DARK.font) / 4
         assert not inked[int(x - width) + 2 : int(x)].all()
+
+
+def test_the_shinier_the_smaller_and_brighter_is_the_highlight_up_to_a_mirror():
+    """A mirror shows a light without width in no pixel: the ball was as dull at Gloss 1 as at 0."""
+    color, dull = np.full(3, 0.1), None
+    brightest, areas = [], []
+    for roughness in (1.0, 0.7, 0.5, 0.3, 0.15, 0.0):
+        ball = figures.ball(96, color, 0.2, np.eye(3), Gloss(roughness=roughness))[..., 1].astype(
+            int
+        )
+        dull = figures.ball(96, color, 0.2, np.eye(3))[..., 1].astype(int)
+        brightest.append(ball.max())
+        areas.append(int((ball > (dull.max() + ball.max()) / 2).sum()))
+    assert brightest[-1] == 255
+    assert brightest == sorted(brightest)
+    assert areas[1:] == sorted(areas[1:], reverse=True)
+    assert 4 <= areas[-1] < areas[2] / 4
+    for coat in (0.0, 0.03):  # the coat's mirror shows, too
+        gloss = Gloss(level=0.0, coat=1.0, coat_roughness=coat)
+        assert figures.ball(96, color, 0.2, np.eye(3), gloss)[..., 1].max() == 255

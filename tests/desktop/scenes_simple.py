@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What everybody does in the panel, with one click or drag each."""
 
+import math
+import time
+
 import bpy
+import driver
 from driver import TICK, area, click, find, move, press, scene, window, write
 from stage import empty_file, green_file, ours, state, undo_step, wall
 
@@ -101,3 +105,122 @@ def grease_pencil(found):
         found["shown"] = True
     except LookupError:
         found["shown"] = False
+
+
+@scene
+def choosing_the_files_own(found):
+    """Make brick rougher on the wall, and choose it for the next object: the first row is it."""
+    yield from empty_file()
+    with driver.over(area("PROPERTIES")):
+        bpy.ops.rough_spectra.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
+    wall().rough_spectra.sigma, wall().rough_spectra.gloss = math.radians(40), 0.5
+    other = bpy.data.objects.new("Other", wall_mesh())
+    bpy.context.scene.collection.objects.link(other)
+    bpy.data.objects["Wall"].select_set(False)
+    other.select_set(True)
+    bpy.context.view_layer.objects.active = other
+    undo_step("Other")
+    yield 1.0
+    _, y = yield from find(area("PROPERTIES"), "rough_spectra.find_nearest", 0.95)
+    yield from click(area("PROPERTIES").x + area("PROPERTIES").width // 2, y)
+    yield 1.0
+    yield from write("brick")
+    yield 1.0
+    driver.grab("files_own")
+    yield from press("RET")
+    yield 1.0
+    made = bpy.data.objects["Other"].active_material
+    found["same"] = made is not None and made == wall()
+    found["materials"] = len(bpy.data.materials)
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = bpy.data.objects["Other"].active_material is None
+
+
+def wall_mesh():
+    """Give a mesh as the wall's, without a material."""
+    mesh = bpy.data.objects["Wall"].data.copy()
+    mesh.materials.clear()
+    return mesh
+
+
+@scene
+def dragging_for_all(found):
+    """Select three objects with a material each, drag Roughness and click a ball; undo both."""
+    yield from green_file()
+    names = ["Wall", "Second", "Third"]
+    for name in names[1:]:
+        thing = bpy.data.objects.new(name, wall_mesh())
+        bpy.context.scene.collection.objects.link(thing)
+        thing.active_material = wall().copy()
+        thing.select_set(True)
+    undo_step("Three")
+    yield 1.0
+    found["before"] = _all(names)
+    x, y = yield from find(area("PROPERTIES"), "sigma_of_all")
+    times = _timed()
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield TICK
+    for step in range(1, 25):
+        yield from move(x + 3 * step, y)
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x + 72, y=y)
+    yield 0.5
+    found["milliseconds"] = sorted(times)
+    found["dragged"] = _all(names)
+    driver.grab("for_all")
+    x, y = yield from find(area("PROPERTIES"), "rough_spectra.set_roughness", 0.9)
+    yield from click(x, y)
+    yield 0.5
+    found["clicked"] = _all(names)
+    for step in ("ball undone", "drag undone"):
+        yield from press("Z", ctrl=True)
+        yield 0.5
+        found[step] = _all(names)
+
+
+def _all(names):
+    """Give σ in degrees and the state of each object's material."""
+    kind = ours("addon.material.state").state
+    found = [bpy.data.objects[name].active_material for name in names]
+    return [[round(math.degrees(m.rough_spectra.sigma), 2), kind(m).kind] for m in found]
+
+
+def _timed():
+    """Note how long each step takes from now on, in milliseconds."""
+    together, times = ours("addon.material.together"), []
+    real = together.set_sigma
+
+    def timed(*arguments):
+        begin = time.perf_counter()
+        real(*arguments)
+        times.append(1e3 * (time.perf_counter() - begin))
+
+    together.set_sigma = timed
+    return times
+
+
+@scene
+def asking_before_acescg(found):
+    """Press Use ACEScg: it asks, ESC leaves the file as it is, and only the button changes it."""
+    yield from empty_file()
+    with driver.over(area("PROPERTIES")):
+        bpy.ops.rough_spectra.choose_sample("EXEC_DEFAULT", sample="colorchecker/18-cyan")
+    undo_step("Cyan")
+    yield 1.5
+    button = yield from find(area("PROPERTIES"), "rough_spectra.use_wide_gamut", 0.8)
+    yield from click(*button)
+    yield 1.0
+    driver.grab("asking")
+    found["asked"] = bpy.data.colorspace.working_space
+    yield from press("ESC")
+    yield 0.5
+    found["escaped"] = bpy.data.colorspace.working_space
+    yield from move(*button)
+    yield from click(*button)
+    yield 1.0
+    yield from press("RET")
+    yield 1.0
+    found["confirmed"] = [bpy.data.colorspace.working_space, state()["kind"]]
+    yield from press("Z", ctrl=True)
+    yield 1.0
+    found["undone"] = [bpy.data.colorspace.working_space, state()["kind"]]

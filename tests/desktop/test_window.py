@@ -359,3 +359,24 @@ def test_choosing_a_light_spectrum(scene):
     assert scene["before"] == "F11"
     assert scene["chosen"] == ["MEASURED", "sodium.csv"]
     assert scene["undone"] == "F11"
+
+
+def test_choosing_the_files_own(scene):
+    assert scene == {"same": True, "materials": 1, "undone": True}
+
+
+def test_dragging_for_all(scene):
+    assert scene["before"] == [[30, "fresh"]] * 3
+    [dragged] = {tuple(each) for each in scene["dragged"]}
+    assert dragged[0] > 31
+    assert dragged[1] == "fresh"
+    assert scene["clicked"] == [[45, "fresh"]] * 3
+    assert scene["ball undone"] == scene["dragged"]
+    assert scene["drag undone"] == scene["before"]
+    assert len(scene["milliseconds"]) > 3
+
+
+def test_asking_before_acescg(scene):
+    assert scene["asked"] == scene["escaped"] == "Linear Rec.709"
+    assert scene["confirmed"] == ["ACEScg", "fresh"]
+    assert scene["undone"] == ["Linear Rec.709", "fresh"]

@@ -141,7 +141,7 @@ def test_objects_without_a_material_share_a_new_one_that_is_called_as_the_sample
     assert [thing.active_material for thing in things] == [material] * 3
     assert material.name == "Brick"
     choose(GREEN)
-    assert material.name == "Brick"
+    assert material.name == "ColorChecker 14 Green"
 
 
 def test_one_of_several_that_cannot_be_set_leaves_all_as_they_were():
@@ -265,3 +265,134 @@ def test_the_list_begins_with_everyday_materials_and_ends_with_yours(tmp_path, m
     assert list(dict.fromkeys(listed)) == ["everyday", "colorchecker", "atelier"]
     monkeypatch.undo()
     choose_sample._fill()
+
+
+def listed():
+    from rough_spectra.addon.interface.operators import choose_sample
+
+    choose_sample._fill()
+    return [(identifier, label) for identifier, label, *_ in choose_sample._items]
+
+
+def test_the_list_first_offers_the_files_own_and_gives_the_very_material(empty_file):
+    wall = mesh_object("Wall")
+    assert " – in this file" not in listed()[0][1]
+    assert dict(listed())[BRICK] == "Brick"
+    choose(BRICK)
+    brick = wall.active_material
+    brick.rough_spectra.sigma, brick.rough_spectra.gloss = math.radians(40), 0.6
+    choose(GREEN, scope="ACTIVE")
+    mesh_object("Chart").data.materials.append(rgb_material("Chart"))
+    for_chart = bpy.data.objects["Chart"]
+    choose(BRICK)
+    own = [(identifier, label) for identifier, label in listed() if "in this file" in label]
+    assert own == listed()[: len(own)]
+    # Blender ranks what is before its menus' arrow lower: nothing new comes before the file's own.
+    assert all("▸" in label for _, label in listed()[len(own) :])
+    named = {label: identifier for identifier, label in own}
+    assert set(named) == {"ColorChecker 14 Green – in this file", "Chart (Brick) – in this file"}
+    count = len(bpy.data.materials)
+    other, more = mesh_object("Other", rgb_material("Others")), mesh_object("More")
+    for_chart.select_set(False)
+    wall.select_set(False)
+    chart = for_chart.active_material
+    before = chart.rough_spectra.stamp
+    choose(named["Chart (Brick) – in this file"], scope="EACH")
+    assert other.active_material == more.active_material == chart
+    assert chart.rough_spectra.stamp == before
+    assert len(bpy.data.materials) == count + 1  # that of rgb_material
+
+
+def test_the_files_own_has_its_ball_as_it_is_now():
+    from rough_spectra.addon.interface.operators import of_this_file
+
+    wall = mesh_object("Wall")
+    choose(BRICK)
+    [before] = of_this_file.entries()
+    wall.active_material.rough_spectra.sigma = math.radians(45)
+    wall.active_material.rough_spectra.gloss = 0.5
+    [after] = of_this_file.entries()
+    assert (before.pictured.sigma_degrees, after.pictured.sigma_degrees) == (20, 45)
+    assert before.pictured.gloss is None
+    assert after.pictured.gloss.roughness == pytest.approx(0.5)
+    assert after.pictured.color == before.pictured.color
+    red, green, blue = after.pictured.color
+    assert red > green > blue
+    bpy.data.meshes.remove(wall.data)
+    assert of_this_file.entries() == []  # nothing uses it any more: who deleted it knows it as gone
+
+
+def test_a_material_of_the_file_that_is_gone_is_told(empty_file):
+    from rough_spectra.addon.interface.operators import choose_sample
+
+    wall = mesh_object("Wall")
+    choose(BRICK)
+    [own, *_] = [identifier for identifier, label in listed() if "in this file" in label]
+    bpy.data.materials.remove(wall.active_material)
+    with pytest.raises(RuntimeError, match="no longer in this file"):
+        OPS.choose_sample("EXEC_DEFAULT", sample=own)
+    choose_sample._fill()
+
+
+def untouched(name):
+    """A material as the button New makes it, in Blender 4.5 too."""
+    made = bpy.data.materials.new(name)
+    if not made.use_nodes:
+        made.use_nodes = True
+    return made
+
+
+def test_objects_that_nobody_gave_a_material_share_one(empty_file):
+    """Bare, or with what Blender itself made; of one's own, every object keeps its own."""
+    plain, more = untouched("Material"), untouched("Material")
+    typed, changed = untouched("Floor"), untouched("Material")
+    node = next(node for node in changed.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Roughness"].default_value = 0.2
+    things = [mesh_object(m.name, m) for m in (plain, more, typed, changed)]
+    things.append(mesh_object("Bare"))
+    choose(BRICK, scope="EACH")
+    [first, second, third, fourth, bare] = [thing.active_material for thing in things]
+    assert first == second == bare == plain
+    assert (third, fourth) == (typed, changed)
+    names = [material.name for material in (first, third, fourth)]
+    assert names == ["Brick", "Floor", "Material.002"]
+    assert all(m.rough_spectra.sample_name == "Brick" for m in (first, third, fourth))
+    assert not more.rough_spectra.spectrum
+
+
+def test_the_cube_of_the_first_file_shares_its_material(empty_file):
+    bpy.ops.wm.read_factory_settings()
+    cube = bpy.data.objects["Cube"]
+    other = mesh_object("Other", untouched("Material"))
+    cube.select_set(True)
+    bpy.context.view_layer.objects.active = cube
+    choose(BRICK, scope="EACH")
+    assert other.active_material == cube.active_material
+    assert cube.active_material.name == "Brick"
+
+
+def test_a_name_of_ours_follows_the_sample_and_one_of_the_users_never(empty_file):
+    taken = mesh_object("Taken")
+    choose(BRICK)
+    wall = mesh_object("Wall")
+    choose(BRICK)
+    assert wall.active_material.name == "Brick.001"
+    choose(GREEN)
+    assert wall.active_material.name == "ColorChecker 14 Green"
+    choose(BRICK)
+    assert wall.active_material.name == "Brick.001"
+    wall.active_material.name = "Old wall"
+    choose(GREEN)
+    assert wall.active_material.name == "Old wall"
+    assert taken.active_material.name == "Brick"
+
+
+def test_a_name_that_blender_cut_is_still_ours(empty_file, tmp_path):
+    long = "Weathered " * 40
+    path = tmp_path / "long.csv"
+    path.write_text(f"nm,{long.strip()}\n" + "\n".join(f"{nm},0.4" for nm in range(400, 701, 20)))
+    wall = mesh_object("Wall")
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(path))
+    assert len(wall.active_material.name) < len(long)
+    choose(BRICK)
+    assert wall.active_material.name == "Brick"

@@ -14,7 +14,14 @@ from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.addon.interface.operators import common
 from rough_spectra.addon.interface.panels import panels, renewal, sentences, simple, text
 from rough_spectra.addon.matching.request import Request
-from rough_spectra.addon.material import derive, snapshot, state, storage, verdict
+from rough_spectra.addon.material import (
+    derive,
+    last_measurement,
+    snapshot,
+    state,
+    storage,
+    verdict,
+)
 from rough_spectra.addon.preview import balls, icons, theme
 
 from tests.integration.support import rgb_material
@@ -24,6 +31,8 @@ from tests.integration.test_panels import OPS, Layout, context, drawn
 BRICK, CYAN = "everyday/brick", "colorchecker/18-cyan"
 MARKS = {simple.icon_value(icon): mark for mark, icon in simple._MARKS.items()}
 WORDS, NUMBERS = 20, 3
+_ENGINE = bpy.types.RenderSettings.bl_rna.properties["engine"]
+ENGINES = {item.identifier for item in _ENGINE.enum_items}
 
 
 class Shown(Layout):
@@ -195,7 +204,7 @@ STATES = {
     "textured": (textured, "off: texture not matched", "renew"),
     "metallic": (metallic, "open: cannot be predicted", "remove_obstacle"),
     "too dark": (too_dark, "off: differs: texture too dark", None),
-    "flat": (flat, "off: differs: roughness missing", "switch_to_cycles"),
+    "flat": (flat, "off: differs: Workbench lacks roughness", "switch_to_cycles"),
     "shiny": (shiny, "off: differs: too glossy", "remove_gloss"),
     "steep": (steep, "off: brighter than possible", "set_roughness"),
     "another space": (other_space, "off: color space changed", "renew"),
@@ -223,12 +232,54 @@ def test_the_remedy_makes_it_look_right(name):
     assert judged()[0] == "right: looks right"
 
 
+@pytest.mark.parametrize(
+    ("delta_e", "words"),
+    [
+        (0.1, "right: measured: looks right"),
+        (1.5, "near: measured: visible side by side"),
+        (4.0, "off: measured: differs"),
+    ],
+)
+def test_what_was_measured_stays_to_be_read_where_nothing_is_predicted(delta_e, words):
+    metallic()
+    material = bpy.data.materials["Wall"]
+    of = last_measurement.fingerprint(material)
+    last_measurement.note(material, of, (0.1, 0.1, 0.1), delta_e)
+    told, remedy = judged()
+    assert told == words
+    assert (remedy is None) == (delta_e < 2)
+    shader(material).inputs["Metallic"].default_value = 0.6
+    told, remedy = judged()
+    assert told == "open: changed since measured"
+    assert remedy is not None
+    last_measurement.note(material, last_measurement.fingerprint(material), (0, 0, 0), None)
+    assert judged()[0] == "open: cannot be predicted"
+
+
+def test_what_a_flat_sample_cannot_show_makes_no_green():
+    metallic()
+    material = bpy.data.materials["Wall"]
+    of = last_measurement.fingerprint(material)
+    last_measurement.note(material, of, (0.1, 0.1, 0.1), 0.1, unlike=("it has no UV map",))
+    assert judged()[0] == "open: measured flat: looks right"
+
+
+def test_it_is_the_engine_that_is_said_to_lack_the_roughness():
+    """Below a roughness of 20° it would sound as if that one were missing."""
+    flat()
+    eevee = next(e for e in snapshot._FLAT_ENGINES if e in ENGINES and e != "BLENDER_WORKBENCH")
+    bpy.context.scene.render.engine = eevee
+    told, _ = judged()
+    assert told == "off: differs: Eevee lacks roughness"
+    assert len(told.rpartition(":")[2].split()) <= 3
+
+
 def test_a_small_difference_names_its_reason_where_something_can_be_done():
     """As with the cube of a factory start, whose engine leaves the roughness out."""
     wall(degrees=15)
     bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
     told, remedy = judged()
-    assert told == "near: roughness missing"
+    assert told == "near: Workbench lacks roughness"
     assert remedy[0] == "rough_spectra.switch_to_cycles"
 
 
@@ -478,7 +529,7 @@ def test_no_two_lines_of_the_numbers_contradict_each_other():
     page = drawn()
     [spread] = [line for line in page if line.startswith("95 %")]
     assert re.fullmatch(r"95 % of them: below ΔE00 \d\.\d\d", spread)
-    assert not any("at worst" in line or " off" in line for line in page)
+    assert not any("worst" in line for line in page)
 
 
 def test_what_a_sentence_names_is_a_button_below_it():

@@ -1,16 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Choose a sample by name, with a picture beside it, from presets and library."""
+"""Choose a sample by name, with a picture beside it, from the file, presets and library."""
 
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.props import EnumProperty
 
-from . import ahead, common, looking
+from . import ahead, common, looking, of_this_file
 
 if TYPE_CHECKING:
     from ...samples.entry import Entry
@@ -23,6 +25,9 @@ _before: list[tuple[str, str, str, int, int]] = []
 _is_partial = False
 """Whether only the presets are in the list."""
 
+_BEHIND = "\u25b8"
+"""What Blender's menus have between their names: search ranks what is before it lower, so that the
+file's own come first whatever is typed, though their names are longer."""
 _UNKNOWN = "NONE"
 _CHART = "colorchecker"
 
@@ -46,25 +51,35 @@ def _fill() -> None:
     # Things to make walls of before patches of a chart. Yours come last: they are added while the
     # list is open, and what is in it keeps its number.
     entries = sorted(found, key=lambda each: (not each.is_preset, each.collection == _CHART))
+    own = of_this_file.entries()
     _before[:] = _items
     glosses = preset_index.glosses_of_presets()
     pictures = list_icons.icon_ids(
         [
-            list_icons.Pictured(each.swatch, each.sigma_degrees or 0.0, glosses.get(each.id))
-            for each in entries
+            *(each.pictured for each in own),
+            *(
+                list_icons.Pictured(each.swatch, each.sigma_degrees or 0.0, glosses.get(each.id))
+                for each in entries
+            ),
         ]
     )
     count = Counter(entry.name for entry in entries)
+    new = f" {_BEHIND} {iface_('new')}" if own else ""
     _items[:] = [
+        (each.identifier, each.label, each.about, picture, each.number)
+        for each, picture in zip(own, pictures, strict=False)
+    ] + [
         (
             entry.id,
-            entry.name if count[entry.name] == 1 else f"{entry.name} ({entry.collection})",
+            (entry.name if count[entry.name] == 1 else f"{entry.name} ({entry.collection})") + new,
             _about(entry),
             picture,
             number,
         )
-        for number, (entry, picture) in enumerate(zip(entries, pictures, strict=True))
-    ] or [(_UNKNOWN, "No Samples", "Install the extension again", 0, 0)]
+        for number, (entry, picture) in enumerate(zip(entries, pictures[len(own) :], strict=True))
+    ]
+    if not _items:
+        _items.append((_UNKNOWN, "No Samples", "Install the extension again", 0, 0))
 
 
 def _entries() -> tuple[tuple[Entry, ...], bool]:
@@ -104,7 +119,7 @@ class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bp
         return common.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
-        """Let the user search presets and library by name."""
+        """Let the user search the file's own materials, presets and library by name."""
         ahead.begin()
         _fill()
         common.begin_scope(self, context)
@@ -112,7 +127,13 @@ class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bp
         return {"FINISHED"}
 
     def work(self, context: Any) -> looking.Work:
-        """Assign to all materials in scope, or to none; an object without one gets one."""
+        """Assign to all materials in scope, or to none; an object without one gets one.
+
+        A material of the file is given to the objects itself.
+        """
+        if of_this_file.is_one(self.sample):
+            given = partial(of_this_file.give, context, self.scope, self.sample)
+            return looking.Work([], None, lambda _materials, _looked: given())
         return looking.assignment(self, context, common.of_library(self.sample))
 
 

@@ -293,9 +293,9 @@ class Aim(NamedTuple):
     Parameters
     ----------
     materials
-        That of the active object first.
+        The one that is shared first.
     bare
-        Objects without one, which get the first, or a new one.
+        Objects that nobody gave one, which share the first, or a new one.
     makes
         Whether a new one is made, called as the sample.
     """
@@ -315,11 +315,35 @@ def aim(context: Any, scope: str) -> Aim:
     """
     materials, bare = _in_scope(context, scope)
     for thing in bare:
-        if not (thing.is_editable and thing.data.is_editable):
-            msg = f"Object {thing.name!r} is linked; make it local first, to give it one."
-            raise RoughSpectraError(msg)
+        refuse_linked(thing)
     makes = bool(bare) and not (materials and active_object(context) not in bare)
-    return Aim(materials, bare, makes)
+    if scope != "EACH":
+        return Aim(materials, bare, makes)
+    # What Blender made, and nobody touched since, is no material of an object's own.
+    from ...blender import untouched
+
+    spare = untouched.among(materials)
+    if makes and spare:
+        materials = [spare[0], *(each for each in materials if each != spare[0])]
+        makes = False
+    replaced = set(spare) - {*materials[:1]}
+    things = _carriers(context)
+    idle = {each for each in things if each.active_material in replaced and is_local_object(each)}
+    kept = {*materials[:1], *(each.active_material for each in things if each not in idle)}
+    shared = [*bare, *(each for each in things if each in idle)]
+    return Aim([each for each in materials if each in kept], shared, makes)
+
+
+def is_local_object(thing: Any) -> bool:
+    """Whether an object's materials may be exchanged."""
+    return bool(thing.is_editable and thing.data.is_editable)
+
+
+def refuse_linked(thing: Any) -> None:
+    """Raise `RoughSpectraError` unless an object's materials may be exchanged."""
+    if not is_local_object(thing):
+        msg = f"Object {thing.name!r} is linked; make it local first, to give it one."
+        raise RoughSpectraError(msg)
 
 
 def assign_sample(
@@ -332,9 +356,10 @@ def assign_sample(
     """Assign a sample by an operator's `AssignOptions`, to all that is meant or to nothing.
 
     Each material keeps its light, model, tolerance, shader and gloss, unless the operator was told
-    otherwise, and its roughness if the user set it. An object without a material gets one that is
-    called as the sample; several share it. `looked` is as of `derive.assign`; `sigma`, radians,
-    counts instead of the operator's.
+    otherwise, and its roughness if the user set it. Objects without a material, or with one that
+    nobody touched since Blender made it, share one that is called as the sample. So is one
+    afterwards whose name was ours; a name that the user typed stays. `looked` is as of
+    `derive.assign`; `sigma`, radians, counts instead of the operator's.
 
     Returns
     -------
@@ -368,9 +393,10 @@ def _assign(
 ) -> list[tuple[Any, Solution]]:
     from ...blender import shader_nodes
     from ...matching import own_gloss
-    from ...material import derive, storage
+    from ...material import derive, naming, storage
 
     shines = own_gloss.of_sample(sample) is not None
+    ours = naming.given_by_us(aimed.materials)
     made = shader_nodes.new_material(sample.name, shines) if aimed.makes else None
     materials = aimed.materials if made is None else [made, *aimed.materials]
     try:
@@ -389,8 +415,9 @@ def _assign(
         if gloss is not None:
             storage.note_own_gloss(material, storage.shown_gloss(material))
     for thing in aimed.bare:
-        if thing.active_material is None:  # one of the same mesh may have been given it
+        if thing.active_material != materials[0]:  # one of the same mesh may have been given it
             thing.active_material = materials[0]
+    naming.rename(ours, sample.name)
     return list(zip(materials, solutions, strict=True))
 
 
@@ -424,21 +451,31 @@ def _in_scope(context: Any, scope: str) -> tuple[list[Any], list[Any]]:
     """
     if scope == "SELECTED" or (scope == "ACTIVE" and active_material(context) is not None):
         return materials_in_scope(context, scope), []
-    things: list[Any]
-    if scope == "ACTIVE":
-        active = active_object(context)
-        things = [active] if can_carry(active) else []
-        if not things:
-            msg = "There is no object that can carry a material; select a mesh first."
-            raise RoughSpectraError(msg)
-    else:
-        things = _carriers(context)
-        if not things:
-            msg = "No selected object can carry a material; select meshes first."
-            raise RoughSpectraError(msg)
+    things = carriers_in_scope(context, scope)
     found = dict.fromkeys(thing.active_material for thing in things)
     found.pop(None, None)
     return list(found), [thing for thing in things if thing.active_material is None]
+
+
+def carriers_in_scope(context: Any, scope: str) -> list[Any]:
+    """Give the objects that a scope of `AssignOptions` means, the active one first.
+
+    Raises
+    ------
+    RoughSpectraError
+        If there is none.
+    """
+    if scope == "ACTIVE":
+        active = active_object(context)
+        if can_carry(active):
+            return [active]
+        msg = "There is no object that can carry a material; select a mesh first."
+        raise RoughSpectraError(msg)
+    things = _carriers(context)
+    if not things:
+        msg = "No selected object can carry a material; select meshes first."
+        raise RoughSpectraError(msg)
+    return things
 
 
 def of_library(name: str) -> Sample:

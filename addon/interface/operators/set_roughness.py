@@ -15,7 +15,7 @@ from . import common
 
 
 class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
-    """Set the roughness, σ, to a value"""
+    """Set how rough it is, for all selected objects of this sample"""
 
     bl_idname = "rough_spectra.set_roughness"
     bl_label = "Set Roughness"
@@ -30,7 +30,7 @@ class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
 
         found = round(degrees(properties.sigma), 1)
         word = tip_(roughness_words.word(found))
-        return tip_("Set the roughness, σ, to {degrees}°: {word}").format(
+        return tip_("Make it {word}: a roughness, σ, of {degrees}°").format(
             degrees=f"{found:g}", word=word
         )
 
@@ -40,9 +40,12 @@ class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
         return common.has_own_spectrum(cls, context)
 
     def execute(self, context: Any) -> set[str]:
-        """Set it; color and roughness follow."""
+        """Set it for all that are meant; color and roughness follow."""
+        from ...material import together
+
         material: Any = common.active_material(context)
-        material.rough_spectra.sigma = radians(round(degrees(self.sigma), 3))
+        sigma = radians(round(degrees(self.sigma), 3))
+        together.set_sigma(material, context.selected_objects, sigma)
         return {"FINISHED"}
 
 

@@ -9,12 +9,13 @@ from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 
 from . import common, looking
 
 
 class ROUGHSPECTRA_OT_use_wide_gamut(looking.LooksFirst, bpy.types.Operator):
-    """Let this file work in ACEScg, which holds more colors, and derive all materials anew"""
+    """Let the whole file work in ACEScg, which holds more colors"""
 
     bl_idname = "rough_spectra.use_wide_gamut"
     bl_label = "Use ACEScg"
@@ -22,6 +23,15 @@ class ROUGHSPECTRA_OT_use_wide_gamut(looking.LooksFirst, bpy.types.Operator):
     menu_place = 2, 8
 
     stopped = "Looking at textures was stopped; their materials are to be renewed"
+
+    @classmethod
+    def description(cls, _context: Any, _properties: Any) -> str:
+        """Say what changes besides the material at hand."""
+        return tip_(
+            "Change the color space of the whole file, not of one material alone, to ACEScg, which "
+            "holds this color. All other colors are converted and look the same. Asks before, and "
+            "Undo takes it back"
+        )
 
     @classmethod
     def poll(cls, _context: Any) -> bool:
@@ -33,6 +43,25 @@ class ROUGHSPECTRA_OT_use_wide_gamut(looking.LooksFirst, bpy.types.Operator):
             cls.poll_message_set("The file works in a wide space, or Blender has no other")
             return False
         return True
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Tell what changes before it does: it is all of the file, and not this material alone."""
+        lines = (
+            "The whole file will work in ACEScg, which holds more colors.",
+            "All colors of materials, lights and worlds are converted, and look the same.",
+            "Materials with a spectrum follow; Renew derives any that is left behind.",
+            "Undo takes it back.",
+        )
+        return set(
+            context.window_manager.invoke_confirm(
+                self,
+                event,
+                title=rpt_("Use ACEScg for this file?"),
+                message="\n".join(map(rpt_, lines)),
+                confirm_text=rpt_("Use ACEScg"),
+                icon="NONE",
+            )
+        )
 
     def execute(self, context: Any) -> set[str]:
         """Switch, and renew what was up to date: its color follows, and nothing else does."""

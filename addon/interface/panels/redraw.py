@@ -11,7 +11,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from ...material import settled, snapshot, state
+from ...material import last_measurement, settled, snapshot, state, together
 from ...preview import icons, theme
 from ...preview.drawing import looks
 from ..operators import common
@@ -44,11 +44,16 @@ class Redraw:
         self.has_material = material is not None
         self.scale = look.scale
         self.previewed = False
+        self.together = together.Together([], 0)
         self.shown = None
+        self.measured = None
         found = None if material is None else snapshot.of(material)
         if found is not None and found.inputs.spectrum:
             unit = icons.unit(look.scale, preferences.system.pixel_size)
+            self.together = together.shown(material, context.selected_objects)
             self.shown = PanelMaterial(material.session_uid, found, look, unit)
+            if self.shown.obstacle is not None:
+                self.measured = last_measurement.get(material, found)
             # Of a scene for Cycles, Material Preview is of another engine than the scene's.
             self.previewed = not found.flat and bool(common.previews(context))
 

@@ -30,17 +30,17 @@ _KEPT = 1024
 SWATCHES = 98.0
 """Pixels at UI scale 1 that the swatches take beside the numbers."""
 
-_EVERYWHERE = "All angles"
+_EVERYWHERE = "All angles, mean"
 _BOX = 24.0
-_ANGLES = "Limited by the angles: one roughness has to fit all of them"
+_ANGLES = "Limited by the angles: one roughness for all of them"
 _LIMITS: dict[verdict.Limit, str] = {
-    "nothing": "Limited by nothing: Blender shows the target",
+    "nothing": "Limited by nothing",
     "engine": "Limited by the engine: only Cycles shows the roughness",
     "lights": "Limited by the lights: no single color is right under all of them",
     "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
     "white": "Limited by white: the sample reads more there than a white material",
     "gamut": "Limited by the gamut: {space} cannot hold this color",
-    "lambert": "Limited by leaving the roughness out, which hardly shows here",
+    "lambert": "Limited by leaving the roughness out, which hardly shows",
     "angles": _ANGLES,
 }
 _DAMAGED = (
@@ -79,6 +79,13 @@ def style(form: Format) -> Style:
 def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
     """Give one sentence, from a label that is to be translated."""
     return (how.format.sentence(iface_(text), icon),)
+
+
+@memoized(maxsize=64)
+def together(count: int, is_exact: bool, how: Style) -> tuple[Sentence, ...]:
+    """Say how many selected objects balls and sliders act on."""
+    of_all = iface_("{count} selected objects") if is_exact else iface_("up to {count} objects")
+    return (how.format.sentence(of_all.format(count=count), "RESTRICT_SELECT_OFF"),)
 
 
 @memoized(maxsize=_KEPT)

@@ -148,16 +148,21 @@ def _draw_sliders(
     label = iface_("Roughness")
     word = iface_(roughness_words.word(shown.facts.inputs.sigma_degrees))
     told = here.format.fitting((f"{label}: {word}", label, iface_("Rough")), inset + _VALUE)
-    column.prop(group, "sigma", text=told, slider=True, translate=False)
+    several = len(here.together.materials) > 1
+    names = ("sigma_of_all", "gloss_of_all") if several else ("sigma", "gloss")
+    column.prop(group, names[0], text=told, slider=True, translate=False)
     shine = column.row(align=True)
     surface = shown.facts.surface
     shine.enabled = surface is not None and not surface.muted and not surface.gloss_linked
-    shine.prop(group, "gloss", slider=True)
+    shine.prop(group, names[1], slider=True)
+    if here.together.objects > 1:
+        count, is_exact = here.together.objects, here.together.is_exact
+        text.draw(column, sentences.together(count, is_exact, here.style))
 
 
 def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
     """Say whether it looks right, and offer what helps."""
-    found = verdict.of(shown.facts, shown.apart(), here.previewed)
+    found = verdict.of(shown.facts, shown.apart(), here.previewed, here.measured)
     words = sentences.of(found.words, _MARKS[found.mark], here.style)
     if not found.remedy:
         text.draw(layout, words)

@@ -19,6 +19,9 @@ from ..drawing import raster
 _LIGHT = (-0.26, 0.3, 0.92)
 """Where the light is: behind the viewer, a little to the left and above: what roughness changes
 most is how bright a ball stays toward its edge."""
+_LAMP = 0.06
+"""Width of the light, as slopes of facets, which a lobe gets wider by (GGX's alpha). Without one it
+would not show in what is polished: the ball would look as dull at Gloss 1 as at 0."""
 _FINER = 4
 """Points along each side of a pixel that its share of the disk is counted from."""
 _FINEST = 96
@@ -84,13 +87,24 @@ def balls(
     terms = cycles.lobe(np.asarray(roughness, float), *seen.directions)
     shown = cycles.reflected(colors[:, np.newaxis], terms)
     if gloss is not None:
-        shown = gloss_lobe.in_directions(gloss, seen.glossy).over(shown)
+        shown = gloss_lobe.in_directions(_of_lamp(gloss), seen.glossy).over(shown)
     image = np.ones((len(colors), *seen.lit.shape, 4), np.float32)
     image[..., :3] = 0
     image[:, seen.lit, :3] = np.clip(srgb.encode(shown * seen.cosine @ to_screen.T), 0, 1)
     if seen.step > 1:
         image = image.repeat(seen.step, axis=1).repeat(seen.step, axis=2)[:, :side, :side]
     return raster.encoded(image * seen.coverage[..., np.newaxis])
+
+
+def _of_lamp(gloss: Gloss) -> Gloss:
+    """Give the gloss whose lobe has the width that this one's has under the light."""
+    return gloss._replace(
+        roughness=_wider(gloss.roughness), coat_roughness=_wider(gloss.coat_roughness)
+    )
+
+
+def _wider(roughness: float) -> float:
+    return float(min((max(roughness, 0.0) ** 4 + _LAMP**2) ** 0.25, 1.0))
 
 
 @memoized(maxsize=8)

@@ -49,12 +49,12 @@ def draw(layout: Any, context: Any) -> None:
         text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
         _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:
-        told = "The gloss is kept as it is set, and counted in color and numbers"
+        told = "Gloss stays as it is set, and is counted"
         text.draw(layout, sentences.of(told, "INFO", here.style))
         if shown.state.kind != "linked":
             layout.operator("rough_spectra.remove_gloss").scope = "ACTIVE"
     if shown.is_bumped:
-        told = "Bump is not counted: numbers are of the surface without it. Measure it to know"
+        told = "Bump is not counted: measure to know"
         text.draw(layout, sentences.of(told, "INFO", here.style))
         layout.operator("rough_spectra.measure", text="Measure").scope = "ACTIVE"
 
