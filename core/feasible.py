@@ -13,6 +13,7 @@ Source: S. Zuffi and I. Gagliardi's report of 2007, section 1.2.1, which asks th
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ import numpy.typing as npt
 
 from . import models, reading
 from .numerics.arrays import Array, spectrum
+from .numerics.blocks import ELEMENTS
 
 _NODES = 361
 """Roughnesses, 0.25° apart or less, at which white facets are held against the peak."""
@@ -89,16 +91,23 @@ def albedo_range(
     sigma_max = _edge(nodes, last, np.minimum(last + 1, _NODES - 1), peak, model, instrument)
 
     lowest, highest = np.full_like(r, np.inf), np.full_like(r, -np.inf)
-    ends = ((sigma_min, some), (sigma_max, some))
-    between = ((nodes[i], fits[..., i]) for i in range(0, _NODES, _EVERY))
-    for sigma, at in (*ends, *between):
-        if at.any():
-            rho = reading.to_albedo(r, sigma, model, instrument)
-            for bound, narrower in ((lowest, np.minimum), (highest, np.maximum)):
-                narrower(bound, rho, out=bound, where=at[..., np.newaxis])
+    ends = [(sigma[..., np.newaxis], some[..., np.newaxis]) for sigma in (sigma_min, sigma_max)]
+    for sigma, at in (*ends, *_between(nodes[::_EVERY], fits[..., ::_EVERY], r.size)):
+        rho = reading.to_albedo(r[..., np.newaxis, :], sigma, model, instrument)
+        which = at[..., np.newaxis]
+        np.minimum(lowest, rho.min(axis=-2, where=which, initial=np.inf), out=lowest)
+        np.maximum(highest, rho.max(axis=-2, where=which, initial=-np.inf), out=highest)
     lowest[~some], highest[~some] = np.nan, np.nan
     no_number = np.where(some, 0, np.nan)
     return AlbedoRange(lowest, highest, sigma_min + no_number, sigma_max + no_number)
+
+
+def _between(nodes: Array, fits: Array, size: int) -> Iterator[tuple[Array, Array]]:
+    """Give as many roughnesses at once as a block holds of readings with `size` elements."""
+    step = max(1, ELEMENTS // max(1, size))
+    for start in range(0, len(nodes), step):
+        which = slice(start, start + step)
+        yield nodes[which], fits[..., which]
 
 
 def _edge(

@@ -22,7 +22,7 @@ from typing import BinaryIO
 import bpy
 
 from ...core.errors import InputError, OutputError
-from ..support import permissions
+from ..support import atomic_files, permissions
 
 _NAME = b"BLENDER"
 _HEAD = len(_NAME) + 1
@@ -41,8 +41,10 @@ _BLENDER_SAYS = "Error: "
 _SYSTEM_SAYS = frozenset(map(os.strerror, (0, *errno.errorcode)))
 
 
-def destination(output: Path | None) -> Path:
+def destination(output: Path | None, option: str = "--output") -> Path:
     """Give the file that `save` will replace: a link is followed, and stays one.
+
+    `option` is what names another place on the command line.
 
     Raises
     ------
@@ -52,16 +54,16 @@ def destination(output: Path | None) -> Path:
         If what is there may not be replaced.
     """
     if output is None and not bpy.data.filepath:
-        msg = "The open file has no name; say where to save it with --output FILE."
+        msg = f"The open file has no name; say where to save it with {option} FILE."
         raise InputError(msg)
     path = Path(bpy.data.filepath) if output is None else output.absolute()
     try:
         return permissions.check(path)
     except OutputError as error:
-        msg = f"{str(error).rstrip('.')}, with --output."
+        msg = f"{str(error).rstrip('.')}, with {option}."
         raise OutputError(msg) from None
     except OSError as error:
-        raise _cannot_save(path, error) from error
+        raise _cannot_save(path, error, option) from error
 
 
 def save(output: Path | None) -> Path:
@@ -83,13 +85,7 @@ def save(output: Path | None) -> Path:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
         os.close(handle)
         part = Path(name)
-        part.unlink()  # Blender would keep the empty file as an older version
-        with _private():
-            bpy.ops.wm.save_as_mainfile(
-                filepath=name, copy=True, check_existing=False, **_compression(path)
-            )
-        if not is_whole(part):
-            raise OSError("the disk is full")
+        _save_to(part, path)
         permissions.adopt(part, path)
         _keep_older(path)
         part.replace(path)
@@ -99,6 +95,45 @@ def save(output: Path | None) -> Path:
         if part is not None:
             part.unlink(missing_ok=True)
     return path
+
+
+def save_among(files: atomic_files.AtomicFiles, output: Path | None, option: str) -> Path:
+    """Save the open file as `save` does, but let it appear with the others of a publication.
+
+    `option` as in `destination`.
+
+    Raises
+    ------
+    InputError, OutputError
+        As in `save`; none of the files has appeared then.
+    """
+    path = destination(output, option)
+    try:
+        part = files.stage(path)
+        _save_to(part, path)
+        _keep_older(path)
+    except OutputError as error:  # the folder cannot be written
+        raise OutputError(f"{str(error).rstrip('.')}, with {option}.") from error
+    except (RuntimeError, OSError) as error:
+        raise _cannot_save(path, error, option) from error
+    return path
+
+
+def _save_to(part: Path, path: Path) -> None:
+    """Save beside the file that is to be replaced, and look whether all of it is there.
+
+    Raises
+    ------
+    RuntimeError, OSError
+        As Blender and the system say, or if the disk is full.
+    """
+    part.unlink()  # Blender would keep the empty file as an older version
+    with _private():
+        bpy.ops.wm.save_as_mainfile(
+            filepath=str(part), copy=True, check_existing=False, **_compression(path)
+        )
+    if not is_whole(part):
+        raise OSError("the disk is full")
 
 
 def is_whole(path: Path) -> bool:
@@ -172,12 +207,14 @@ def _private() -> Iterator[None]:
         os.umask(before)
 
 
-def _cannot_save(path: Path, error: RuntimeError | OSError) -> OutputError:
+def _cannot_save(
+    path: Path, error: RuntimeError | OSError, option: str = "--output"
+) -> OutputError:
     reason = " ".join((getattr(error, "strerror", None) or str(error)).split())
     if isinstance(error, RuntimeError) and reason.removeprefix(_BLENDER_SAYS) in _SYSTEM_SAYS:
         # Blender quotes what the system said last, which by then is of something else.
         reason = "Blender could not write all of it; the disk may be full"
     return OutputError(
         f"{path} cannot be saved ({reason}); nothing was changed. Free the disk, or choose another "
-        "place with --output."
+        f"place with {option}."
     )

@@ -10,8 +10,9 @@ links the two, for the 2° observer that scene colors are defined with.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import bpy
@@ -41,6 +42,12 @@ from ..readings.document import (
 from ..readings.origin import Derivation, Node, Triple
 from ..samples import stated_white
 from . import arrangement, gloss, measure, rendered, stored, unseen
+
+AT_ONCE = 2048
+"""Surfaces: both Blenders hold what they work on once more, some 200 kB of each."""
+
+Progress = Callable[[int, int], None] | None
+"""Called with what is done and what there is in all."""
 
 _IN_SCENE = (
     "follows its scene: compared at {} with what was matched to the scene, which is ΔE00 "
@@ -206,7 +213,8 @@ def bake(
     Parameters
     ----------
     surfaces
-        As in `prepare`; one material on many surfaces is rendered once, as a flat sample.
+        As in `prepare`; one material on many surfaces is rendered once, as a flat sample. So many
+        as `AT_ONCE` are worked on together.
     with_measurement
         Whether to render; predictions alone need no second Blender.
     progress
@@ -224,22 +232,49 @@ def bake(
         As in `measure.measure`.
     """
     read_at = tuple(dict.fromkeys(read_at))
-    each = max(1, len(read_at))
-    prepared = prepare(surfaces, read_at)
-    if not with_measurement:
-        return compare(prepared, None, each)
+    with_gloss = with_gloss and with_measurement
+    parts = [surfaces[start : start + AT_ONCE] for start in range(0, len(surfaces), AT_ONCE)]
+    steps = _steps(progress, len(parts) * (2 if with_gloss else 1))
+    entries: list[Reading] = []
+    for part in parts:
+        prepared = prepare(part, read_at)
+        if with_measurement:
+            entries += _measured_part(part, prepared, with_gloss, steps)
+        else:
+            entries += compare(prepared, None).entries
+    return document_of(entries, max(1, len(read_at)))
+
+
+def _measured_part(
+    surfaces: Sequence[tuple[str, Any]],
+    prepared: Sequence[Prepared],
+    with_gloss: bool,
+    steps: Iterator[Progress],
+) -> Sequence[Reading]:
     prepared = as_flat_samples(surfaces, prepared)
     wanted = plan(surfaces, prepared)
-    found = compare(prepared, wanted.taken(measure.measure(*wanted.work, progress)), each)
+    found = compare(prepared, wanted.taken(measure.measure(*wanted.work, next(steps)))).entries
     if not with_gloss:
         return found
     materials, _ = wanted.work
-    units = gloss.measured(materials, working_space.current(), progress=progress)
-    entries = tuple(
+    units = gloss.measured(materials, working_space.current(), progress=next(steps))
+    return [
         replace(entry, gloss=gloss.told(units[place]))
-        for entry, place in zip(found.entries, wanted.rows[1], strict=True)
-    )
-    return replace(found, entries=entries)
+        for entry, place in zip(found, wanted.rows[1], strict=True)
+    ]
+
+
+def _steps(progress: Progress, count: int) -> Iterator[Progress]:
+    """Give what each of several steps, one after the other, tells its progress."""
+    for number in range(count):
+        yield None if progress is None else partial(_tell_step, progress, number, count)
+
+
+def _tell_step(
+    progress: Callable[[int, int], None], number: int, count: int, done: int, total: int
+) -> None:
+    if total or not number:  # a later step's Blender that starts is no start of the whole
+        progress(number * total + done, count * total)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -74,8 +74,8 @@ class AtomicFiles:
         self._staged[real] = _Staged(target, part)
         return part
 
-    def write(self, target: Path, content: bytes) -> None:
-        """Stage a whole file.
+    def write(self, target: Path, content: bytes | Iterable[bytes]) -> None:
+        """Stage a whole file; pieces of one are written as they are made.
 
         Raises
         ------
@@ -84,7 +84,8 @@ class AtomicFiles:
         """
         part = self.stage(target)
         try:
-            part.write_bytes(content)
+            with part.open("wb") as file:
+                file.writelines((content,) if isinstance(content, bytes) else content)
         except OSError as error:
             raise cannot_write(target, error) from error
 

@@ -98,6 +98,7 @@ class Conversion:
         atomic_files.check_target(target)
         self.target, self.wanted, self.space = target, wanted, space
         self.made: Made | None = None
+        self.part = target
         self._white = float(reading.white_reading(wanted.sigma, wanted.model, wanted.instrument))
         self._image = open_image(source, wanted.scale)
         with ExitStack() as undone:
@@ -108,21 +109,32 @@ class Conversion:
 
     def __iter__(self) -> Generator[tuple[int, int], None, None]:
         """Convert and write; nothing appears at the target before all of it is there."""
-        image = self._image
         with atomic_files.publication() as files:
-            try:
-                size = image.width, image.height
-                part = files.stage(self.target)
-                writer = Writer(part, self.target, size, self._told())
-                yield 0, image.height
-                yield from self._convert(writer)
-            finally:
-                image.close()
-            writer.close()
+            yield from self._write_among(files)
+
+    def _write_among(
+        self, files: atomic_files.AtomicFiles
+    ) -> Generator[tuple[int, int], None, None]:
+        image = self._image
+        try:
+            size = image.width, image.height
+            self.part = files.stage(self.target)
+            writer = Writer(self.part, self.target, size, self._told())
+            yield 0, image.height
+            yield from self._convert(writer)
+        finally:
+            image.close()
+        writer.close()
         self.made = self._result()
 
-    def finish(self, progress: Callable[[int, int], None] | None = None) -> Made:
+    def finish(
+        self,
+        progress: Callable[[int, int], None] | None = None,
+        files: atomic_files.AtomicFiles | None = None,
+    ) -> Made:
         """Do all of it; `progress` is called with lines done and lines in all, and may raise.
+
+        With `files` the texture appears with the others of a publication.
 
         Raises
         ------
@@ -133,7 +145,7 @@ class Conversion:
         CancelledError
             On an interrupt from the keyboard.
         """
-        steps = iter(self)
+        steps = iter(self) if files is None else self._write_among(files)
         try:
             for done, total in steps:
                 if progress is not None:

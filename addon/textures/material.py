@@ -12,13 +12,13 @@ import bpy
 from ...core.errors import MaterialError
 from ..blender import working_space
 from ..blender.sockets import color_socket, roughness_socket
-from .wanted import Made
+from .wanted import Made, Wanted
 
 _APART = 300.0
 """Between nodes."""
 
 
-def make(made: Made, name: str = "") -> Any:
+def make(made: Made, name: str = "", part: Path | None = None) -> Any:
     """Make a material of a Diffuse BSDF that shows a texture.
 
     Parameters
@@ -27,6 +27,8 @@ def make(made: Made, name: str = "") -> Any:
         Its texture holds colors, so that every pixel reads what was measured.
     name
         Of the material; empty for that of the texture's file.
+    part
+        Where the texture lies until it is published; None where it has its place.
 
     Raises
     ------
@@ -35,12 +37,7 @@ def make(made: Made, name: str = "") -> Any:
         shows too bright or too dark.
     """
     name = name or made.path.stem
-    if made.wanted.holds != "color":
-        msg = f"{made.path} holds albedo, and a material needs colors; make it with holds='color'."
-        raise MaterialError(msg)
-    if bpy.data.materials.get((name, None)) is not None:
-        msg = f"There is a material {name!r} already; give the new one another name."
-        raise MaterialError(msg)
+    check(made.path, made.wanted, name)
     material = bpy.data.materials.new(name)
     material.use_fake_user = True  # nothing uses it yet, and it is to be saved
     if material.node_tree is None:
@@ -54,8 +51,24 @@ def make(made: Made, name: str = "") -> Any:
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
     tree.links.new(picture.outputs["Color"], color_socket(shader))
     roughness_socket(shader).default_value = made.roughness
-    picture.image = _image(made.path)
+    picture.image = _image(made.path, part)
     return material
+
+
+def check(path: Path, wanted: Wanted, name: str) -> None:
+    """Refuse what `make` does, before there is a texture.
+
+    Raises
+    ------
+    MaterialError
+        As in `make`.
+    """
+    if wanted.holds != "color":
+        msg = f"{path} holds albedo, and a material needs colors; make it with holds='color'."
+        raise MaterialError(msg)
+    if bpy.data.materials.get((name, None)) is not None:
+        msg = f"There is a material {name!r} already; give the new one another name."
+        raise MaterialError(msg)
 
 
 def free_name(name: str) -> str:
@@ -67,9 +80,14 @@ def free_name(name: str) -> str:
     return found
 
 
-def _image(path: Path) -> Any:
-    image = bpy.data.images.load(str(path.absolute()), check_existing=True)
-    image.reload()
+def _image(path: Path, part: Path | None) -> Any:
+    if part is None or path.is_file():
+        image = bpy.data.images.load(str(path.absolute()), check_existing=True)
+        image.reload()
+    else:
+        image = bpy.data.images.load(str(part.absolute()))
+        image.name, image.filepath = path.name, str(path.absolute())
+        image.alpha_mode = "PREMUL"  # as Blender loads what is called .exr
     settings = image.colorspace_settings
     space = working_space.working_space_name()
     known = settings.bl_rna.properties["name"].enum_items

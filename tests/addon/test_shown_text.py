@@ -58,13 +58,14 @@ def test_plain_names_stay_as_they_are(text):
 @pytest.mark.parametrize("form", ["csv", "cgats"])
 def test_names_in_tables_read_back(form, tmp_path):
     path = tmp_path / f"x.{form}"
-    path.write_bytes((tables if form == "csv" else cgats).predicted(readings(NAMES)))
+    pieces = (tables if form == "csv" else cgats).predicted(readings(NAMES))
+    path.write_bytes(b"".join(pieces))
     assert [sample.name for sample in readers.read(path)] == NAMES
 
 
 def test_no_cell_of_a_table_is_a_formula(tmp_path):
     path = tmp_path / "x.csv"
-    path.write_bytes(tables.predicted(readings(NAMES)))
+    path.write_bytes(b"".join(tables.predicted(readings(NAMES))))
     with path.open(encoding="utf-8", newline="") as file:
         cells = [cell for row in csv.reader(file) for cell in row]
     assert len(cells) > 20 * len(NAMES) // 2

@@ -245,7 +245,8 @@ def test_what_is_written_is_read_back(tmp_path):
         for name, part in zip(names, parts, strict=True)
     )
     path = tmp_path / "readings.txt"
-    path.write_bytes(cgats.predicted(document.Readings("Linear Rec.709", "5.2", entries)))
+    written = cgats.predicted(document.Readings("Linear Rec.709", "5.2", entries))
+    path.write_bytes(b"".join(written))
     samples = readers.read(path)
     assert [sample.name for sample in samples] == list(names)
     for sample, part in zip(samples, parts, strict=True):

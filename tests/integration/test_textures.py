@@ -3,6 +3,7 @@
 """`texture` and **Material from Image**: from a cube to a file and a material that is saved."""
 
 from math import radians
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -33,6 +34,9 @@ def test_a_cube_becomes_a_material_of_the_saved_file(cube, tmp_path, main):
     nodes = bpy.data.materials["Wall"].node_tree.nodes
     image = nodes["Image Texture"].image
     assert image.size[:] == (5, 6)
+    plain = bpy.data.images.load(str(target))
+    assert (image.name, image.filepath_from_user()) == ("wall.exr", plain.filepath_from_user())
+    assert image.alpha_mode == plain.alpha_mode
     assert image.colorspace_settings.name == "Linear Rec.709"
     assert nodes["Diffuse BSDF"].inputs["Roughness"].default_value > 0.1
 
@@ -49,7 +53,7 @@ def test_albedo_needs_no_material(cube, tmp_path, main):
     ("words", "sentence"),
     [
         (("--save", "x.blend"), "There is nothing to save without --material"),
-        (("--material", "Wall"), "The open file has no name; say where to save it"),
+        (("--material", "Wall"), "The open file has no name; say where to save it with --save"),
     ],
 )
 def test_what_verb_refuses(cube, tmp_path, words, sentence, main):
@@ -119,3 +123,28 @@ def test_a_wider_space_looks_at_textures_in_the_background(monkeypatch):
     assert seen == []
     assert working_space.working_space_name() == "ACEScg"
     assert state.state(material).kind == "fresh"
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="no folder that not even root may write to")
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("Wall", "--save", "/proc/x.blend"), "/proc/x.blend cannot be written ("),
+        (("Taken", "--save", "{}/x.blend"), "There is a material 'Taken' already"),
+        (("Wall", "--save", "{}/x.blend", "--holds", "albedo"), "holds albedo, and a material"),
+    ],
+)
+def test_what_cannot_be_saved_leaves_the_texture_as_it_was(cube, tmp_path, words, sentence, main):
+    """It took its place before the .blend was saved, which then went on with the new one."""
+    bpy.data.materials.new("Taken")
+    target = tmp_path / "wall.exr"
+    target.write_bytes(b"of before")
+    given = [word.format(tmp_path) for word in words]
+    found = sorted(tmp_path.iterdir())
+    result = main(
+        "texture", str(cube), "--sigma", "20", "--output", str(target), "--material", *given
+    )
+    assert result.status == 2
+    assert sentence in result.err
+    assert target.read_bytes() == b"of before"
+    assert sorted(tmp_path.iterdir()) == found

@@ -5,69 +5,62 @@
     python -m tools.benchmarks.bench_large [--materials 20000]
 
 The materials get smooth random spectra; `bake --predicted-only` then writes their readings, and
-`check` measures them. Prints of each step the status, the seconds, and the most memory so far.
+`check` measures them. Each step is a process of its own. Prints of each the status, the seconds,
+those of the processor, and the most memory that it, or a second Blender of its, had.
 Needs an environment with bpy.
 """
 
 from __future__ import annotations
 
 import argparse
-import resource
+import os
+import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from pathlib import Path
 
-from tools.checks.check_farm import make_scene
-from tools.run.run_command_line import load_extension
+from tools.run.run_command_line import ROOT
 
 _MIB = 1024  # kB, which is what Linux gives
+_RUNNER = ROOT / "tools" / "run" / "run_command_line.py"
 
 
 def main() -> int:
     """Run the steps one after the other; exit status 0 if each has its own."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--materials", type=int, default=20_000)
+    parser.add_argument("--make", type=Path, help=argparse.SUPPRESS)  # the first step's process
     options = parser.parse_args()
-    load_extension()
-    from rough_spectra.addon.commands import command_line
+    if options.make:
+        from tools.checks.check_farm import make_scene
 
+        make_scene(options.make, options.materials, 1)
+        return 0
     with tempfile.TemporaryDirectory() as folder:
         blend, base = Path(folder) / "large.blend", Path(folder) / "readings"
-
-        def make() -> int:
-            make_scene(blend, options.materials, 1)
-            return 0
-
-        told("make and assign", make)
+        count = str(options.materials)
+        make = ["-m", "tools.benchmarks.bench_large", "--materials", count, "--make", str(blend)]
         words = ["--blend", str(blend), "--quiet"]
         bake = ["bake", *words, "--predicted-only", "--output", str(base)]
-        status = told("bake --predicted-only", lambda: command_line.main(bake))
+        status = told("make and assign", make) or told(bake[0], [str(_RUNNER), *bake])
         sizes = {path.name: path.stat().st_size for path in base.parent.glob(f"{base.name}*")}
         print("  " + ", ".join(f"{name} {size / 1e6:.0f} MB" for name, size in sizes.items()))
-        return status or told("check", lambda: command_line.main(["check", *words]))
+        return status or told("check", [str(_RUNNER), "check", *words])
 
 
-def told(name: str, task: Callable[[], int]) -> int:
+def told(name: str, words: list[str]) -> int:
     """Do a step, and print what it took with the processes that it started."""
-    started, before = time.monotonic(), _processor()
-    status = task()
-    most = max(resource.getrusage(who).ru_maxrss for who in _WHO) / _MIB
+    started = time.monotonic()
+    process = subprocess.Popen([sys.executable, *words], cwd=ROOT)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
     print(
-        f"{name}: status {status}, {time.monotonic() - started:.0f} s, processor "
-        f"{_processor() - before:.0f} s, at most {most:.0f} MiB",
+        f"{name}: status {process.returncode}, {time.monotonic() - started:.0f} s, processor "
+        f"{used.ru_utime + used.ru_stime:.0f} s, at most {used.ru_maxrss / _MIB:.0f} MiB",
         flush=True,
     )
-    return status
-
-
-_WHO = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-
-
-def _processor() -> float:
-    used = [resource.getrusage(who) for who in _WHO]
-    return sum(each.ru_utime + each.ru_stime for each in used)
+    return process.returncode
 
 
 if __name__ == "__main__":

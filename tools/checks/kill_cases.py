@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `tools.checks.kills` kills: every verb that writes files, doing as little as it can.
 
-`job` is not among them: it runs `bake`, `check` and the others. `texture` makes no material, and
-`relight` is two here: the picture, and the lights that it keeps, are two writings.
+`job` is not among them: it runs `bake`, `check` and the others. `texture` is two here: alone, and
+with a material that is saved; so is `relight`, as the picture and the lights that it keeps are two
+writings.
 """
 
 from __future__ import annotations
@@ -50,6 +51,10 @@ def of_tables(folder: Path) -> dict[str, Words]:
         ],
         "texture": lambda to, which: [
             *("texture", image, "--sigma", 20 + 10 * which, "--output", to / "x.exr"),
+        ],
+        "texture --material": lambda to, which: [
+            *("texture", image, "--sigma", 20 + 10 * which, "--output", to / "x.exr"),
+            *("--material", "Wall", "--save", to / "x.blend"),
         ],
         "lab": lambda to, which: [
             *("lab", "--kind", "gaussian", "--sigma", 20 + 10 * which, "--albedo", 0.5),

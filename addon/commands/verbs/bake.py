@@ -145,7 +145,7 @@ def run(options: argparse.Namespace) -> int:
     if count > 1:
         part = replace(result, shard=index, shards=count)
         with atomic_files.publication() as files:
-            files.write(target, json_document.to_json(part))
+            files.write(target, json_document.pieces(part))
         written = [target]
     else:
         written = api.write(result, options.output, options.format or writers.FORMATS)

@@ -69,34 +69,37 @@ def run(options: argparse.Namespace) -> int:
     import math
 
     from ....core.errors import InputError
-    from ... import api
-    from ...blender.blend_file import destination, save
+    from ...blender import blend_file, working_space
+    from ...textures import convert, material
+    from ...textures.saved import OPTION, make_and_save
+    from ...textures.wanted import Wanted
     from ..progress import ProgressLine
     from ..result import add
 
     holds = options.holds or ("albedo" if options.material is None else "color")
     if options.material is None and options.save is not None:
         raise InputError("There is nothing to save without --material; leave --save out.")
-    if options.material is not None:
-        destination(options.save)  # before the work that could not be saved
+    wanted = Wanted(
+        math.radians(options.sigma),
+        options.instrument,
+        options.illuminant,
+        options.model,
+        holds,
+        options.scale,
+    )
+    if options.material is not None:  # before the work that could not be saved
+        blend_file.destination(options.save, OPTION)
+        material.check(options.output, wanted, options.material)
+    conversion = convert.Conversion(options.image, options.output, wanted, working_space.current())
     with ProgressLine("lines") as progress:
-        made = api.make_texture(
-            options.image,
-            options.output,
-            math.radians(options.sigma),
-            instrument=options.instrument,
-            illuminant=options.illuminant,
-            model=options.model,
-            holds=holds,
-            scale=options.scale,
-            progress=progress,
-        )
+        if options.material is None:
+            made, saved = conversion.finish(progress), None
+        else:
+            made, saved = make_and_save(conversion, options.material, options.save, progress)
     for note in made.notes:
         tell(f"note: {options.image.name}: {note}")
     told = f"{made.width} × {made.height} pixels of {holds}; wrote {made.path.name}"
-    if options.material is not None:
-        api.texture_material(made, options.material)
-        saved = save(options.save)
+    if saved is not None:
         add(options, saved=saved)
         told += f"; material {options.material!r}, saved {saved}"
     add(options, files=[made.path])

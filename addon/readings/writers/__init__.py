@@ -20,16 +20,17 @@ By ending and creator the files are known that an earlier bake left and a later 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Protocol
 
 from ...support import atomic_files, discovery
 from ..document import Readings
-from ..json_document import to_json
+from ..json_document import pieces
 
-Content = bytes | Callable[[Path, Path], None]
-"""All of a file; or what writes it, to the first path, and names the second one in errors."""
+Content = bytes | Iterator[bytes] | Callable[[Path, Path], None]
+"""All of a file, or its pieces, which are made while they are written; or what writes it, to the
+first path, and names the second one in errors."""
 
 
 class Writer(Protocol):
@@ -100,7 +101,7 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
 
         def put(ending: str, content: Content) -> None:
             target = base.with_name(f"{base.name}.{ending}")
-            if isinstance(content, bytes):
+            if isinstance(content, (bytes, Iterator)):
                 files.write(target, content)
             else:
                 content(files.stage(target), target)
@@ -110,7 +111,7 @@ def write(readings: Readings, base: Path, formats: tuple[str, ...] = FORMATS) ->
             if writer.NAME in formats:
                 for ending, content in writer.files(readings):
                     put(ending, content)
-        put("json", to_json(readings))
+        put("json", pieces(readings))
         files.clear(base.parent, lambda path: _is_of(base, path) and _is_ours(path))
     return written
 

@@ -11,6 +11,7 @@ SPECTRAL_NM380 and hold fractions, as that name means to measurement software.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 
 from ....core.numerics import wavelength_grid
 from ...support.shown_text import (
@@ -29,7 +30,7 @@ ENDINGS = r"(?:predicted|measured)\.cgats\.txt"
 CREATOR = rb'ORIGINATOR\t"Rough Spectra '
 
 
-def files(readings: Readings) -> list[tuple[str, bytes]]:
+def files(readings: Readings) -> list[tuple[str, Iterator[bytes]]]:
     """Give the endings and tables of what was predicted and of what was measured."""
     found = []
     if any(entry.predicted is not None for entry in readings.entries):
@@ -39,7 +40,7 @@ def files(readings: Readings) -> list[tuple[str, bytes]]:
     return found
 
 
-def predicted(readings: Readings) -> bytes:
+def predicted(readings: Readings) -> Iterator[bytes]:
     """Give the predicted spectra with their XYZ and Lab.
 
     Spectra on several wavelength grids are brought to one of 10 nm, over what all of them cover.
@@ -56,14 +57,14 @@ def predicted(readings: Readings) -> bytes:
         }
         for _, entry, part in rows
     ]
-    cells = [
+    cells = (
         [
             *(str(number), _quoted(entry.material)),
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
             *(f"{value:.6f}" for value in _at(bands, part)),
         ]
         for number, entry, part in rows
-    ]
+    )
     what = "predicted by the core from the stored spectrum"
     if any(part.wavelengths != bands for _, _, part in rows):
         what += f", brought to {BAND_NM:g} nm"
@@ -71,7 +72,7 @@ def predicted(readings: Readings) -> bytes:
     return _file(what, said, fields, cells)
 
 
-def measured(readings: Readings) -> bytes:
+def measured(readings: Readings) -> Iterator[bytes]:
     """Give the measured XYZ and Lab: an RGB render has no spectrum."""
     known = [(number, e, e.measured) for number, e in enumerate(readings.entries, 1)]
     rows = [(number, entry, part) for number, entry, part in known if part is not None]
@@ -79,13 +80,13 @@ def measured(readings: Readings) -> bytes:
         {_LIGHT: part.illuminant, _OBSERVER: "2", _GEOMETRY: entry.instrument}
         for _, entry, part in rows
     ]
-    cells = [
+    cells = (
         [
             *(str(number), _quoted(entry.material)),
             *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
         ]
         for number, entry, part in rows
-    ]
+    )
     what = f"measured in a Cycles render, Blender {readings.blender}"
     return _file(what, said, list(_COLOR_FIELDS), cells)
 
@@ -117,9 +118,9 @@ _COLOR_FIELDS = ("XYZ_X", "XYZ_Y", "XYZ_Z", "LAB_L", "LAB_A", "LAB_B")
 
 
 def _file(
-    quantity: str, said: list[dict[str, str]], fields: list[str], rows: list[list[str]]
-) -> bytes:
-    """Put a table together.
+    quantity: str, said: list[dict[str, str]], fields: list[str], rows: Iterable[list[str]]
+) -> Iterator[bytes]:
+    """Put a table together, a line after the other.
 
     Parameters
     ----------
@@ -133,16 +134,12 @@ def _file(
     shared = {key: said[0][key] for key in said[0] if len({of[key] for of in said}) == 1}
     own = [key for key in said[0] if key not in shared]
     names = ["SAMPLE_ID", "SAMPLE_NAME", *own, *fields]
-    rows = [
-        [*cells[:2], *(_quoted(of[key]) for key in own), *cells[2:]]
-        for of, cells in zip(said, rows, strict=True)
-    ]
     if _MODEL in shared:
         quantity += f", {shared[_MODEL]} model"
     source = [f"Illumination={shared[_LIGHT]}"] if _LIGHT in shared else []
     source += [f"ObserverAngle={shared[_OBSERVER]}°"] if _OBSERVER in shared else []
     source += ["WhiteBase=Abs", "Filter=No"]
-    lines = [
+    head = [
         "CGATS.17",
         f'ORIGINATOR\t"Rough Spectra {version()}"',
         f'DESCRIPTOR\t"Virtual spectrophotometer, {printable(quantity)}"',
@@ -159,12 +156,14 @@ def _file(
         "BEGIN_DATA_FORMAT",
         "\t".join(names),
         "END_DATA_FORMAT",
-        f"NUMBER_OF_SETS\t{len(rows)}",
+        f"NUMBER_OF_SETS\t{len(said)}",
         "BEGIN_DATA",
-        *("\t".join(row) for row in rows),
-        "END_DATA",
     ]
-    return ("\n".join(lines) + "\n").encode()
+    yield ("\n".join(head) + "\n").encode()
+    for of, cells in zip(said, rows, strict=True):
+        row = [*cells[:2], *(_quoted(of[key]) for key in own), *cells[2:]]
+        yield ("\t".join(row) + "\n").encode()
+    yield b"END_DATA\n"
 
 
 def _quoted(name: str) -> str:

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -39,9 +40,9 @@ _DATE = "1970:01:01 00:00:00"
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Pixels of shape (height, width, channels), channel names, and who is where."""
+    """Colors of shape (swatches, channels), channel names, and who is where."""
 
-    pixels: Array
+    swatches: Array
     channels: tuple[str, ...]
     layout: str
     spectral: bool
@@ -83,7 +84,7 @@ def measured(readings: Readings) -> list[tuple[str, Picture]]:
 
 
 def write(picture: Picture, path: Path, shown: Path) -> None:
-    """Write half-float ZIP OpenEXR with OpenImageIO.
+    """Write half-float ZIP OpenEXR with OpenImageIO, a row of swatches after the other.
 
     Raises
     ------
@@ -91,8 +92,10 @@ def write(picture: Picture, path: Path, shown: Path) -> None:
         Naming `shown`, if it cannot be written.
     """
     oiio = openimageio()
-    height, width, count = picture.pixels.shape
-    spec = oiio.ImageSpec(width, height, count, oiio.HALF)
+    number, count = picture.swatches.shape
+    columns = min(COLUMNS, number)
+    rows = -(-number // columns)
+    spec = oiio.ImageSpec(columns * SWATCH, rows * SWATCH, count, oiio.HALF)
     spec.channelnames = picture.channels
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", _DATE)
@@ -101,8 +104,11 @@ def write(picture: Picture, path: Path, shown: Path) -> None:
     if picture.spectral:
         spec.attribute("spectralLayoutVersion", "1.0")
     out = oiio.ImageOutput.create("openexr")
-    pixels = np.ascontiguousarray(picture.pixels, np.float32)
-    if not (out.open(str(path), spec) and out.write_image(pixels) and out.close()):
+    if not (
+        out.open(str(path), spec)
+        and all(_write_row(out, picture.swatches, row, columns) for row in range(rows))
+        and out.close()
+    ):
         msg = (
             f"{shown} cannot be written ({out.geterror()}); nothing was changed. Free the disk or "
             "choose another place."
@@ -110,20 +116,27 @@ def write(picture: Picture, path: Path, shown: Path) -> None:
         raise OutputError(msg)
 
 
+def _write_row(out: Any, swatches: Array, row: int, columns: int) -> bool:
+    """Write a row of swatches, which is what ZIP packs together; unused places are black.
+
+    All pixels at once are 256 times the swatches, twice: 130 kB a material.
+    """
+    part = swatches[row * columns : (row + 1) * columns]
+    line = np.zeros((columns * SWATCH, swatches.shape[1]), np.float32)
+    line[: len(part) * SWATCH] = part.repeat(SWATCH, axis=0)
+    pixels = np.tile(line, (SWATCH, 1, 1))
+    return bool(out.write_scanlines(row * SWATCH, (row + 1) * SWATCH, 0, pixels))
+
+
 def _picture(
     readings: Readings, members: list[int], rows: Array, channels: tuple[str, ...], spectral: bool
 ) -> Picture:
-    """Lay out swatches from the top left; unused places are black."""
-    height = -(-len(members) // COLUMNS)
-    width = min(COLUMNS, len(members))
-    places = np.zeros((height * width, rows.shape[1]))
-    places[: len(members)] = rows
-    pixels = places.reshape(height, width, -1).repeat(SWATCH, axis=0).repeat(SWATCH, axis=1)
+    """Lay out swatches from the top left."""
     several = len(readings.instruments) > 1
     names = "; ".join(_caption(readings.entries[i], spectral, several) for i in members)
     at = ", ".join(readings.instruments)
     layout = f"read at {at}; swatches of {SWATCH} px, {COLUMNS} a row, from the top left: {names}"
-    return Picture(pixels, channels, layout, spectral)
+    return Picture(rows.astype(np.float32), channels, layout, spectral)
 
 
 def _caption(entry: Reading, spectral: bool, several: bool) -> str:

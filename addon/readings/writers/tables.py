@@ -7,7 +7,8 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
 
 from ...support.shown_text import ESCAPED, printable, to_cell
 from ...support.version import version
@@ -15,6 +16,7 @@ from ..document import (
     GLOSS,
     CyclesReading,
     Predicted,
+    Reading,
     Readings,
     SpotRead,
 )
@@ -25,7 +27,7 @@ ENDINGS = r"(?:predicted|measured)\.csv"
 CREATOR = rb"# creator: Rough Spectra "
 
 
-def files(readings: Readings) -> list[tuple[str, bytes]]:
+def files(readings: Readings) -> list[tuple[str, Iterator[bytes]]]:
     """Give the endings and tables of what was predicted and of what was measured."""
     found = []
     if any(entry.predicted is not None for entry in readings.entries):
@@ -35,7 +37,7 @@ def files(readings: Readings) -> list[tuple[str, bytes]]:
     return found
 
 
-def predicted(readings: Readings) -> bytes:
+def predicted(readings: Readings) -> Iterator[bytes]:
     """Give the table of predicted spectra; a band that a sample lacks is left empty."""
     rows = [(entry, entry.predicted) for entry in readings.entries if entry.predicted is not None]
     bands = sorted({nm for _, part in rows for nm in part.wavelengths})
@@ -57,36 +59,36 @@ def predicted(readings: Readings) -> bytes:
     header += ["stored_white", "X", "Y", "Z", "L*", "a*", "b*"]
     header += [f"{nanometers(nm)} nm" for nm in bands]
     header += [f"albedo {end} {nanometers(nm)} nm" for nm in bands for end in ("min", "max")]
-    lines = []
-    for entry, part in rows:
-        at = dict(zip(part.wavelengths, part.values, strict=True))
-        sides = (part.albedo_lowest, part.albedo_highest)
-        # Empty where no roughness fits.
-        albedos = dict(zip(part.wavelengths, zip(*sides, strict=True), strict=False))
-        lines.append(
-            [
-                to_cell(entry.material),
-                to_cell(entry.surface),
-                to_cell(entry.sample),
-                entry.instrument,
-                f"{part.sigma_degrees:g}",
-                part.model,
-                part.illuminant,
-                str(part.observer),
-                part.white if part.white == _PERFECT else _white(part),
-                *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
-                *(f"{at[nm]:.6f}" if nm in at else "" for nm in bands),
-                *(
-                    "" if end is None else f"{end:.6f}"
-                    for nm in bands
-                    for end in albedos.get(nm, (None, None))
-                ),
-            ]
-        )
-    return csv_of(comments, header, lines)
+    return pieces(comments, header, (_predicted(entry, part, bands) for entry, part in rows))
 
 
-def measured(readings: Readings) -> bytes:
+def _predicted(entry: Reading, part: Predicted, bands: list[float]) -> list[str]:
+    """Give the cells of a reading."""
+    at = dict(zip(part.wavelengths, part.values, strict=True))
+    sides = (part.albedo_lowest, part.albedo_highest)
+    # Empty where no roughness fits.
+    albedos = dict(zip(part.wavelengths, zip(*sides, strict=True), strict=False))
+    return [
+        to_cell(entry.material),
+        to_cell(entry.surface),
+        to_cell(entry.sample),
+        entry.instrument,
+        f"{part.sigma_degrees:g}",
+        part.model,
+        part.illuminant,
+        str(part.observer),
+        part.white if part.white == _PERFECT else _white(part),
+        *(f"{value:.4f}" for value in (*part.xyz, *part.lab)),
+        *(f"{at[nm]:.6f}" if nm in at else "" for nm in bands),
+        *(
+            "" if end is None else f"{end:.6f}"
+            for nm in bands
+            for end in albedos.get(nm, (None, None))
+        ),
+    ]
+
+
+def measured(readings: Readings) -> Iterator[bytes]:
     """Give the table of measured colors, with the ΔE00 to the prediction where there is one."""
     rows = [(entry, entry.measured) for entry in readings.entries if entry.measured is not None]
     lights = {_viewing(part) for _, part in rows}
@@ -115,7 +117,7 @@ def measured(readings: Readings) -> bytes:
     if on_spots:
         comments.append("spread: ΔE00 from the reading over the spot, mean and 95th percentile")
         header += ["spot_mm", "spot_filled", "spread_mean", "spread_95"]
-    lines = [
+    lines = (
         [
             to_cell(entry.material),
             to_cell(entry.surface),
@@ -129,8 +131,8 @@ def measured(readings: Readings) -> bytes:
             *(_of_spot(entry.spot) if on_spots else ()),
         ]
         for entry, part in rows
-    ]
-    return csv_of(comments, header, lines)
+    )
+    return pieces(comments, header, lines)
 
 
 def _of_spot(spot: SpotRead | None) -> list[str]:
@@ -191,12 +193,23 @@ def _guarded(found: re.Match[str]) -> str:
 
 def csv_of(comments: Sequence[str], header: list[str], lines: list[list[str]]) -> bytes:
     """Give a table: comments, the names of its columns, and its rows, cells as `to_cell` gives."""
-    text = io.StringIO()
-    text.writelines(f"# {_DELIMITED.sub(_guarded, printable(line))}\n" for line in comments)
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(header)
-    # Without quotation marks a material called "#1" would read as a comment.
-    quoting = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_ALL)
+    return b"".join(pieces(comments, header, lines))
+
+
+def pieces(
+    comments: Sequence[str], header: list[str], lines: Iterable[list[str]]
+) -> Iterator[bytes]:
+    """Give the same table a line after the other."""
+    for line in comments:
+        yield f"# {_DELIMITED.sub(_guarded, printable(line))}\n".encode()
+    yield _line(header, csv.QUOTE_MINIMAL)
     for cells in lines:
-        (quoting if cells[0].lstrip().startswith("#") else table).writerow(cells)
+        # Without quotation marks a material called "#1" would read as a comment.
+        like_comment = cells[0].lstrip().startswith("#")
+        yield _line(cells, csv.QUOTE_ALL if like_comment else csv.QUOTE_MINIMAL)
+
+
+def _line(cells: list[str], quoting: Literal[0, 1, 2, 3]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n", quoting=quoting).writerow(cells)
     return text.getvalue().encode()
