@@ -14,6 +14,7 @@ import re
 
 from ...sample import Sample
 from ..parts import (
+    foreign_comments,
     goniometer_tables,
     label_words,
     long_tables,
@@ -65,6 +66,7 @@ def read(document: Document) -> list[Sample]:
         The delimiter or the wavelengths cannot be found, a field is not a number, or a spectrum is
         not one (`check_spectrum`).
     """
+    document = foreign_comments.as_ours(document)
     said = label_words.comments(document)
     start = table_start.find_start(document)
     fields = table_start.above(document, start, said)

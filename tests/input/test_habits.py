@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Rough Spectra authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables as programs, spreadsheets and people of other habits write them."""
+
+import pytest
+from rough_spectra.addon.samples import readers
+from rough_spectra.core.errors import InputError
+
+NM = (400, 450, 500, 550, 600, 650, 700)
+VALUES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
+
+
+def down(head, mark=",", times=1.0, cell="{:.4f}"):
+    """A table of one or more equal columns below a header, which may be missing."""
+    columns = 1 if head is None else head.count(mark)
+    rows = [
+        mark.join([str(w), *[cell.format(v * times)] * columns])
+        for w, v in zip(NM, VALUES, strict=True)
+    ]
+    return "\n".join([*([] if head is None else [head]), *rows]) + "\n"
+
+
+def across(head, *rows, times=1.0):
+    """A table with a sample a row, each with what stands before its values."""
+    values = ",".join(f"{v * times:.4f}" for v in VALUES)
+    lines = [f"{head},{','.join(map(str, NM))}", *(f"{row},{values}" for row in rows)]
+    return "\n".join(lines) + "\n"
+
+
+def read(tmp_path, text, name="tile.csv"):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return readers.read(path)
+
+
+def refusal(tmp_path, text, name="tile.csv"):
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, text, name)
+    return str(caught.value)
+
+
+def is_ramp(sample):
+    return sample.wavelengths.tolist() == list(NM) and sample.values == pytest.approx(VALUES)
+
+
+@pytest.mark.parametrize(
+    "top",
+    [
+        "% Wavelength Reflectance\n% d/8 SCE\n",
+        "%wavelength reflectance\n%% d/8 SCE\n",
+        "! d/8, SCE\n",
+        "// geometry: d/8 SCE\n\n",
+        "; geometry: d/8 SCE\n; by hand\n",
+    ],
+)
+def test_comments_with_the_marks_of_other_programs(tmp_path, top):
+    [sample] = read(tmp_path, top + down(None, " "))
+    assert is_ramp(sample), "a percent sign that begins a comment is no scale"
+    assert sample.instrument == "de:8"
+
+
+def test_names_of_columns_may_begin_with_such_a_mark(tmp_path):
+    [first, second] = read(tmp_path, down(";brick;slate", ";"))
+    assert [first.name, second.name] == ["brick", "slate"]
+    [sample] = read(tmp_path, "%R400,%R500\n10,20\n")
+    assert sample.values.tolist() == [0.1, 0.2]
