@@ -64,3 +64,34 @@ def test_names_of_columns_may_begin_with_such_a_mark(tmp_path):
     assert [first.name, second.name] == ["brick", "slate"]
     [sample] = read(tmp_path, "%R400,%R500\n10,20\n")
     assert sample.values.tolist() == [0.1, 0.2]
+
+
+@pytest.mark.parametrize(
+    "beside",
+    [
+        "±",
+        "R ±",
+        "U(R)",
+        "u (k=2)",
+        "R_std",
+        "R SD",
+        "sigma",
+        "Uncertainty (k=2)",
+        "std of R",
+        "σ(R)",
+        "标准偏差",
+    ],
+)
+def test_how_sure_a_spectrum_is_is_no_sample(tmp_path, beside):
+    [sample] = read(tmp_path, down(f"wavelength,R,{beside}"))
+    assert is_ramp(sample)
+    assert any("Columns not read" in note and beside in note for note in sample.notes)
+
+
+def test_statistics_beside_a_mean_are_no_samples_and_names_like_them_are(tmp_path):
+    [sample] = read(tmp_path, down("wavelength,mean reflectance,std. dev.,n,min,max"))
+    assert is_ramp(sample)
+    names = ["brick", "n", "max", "U", "Sedona SD"]
+    found = read(tmp_path, down(f"wavelength,{','.join(names)}"))
+    assert [sample.name for sample in found] == names
+    assert [s.name for s in read(tmp_path, down("wavelength,error,sigma"))] == ["error", "sigma"]

@@ -9,7 +9,6 @@ names of columns, "% Wavelength Reflectance" would say that the values are perce
 from __future__ import annotations
 
 import itertools
-import re
 from dataclasses import replace
 
 from . import label_words, tables
@@ -18,7 +17,6 @@ from .document import Document
 _MARKS = ("%", "!", "//", ";")
 _SEARCHED = 400  # lines, as for the start of a table
 _LONGEST = 200  # characters of a line that are looked at
-_NUMBER = re.compile(r"\s*[-+]?[\d.]")
 
 
 def as_ours(document: Document) -> Document:
@@ -29,7 +27,8 @@ def as_ours(document: Document) -> Document:
     if not document.head_text.lstrip().startswith(_MARKS):
         return document
     top = list(itertools.islice(tables.lines(document), _SEARCHED))
-    below = next((line for line in top if _NUMBER.match(line)), "")
+    others = (line for line in top if line.strip() and not line.lstrip().startswith(_MARKS))
+    below = next(others, "")
     found: list[str] = []
     for line in top:
         text = line.lstrip()

@@ -15,6 +15,7 @@ import numpy as np
 from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import (
+    beside,
     label_words,
     series,
     shapes,
@@ -35,11 +36,7 @@ _QUANTITY = re.compile(
 )
 _NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
 # What stands beside a spectrum and is none.
-_ASIDE = re.compile(
-    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?|"
-    r"chan(?:nel)?s?\.?\s*#?|#|unnamed: 0",
-    re.IGNORECASE,
-)
+_ASIDE = re.compile(r"index|no\.?|chan(?:nel)?s?\.?\s*#?|#|unnamed: 0", re.IGNORECASE)
 # Names of columns that say what they are only together; their marks and brackets do not count.
 _TOGETHER = {
     frozenset("xyz"): "color matching functions",
@@ -202,12 +199,14 @@ def _columns(
     emitting = [i for i in rest if others[i] == "emissivity"]
     others |= dict.fromkeys(emitting, "")
     named = any(series.says_reflectance(header[i]) for i in rest)
+    spread = beside.uncertainties([header[i] for i in rest])
     aside = {
         i
         for i in rest
         if len(rest) > 1
         and (
             _ASIDE.fullmatch(header[i])
+            or header[i] in spread
             or (named and _RAW.fullmatch(header[i]))
             or (i < axis and not header[i])  # pandas writes its index without a name
         )
