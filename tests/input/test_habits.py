@@ -95,3 +95,38 @@ def test_statistics_beside_a_mean_are_no_samples_and_names_like_them_are(tmp_pat
     found = read(tmp_path, down(f"wavelength,{','.join(names)}"))
     assert [sample.name for sample in found] == names
     assert [s.name for s in read(tmp_path, down("wavelength,error,sigma"))] == ["error", "sigma"]
+
+
+@pytest.mark.parametrize(
+    ("column", "what"),
+    [
+        ("Trasmittanza", "transmittance"),
+        ("透射率", "transmittance"),
+        ("Пропускание (%)", "transmittance"),
+        ("吸收率", "absorbance"),
+        ("reflectance as log(1/R)", "absorbance"),
+        ("remission function", "Kubelka-Munk"),
+        ("first derivative of reflectance", "derivative"),
+        ("dR/R", "derivative"),
+        ("continuum removed reflectance", "continuum"),
+        ("1-R", "one less"),
+        ("Single beam", "counts"),
+        ("PL intensity", "emission"),
+        ("Intensity", "nothing says of what"),
+    ],
+)
+def test_what_is_no_reflectance_in_more_words(tmp_path, column, what):
+    assert what in refusal(tmp_path, down(f"nm,{column}"))
+
+
+def test_letters_beside_r_are_other_quantities(tmp_path):
+    for head in ("nm,R,T", "nm,%R,%T,%A", "nm,R (%),T (%)"):
+        [sample] = read(tmp_path, down(head, times=100.0 if "%" in head else 1.0))
+        assert is_ramp(sample)
+        assert any("Columns not read: " in note for note in sample.notes)
+    assert len(read(tmp_path, down("nm,R,T,B"))) == 3
+
+
+def test_a_hyphen_before_a_word_is_no_logarithm(tmp_path):
+    [sample] = read(tmp_path, down("nm,brick-logo"))
+    assert sample.name == "brick-logo"

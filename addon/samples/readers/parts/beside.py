@@ -23,8 +23,20 @@ _SPREAD_BEFORE = re.compile(rf"(?:{_SPREAD}){_ABOUT}(?:of )?([^\])]+)[\])]?", re
 # What statistics put beside a mean; samples may be called so where there is none.
 _MEAN = re.compile(r"(?:mean|average|avg|mittel\w*|moyenne|media|median)\b.*", re.IGNORECASE)
 _BESIDE_MEAN = re.compile(r"n|count|min(?:imum)?|max(?:imum)?|range|median", re.IGNORECASE)
+_LETTERS = {"t": "transmittance", "a": "absorptance"}
 _LONGEST = 60  # characters of a name that are looked at for what it says of another column
 _MARKS_BEHIND = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$|\s*%\s*$")
+
+
+def letters(names: list[str]) -> dict[str, str]:
+    """Return which other quantities than reflectance stand beside one that is called ``R``.
+
+    ``R, T`` and ``R (%), T (%), A (%)`` are three quantities; ``A, B, R, T`` may be samples.
+    """
+    bare = {name: _MARKS_BEHIND.sub("", name).strip(" %").lower() for name in names}
+    if not {"r"} < set(bare.values()) <= {"r", *_LETTERS}:
+        return {}
+    return {name: _LETTERS[letter] for name, letter in bare.items() if letter in _LETTERS}
 
 
 def uncertainties(names: list[str]) -> set[str]:

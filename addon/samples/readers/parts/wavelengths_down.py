@@ -49,6 +49,8 @@ _ALONE = {
     "a": "absorbance (a logarithm)",
     "od": "optical density (a logarithm)",
     "t": "transmittance (light through the sample)",
+    "intensity": "an intensity, and nothing says of what",
+    "signal": "a signal, and nothing says of what",
     "ks": "Kubelka-Munk values (K/S)",
     "km": "Kubelka-Munk values (K/S)",
 }
@@ -195,7 +197,9 @@ def _columns(
         There is none of the former.
     """
     rest = [i for i in range(len(header)) if i != axis]
+    letters = beside.letters([header[i] for i in rest])
     others = {i: series.other_quantity(header[i]) or series.other_quantity(units[i]) for i in rest}
+    others = {i: others[i] or letters.get(header[i], "") for i in rest}
     emitting = [i for i in rest if others[i] == "emissivity"]
     others |= dict.fromkeys(emitting, "")
     named = any(series.says_reflectance(header[i]) for i in rest)
