@@ -130,3 +130,24 @@ def test_letters_beside_r_are_other_quantities(tmp_path):
 def test_a_hyphen_before_a_word_is_no_logarithm(tmp_path):
     [sample] = read(tmp_path, down("nm,brick-logo"))
     assert sample.name == "brick-logo"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Photometric mode: Reflectance (%)\n" + down("nm,black", times=100),
+        "Messart;Reflexion [%]\n" + down("nm;black", ";", times=100),
+        across("Probe,Reflexion [%]", "black,", times=100),
+        across("Wavelength (nm)", "Reflectance (%)", times=100),
+        across("nm", "%R", times=100),
+        across("nm", "R_pct", times=100),
+    ],
+)
+def test_percent_in_a_mode_over_the_bands_or_in_the_name_of_a_row(tmp_path, text):
+    [sample] = read(tmp_path, text)
+    assert is_ramp(sample)
+
+
+def test_a_row_that_is_called_by_a_standard_of_some_percent_is_no_percent(tmp_path):
+    samples = read(tmp_path, across("name", "50% reflectance standard", "99 % R", "brick"))
+    assert all(map(is_ramp, samples))

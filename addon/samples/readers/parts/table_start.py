@@ -36,7 +36,9 @@ _KIND_KEY = re.compile(
     re.I,
 )
 """Keys whose values may say which quantity it is; they are no units."""
-_PERCENT_ALONE = re.compile(r"%\s*(?:r|refl\w*)?|(?:r|refl\w*)\s*%", re.I)
+_PERCENT_ALONE = re.compile(
+    r"[%％]\s*(?:r|refl\w*)?|(?:r|refl\w*)(?:\s*[/\[(]\s*|[\s_])?(?:[%％]|pct|percent)[\])]?", re.I
+)
 _OF_WHAT = re.compile(r"\s+(?:of|spectr\w*|values?|data|von|de)\b", re.I)
 _VALUES_ARE = re.compile(r"(?:all )?(?:the )?(?:values|data|spectra|numbers) (?:are|is|in)\b", re.I)
 
@@ -93,7 +95,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
             said.wavelength_unit = unit
         if _KIND_KEY.match(key):
             _refuse_other(document, number, start, value)
-            if said.scale is None and _PERCENT_ALONE.fullmatch(value):
+            if said.scale is None and is_percent_reflectance(value):
                 said.scale = 100.0
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
@@ -111,6 +113,14 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         if said.scale is None and not is_comment and label_words.percent_of_values(text):
             said.scale = 100.0
     return found if found.keys() & statements.GEOMETRIES else found | free
+
+
+def is_percent_reflectance(text: str) -> bool:
+    """Return whether a text is a quantity in percent, such as ``%R`` and ``Reflexion [%]``."""
+    text = text[:_LONGEST].strip()
+    return bool(_PERCENT_ALONE.fullmatch(text)) or (
+        series.says_reflectance(text) and label_words.says_percent(text)
+    )
 
 
 def _refuse_other(document: Document, number: int, start: int, text: str) -> None:
