@@ -104,7 +104,7 @@ def test_damage_is_named_with_its_line(rows, parts):
         ("NANOMETERS", "ABSORBANCE", ["line 4", "absorbance"]),
         ("NANOMETERS", "KUBELKA-MUNK", ["line 4", "Kubelka-Munk"]),
         ("NANOMETERS", "ARBITRARY UNITS", ["line 4", "'ARBITRARY UNITS'"]),
-        ("HZ", "REFLECTANCE", ["line 3", "'HZ'", "NANOMETERS"]),
+        ("MHZ", "REFLECTANCE", ["line 3", "'MHZ'", "NANOMETERS"]),
     ],
 )
 def test_other_units_are_refused_by_their_name(x, y, parts):

@@ -21,6 +21,7 @@ _SEARCHED = 400  # lines; the longest preamble known has about 90
 _ROWS_BETWEEN = 8  # between the names of columns and the first numbers
 _ENOUGH = 64  # fields of a row
 _WORDS_OF_A_TITLE = 2  # "Log(1/R)", "Transmittance [%]"; names of samples may be longer
+_WORDS_OF_A_QUANTITY = 3  # "Reflectance in %"; a title goes on
 _LONGEST = 4096  # characters of a line that decide what it is
 LEAST_BAND = 100.0
 """Names of columns in nanometers start here: samples are called 1, 2, 3 more often than 100."""
@@ -119,7 +120,9 @@ def is_percent_reflectance(text: str) -> bool:
     """Return whether a text is a quantity in percent, such as ``%R`` and ``Reflexion [%]``."""
     text = text[:_LONGEST].strip()
     return bool(_PERCENT_ALONE.fullmatch(text)) or (
-        series.says_reflectance(text) and label_words.says_percent(text)
+        len(text.split()) <= _WORDS_OF_A_QUANTITY
+        and series.says_reflectance(text)
+        and label_words.says_percent(text)
     )
 
 
