@@ -42,6 +42,7 @@ _UNITS = re.compile(r"\s*(\d+(?:[.,]\d*)?)\s*(?:gu|gloss units?)?\s*", re.IGNORE
 _KEYS = {
     **dict.fromkeys(("device", "instrument", "instrumentname", "instrumenttype"), "device"),
     **dict.fromkeys(("instrumentmodel", "spectrophotometer", "spectrometer"), "device"),
+    **dict.fromkeys(("sensor", "sensortype", "sensorname"), "device"),
     **dict.fromkeys(("geometry", "measurementgeometry", "measuringgeometry"), "geometry"),
     **dict.fromkeys(("instrumentgeometry", "opticalgeometry", "optics"), "geometry"),
     **dict.fromkeys(("aperture", "aperturesize", "measuringaperture"), "aperture"),
