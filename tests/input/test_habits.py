@@ -151,3 +151,53 @@ def test_percent_in_a_mode_over_the_bands_or_in_the_name_of_a_row(tmp_path, text
 def test_a_row_that_is_called_by_a_standard_of_some_percent_is_no_percent(tmp_path):
     samples = read(tmp_path, across("name", "50% reflectance standard", "99 % R", "brick"))
     assert all(map(is_ramp, samples))
+
+
+@pytest.mark.parametrize(
+    ("above", "instrument"),
+    [
+        ("Geometría: esfera integradora, d/8\nComponente especular: excluido\n", "de:8"),
+        ("# Medición: componente especular incluida\n", "di:8"),
+        ("# componente speculare esclusa, sfera integratrice\n", "de:8"),
+        ("Componente speculare;inclusa\n", "di:8"),
+        ("Equipamento: CM-700d, componente especular excluída\n", "de:8"),
+        ("# d/8, зеркальная составляющая исключена\n", "de:8"),
+        ("Прибор: CM-700d\nРежим: SCE\n", "de:8"),
+        ("仪器: CM-700d\n镜面反射: 不包含\n", "de:8"),
+        ("# d/8 包含镜面光\n", "di:8"),
+        ("# 积分球, 不含镜面反射\n", "de:8"),
+        ("Messgeometrie: d/8\nGlanz: aus\n", "de:8"),
+        ("# GretagMacbeth Color-Eye 7000A\n", "di:8"),
+        ("Instrument: Datacolor SF600\n", "di:8"),
+        ("# Datacolor Spectro 1050\n", "di:8"),
+        ("# BYK spectro-guide sphere\n", "di:8"),
+        ("Instrument: X-Rite 964\n", "0:45a"),
+    ],
+)
+def test_geometry_in_more_languages_and_of_more_devices(tmp_path, above, instrument):
+    [sample] = read(tmp_path, above + down("nm;x", ";"))
+    assert sample.instrument == instrument
+    assert sample.device or not any("device" in note for note in sample.notes)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "Nombre,Instrumento,Geometría,Componente especular",
+        "Nome,Strumento,Geometria,Speculare",
+        "Образец,Прибор,Геометрия,Specular",
+        "样品名称,仪器,光学结构,镜面反射",
+    ],
+)
+def test_columns_in_more_languages(tmp_path, head):
+    [sample] = read(tmp_path, across(head, "Tile,CM-700d,d/8,SCE"))
+    assert (sample.name, sample.device, sample.instrument) == ("Tile", "CM-700d", "de:8")
+
+
+@pytest.mark.parametrize("device", ["X-Rite MA-T6", "BYK-mac i", "byk mac i", "CM-M6"])
+def test_a_multi_angle_device_counts_in_a_comment_as_by_its_key(tmp_path, device):
+    for above in (f"# measured with {device}\n", f"Instrument: {device}\n"):
+        [sample] = read(tmp_path, above + down("nm,x"))
+        assert any("several angles" in note for note in sample.notes), above
+        [sample] = read(tmp_path, above + down("nm,x 15°,x 45°"))
+        assert [s.instrument for s in sample.readings] == ["45as45", "45as15"], above

@@ -129,9 +129,7 @@ def wavelengths(found: dict[str, str], bands: int) -> tuple[NDArray[np.float64],
     elif known := label_words.unit_of_wavelengths(unit):
         nm = label_words.to_nanometers(values, known)
     elif unit not in ("", "unknown"):
-        raise ValueError(
-            f"has wavelengths in {unit!r}; they may be nanometers, micrometers, wavenumbers or GHz"
-        )
+        raise ValueError(f"has wavelengths in {unit!r}; they may be nanometers or wavenumbers")
     elif _within(values, _NANOMETERS):
         nm, notes = values, ("The header names no unit of wavelengths; taken for nanometers.",)
     elif _within(values, _MICROMETERS):

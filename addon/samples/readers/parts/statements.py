@@ -74,6 +74,24 @@ _KEYS = {
     **dict.fromkeys(("正反射", "正反射光", "正反射光処理", "正反射成分"), "specular"),
     **dict.fromkeys(("winkel", "messwinkel"), "angle"),
     **dict.fromkeys(("probe", "probenname", "echantillon", "試料", "試料名"), "name"),
+    # Spanish, Italian, Portuguese, Russian and Chinese.
+    **dict.fromkeys(("instrumento", "strumento", "equipo", "equipamento", "dispositivo"), "device"),
+    **dict.fromkeys(
+        ("espectrofotometro", "spettrofotometro", "прибор", "仪器", "仪器型号"), "device"
+    ),
+    **dict.fromkeys(("geometriademedicion", "геометрия", "геометрияизмерения"), "geometry"),
+    **dict.fromkeys(
+        ("geometriadimisura", "几何条件", "光学结构", "测量几何", "照明观察条件"), "geometry"
+    ),
+    **dict.fromkeys(("apertura", "abertura", "апертура", "测量口径", "口径"), "aperture"),
+    **dict.fromkeys(("componenteespecular", "especular", "componentespeculare"), "specular"),
+    **dict.fromkeys(("speculare", "зеркальнаясоставляющая", "镜面反射", "镜面光"), "specular"),
+    **dict.fromkeys(
+        ("measuremode", "modo", "modalita", "测量模式", "测量方式", "режим"), "condition"
+    ),
+    **dict.fromkeys(("angulo", "angolo", "угол", "角度", "测量角度"), "angle"),
+    **dict.fromkeys(("muestra", "nombre", "campione", "nome", "amostra", "nom"), "name"),
+    **dict.fromkeys(("образец", "название", "样品", "样品名称", "样品名", "名称"), "name"),
 }
 GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit", "mentioned"}
 """Fields of `stated` from which the geometry follows."""
@@ -382,6 +400,8 @@ def _stated_specular(key: str, value: str) -> dict[str, Any]:
     asked = specular_of(key.replace("_", " "))
     if not said and asked and value.lower() in _YES | _NO:
         said = asked if value.lower() in _YES else {"SCI": "SCE", "SCE": "SCI"}[asked]
+    if not said and not asked:  # "Glanz: aus", "componente speculare: esclusa", "镜面反射: 不包含"
+        said = specular_of(f"{key} {value}")
     if said:
         return _specular(said)
     return {"sphere": value} if _BOTH.search(value) else {}
