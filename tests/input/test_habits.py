@@ -201,3 +201,54 @@ def test_a_multi_angle_device_counts_in_a_comment_as_by_its_key(tmp_path, device
         assert any("several angles" in note for note in sample.notes), above
         [sample] = read(tmp_path, above + down("nm,x 15°,x 45°"))
         assert [s.instrument for s in sample.readings] == ["45as45", "45as15"], above
+
+
+@pytest.mark.parametrize(
+    "axis",
+    [
+        "Wellenlänge (nm)",
+        "longueur d'onde (nm)",
+        "longitud de onda",
+        "lunghezza d'onda [nm]",
+        "comprimento de onda",
+        "длина волны, нм",
+        "波長(nm)",
+        "波长",
+        "Wellenzahl (cm-1)",
+    ],
+)
+def test_wavelengths_need_not_stand_first_in_any_language(tmp_path, axis):
+    rows = [f"{1e7 / nm if 'cm-1' in axis else nm};{v}" for nm, v in zip(NM, VALUES, strict=True)]
+    down_rows = "\n".join(f"{i};{row}" for i, row in enumerate(rows))
+    [sample] = read(tmp_path, f"No;{axis};tile\n{down_rows}\n")
+    assert sample.wavelengths == pytest.approx(NM)
+    assert sample.values == pytest.approx(VALUES)
+    long = "\n".join(f"tile;{row}" for row in rows)
+    [sample] = read(tmp_path, f"Probe;{axis};Reflexion\n{long}\n")
+    assert (sample.name, sample.wavelengths.tolist()) == ("tile", pytest.approx(list(NM)))
+
+
+@pytest.mark.parametrize(
+    ("head", "before", "behind"),
+    [
+        ("material,wavelength,R_pct", "{}", ""),
+        (",species,lambda_nm,refl", "{i},{}", ""),
+        ("wavelength,value,variable", "", "{}"),
+    ],
+)
+def test_names_of_long_tables_by_the_only_column_of_words(tmp_path, head, before, behind):
+    times = 100 if "pct" in head else 1
+    rows = []
+    for name in ("oak", "elm"):
+        for i, (nm, value) in enumerate(zip(NM, VALUES, strict=True)):
+            cells = [before.format(name, i=i), f"{nm},{value * times}", behind.format(name)]
+            rows.append(",".join(filter(None, cells)))
+    samples = read(tmp_path, "\n".join([head, *rows]))
+    assert [sample.name for sample in samples] == ["oak", "elm"]
+    assert all(map(is_ramp, samples))
+
+
+def test_a_long_table_with_a_mode(tmp_path):
+    rows = [f"{mode},{nm},{v}" for mode in ("SCI", "SCE") for nm, v in zip(NM, VALUES, strict=True)]
+    [sample] = read(tmp_path, "mode,wl,refl\n" + "\n".join(rows))
+    assert [s.instrument for s in sample.readings] == ["de:8", "di:8"]

@@ -54,7 +54,10 @@ _UNIT = re.compile(
     re.IGNORECASE,
 )
 _WAVELENGTH = re.compile(
-    r"(?:wave[ _-]?(?:lengths?|numbers?)|wvl|wl|lambda|λ|nm|1/cm|cm\^?-1|cm⁻¹|thz|ev)(?![a-z])|"
+    r"(?:wave[ _-]?(?:lengths?|numbers?)|wvl|wl|lambda|λ|nm|1/cm|cm\^?-1|cm⁻¹|thz|ev|"
+    r"wellenl(?:ä|ae)ngen?|wellenzahl(?:en)?|longueurs? d.onde|nombres? d.onde|longitud de onda|"
+    r"n[úu]mero de onda|lunghezz[ae] d.onda|comprimento de onda|golflengte|våglängd|"
+    r"длин[аы] волн\w*|波[長长数])(?![a-z])|"
     r"(?:photon )?(?:frequency|energy)\s*[\[(/,]",
     re.IGNORECASE,
 )

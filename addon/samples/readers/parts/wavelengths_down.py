@@ -30,8 +30,9 @@ from .wavelengths_across import not_read
 # A single column with such a name says what is in it, not which sample it is.
 _QUANTITY = re.compile(
     r"%?\s*(?:reflectance|reflect\.?|refl\.?|reflectance[ _]factor|reflectivity|albedo|reading|"
-    r"emissivity|values?|r|y|spectrum)?"
-    r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
+    r"reflexion(?:sgrad)?|remission|r[ée]flectanc\w*|reflectancia|riflettanza|reflet[âa]ncia|反射率|"
+    r"отражени[ея]|emissivity|values?|r|y|spectrum)?"
+    r"[\s_]*[\[(]?(?:%|％|pct|percent|fraction|-|1)?[\])]?",
     re.IGNORECASE,
 )
 _NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
