@@ -252,3 +252,30 @@ def test_a_long_table_with_a_mode(tmp_path):
     rows = [f"{mode},{nm},{v}" for mode in ("SCI", "SCE") for nm, v in zip(NM, VALUES, strict=True)]
     [sample] = read(tmp_path, "mode,wl,refl\n" + "\n".join(rows))
     assert [s.instrument for s in sample.readings] == ["de:8", "di:8"]
+
+
+def names_and_instruments(samples):
+    return [(sample.name, [s.instrument for s in sample.readings]) for sample in samples]
+
+
+@pytest.mark.parametrize(
+    "top",
+    [
+        ",Tile A,,Tile B,\nnm,SCI,SCE,SCI,SCE",
+        "Sample,Tile A,,Tile B,\nnm,SCI,SCE,SCI,SCE",
+        ",Tile A,Tile A,Tile B,Tile B\n,SCI,SCE,SCI,SCE\nwavelength,,,,",
+        "Sample,Tile A,Tile A,Tile B,Tile B\nGlanz,ein,aus,ein,aus\nWellenlänge,,,,",
+        "Specular,SCI,SCE,SCI,SCE\nnm,Tile A,Tile A,Tile B,Tile B",
+    ],
+)
+def test_rows_above_the_names_are_about_their_columns(tmp_path, top):
+    rows = down(None).replace("\n", "#").strip("#").split("#")
+    values = [row.split(",") for row in rows]
+    text = "\n".join([top, *(f"{nm},{v},{v},{v},{v}" for nm, v in values)])
+    found = names_and_instruments(read(tmp_path, f"Instrument,CM-700d,,,\n{text}"))
+    assert found == [("Tile A", ["de:8", "di:8"]), ("Tile B", ["de:8", "di:8"])]
+
+
+def test_one_cell_beside_a_key_is_about_the_whole_table(tmp_path):
+    samples = read(tmp_path, "Specular,SCE,,\n" + down("nm,a tile,b tile,c tile"))
+    assert names_and_instruments(samples) == [(f"{c} tile", ["de:8"]) for c in "abc"]

@@ -14,6 +14,7 @@ import re
 
 from ...sample import Sample
 from ..parts import (
+    column_levels,
     foreign_comments,
     goniometer_tables,
     label_words,
@@ -69,7 +70,6 @@ def read(document: Document) -> list[Sample]:
     document = foreign_comments.as_ours(document)
     said = label_words.comments(document)
     start = table_start.find_start(document)
-    fields = table_start.above(document, start, said)
     delimiter, skip = find_delimiter(document, start)
     table = tables.rows(document, delimiter, skip)
     top = list(itertools.islice(table, _PEEK))
@@ -81,6 +81,8 @@ def read(document: Document) -> list[Sample]:
     while len(header) > 1 and not header[-1]:
         header.pop()  # a delimiter at the end of each line
     tables.check_columns(document, top[0].line, len(header))
+    levels = column_levels.find(document, start, delimiter, len(top[0].fields))
+    fields = table_start.above(document, start, said, levels.lines)
     if goniometer_tables.is_goniometer(header):
         next(table)
         return goniometer_tables.read(document, said, fields, header, top[0].line, table)
@@ -104,7 +106,8 @@ def read(document: Document) -> list[Sample]:
                 "them names in a first line",
             )
         header = ["wavelength", *[""] * (len(header) - 1)]
-    return wavelengths_down.read(document, said, fields, header, table)
+    header = levels.labels(header)
+    return wavelengths_down.read(document, said, fields, header, table, levels.own)
 
 
 def _plain_number(cell: str, comma: bool) -> float | None:

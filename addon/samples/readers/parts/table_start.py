@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Collection
 from typing import Any
 
 from . import (
@@ -70,8 +71,12 @@ def find_start(document: Document) -> int:
     return content[0][0] if content else 0
 
 
-def above(document: Document, start: int, said: label_words.Comments) -> dict[str, Any]:
+def above(
+    document: Document, start: int, said: label_words.Comments, but: Collection[int] = ()
+) -> dict[str, Any]:
     """Return what the lines above the table say of its samples; note units and kind in `said`.
+
+    Lines in `but`, counted from 0, are about single columns.
 
     Raises
     ------
@@ -82,7 +87,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
     free: dict[str, Any] = {}
     for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
         text = line[:_LONGEST].strip().strip("\t;,").strip()
-        if not text or (number == 1 and tables.announced(line)):
+        if not text or number - 1 in but or (number == 1 and tables.announced(line)):
             continue
         is_comment = text.startswith("#")  # what comments say of samples, `label_words` found
         text = text.lstrip("# ")

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -71,6 +71,7 @@ def read(
     fields: dict[str, Any],
     header: list[str],
     table: Iterator[Row],
+    above: Mapping[int, dict[str, Any]],
 ) -> list[Sample]:
     """Return one sample a column.
 
@@ -84,6 +85,8 @@ def read(
         The names of the columns.
     table
         The rows below.
+    above
+        What rows above the names of the columns say of each.
     """
     if len(header) < 2:
         raise document.error(
@@ -123,7 +126,7 @@ def read(
             f"{document.path}, {place}",
             lambda band: f"line {block.lines[band]}",
         )
-        known = {**fields, **own.get(column, {})}
+        known = {**fields, **above.get(column, {}), **own.get(column, {})}
         name = from_cell(label) if said.escaped else label
         generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
         alone = known.get("name") or document.path.stem
