@@ -279,3 +279,43 @@ def test_rows_above_the_names_are_about_their_columns(tmp_path, top):
 def test_one_cell_beside_a_key_is_about_the_whole_table(tmp_path):
     samples = read(tmp_path, "Specular,SCE,,\n" + down("nm,a tile,b tile,c tile"))
     assert names_and_instruments(samples) == [(f"{c} tile", ["de:8"]) for c in "abc"]
+
+
+@pytest.mark.parametrize(
+    ("name", "instrument"),
+    [
+        ("brick_SCE.csv", "de:8"),
+        ("brick SCI.csv", "di:8"),
+        ("brick (d8 SCE).csv", "de:8"),
+        ("tile_CM-700d.csv", "di:8"),
+        ("paint_45as15.csv", "45as15"),
+        ("tile specular excluded.csv", "de:8"),
+    ],
+)
+def test_a_geometry_in_the_name_of_the_file_counts_where_nothing_else_says_one(
+    tmp_path, name, instrument
+):
+    samples = read(tmp_path, down("nm,a tile,b tile"), name)
+    assert [sample.instrument for sample in samples] == [instrument] * 2
+    for sample in samples:
+        assert "file's name" in sample.notes[0]
+        assert "is assumed" not in " ".join(sample.notes)
+    [sample] = read(tmp_path, down("nm,reflectance"), name)
+    assert sample.instrument == instrument
+    [sample] = read(tmp_path, "Geometry: 0:45\n" + down("nm,tile"), name)
+    assert sample.instrument == "0:45a"
+
+
+@pytest.mark.parametrize(
+    "name", ["sci-fi poster.csv", "D8.csv", "top spin.csv", "color 2024-45-10.csv"]
+)
+def test_names_of_files_that_say_no_geometry(tmp_path, name):
+    [sample] = read(tmp_path, down("nm,tile"), name)
+    assert sample.instrument == "45a:0"
+    assert any("is assumed" in note for note in sample.notes)
+
+
+@pytest.mark.parametrize("label", ["SCE", "Spec. Excl.", "Specular Excluded (%)", "R SPEX"])
+def test_a_column_named_by_its_specular_component_alone(tmp_path, label):
+    [sample] = read(tmp_path, down(f"nm,{label}", times=100 if "%" in label else 1))
+    assert (sample.instrument, sample.specular) == ("de:8", "SCE")

@@ -88,7 +88,7 @@ _MENTIONED = re.compile(
 # Capitals alone, and words with what they belong to: "sci" may be part of a name, as "SPIN COATED".
 _SPECULAR_WORDS = re.compile(
     rf"(?<![A-Za-z])(?:SCI|SCE|R?SPIN(?!\W+[A-Z]{{2}})|R?SPEX|RSIN|RSEX){_NO_PART}|"
-    r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:in|ex)cl|"
+    r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:[Ii]n|[Ee]x)cl|"
     r"[Gg]lanz(?:anteil)?\W*(?:ein|aus|inkl|exkl)|\b(?:mit|ohne)\W*Glanz|Glanzfalle|"
     r"(?:[Bb]rillan\w*|[Ss]p[ée]culaire)\W*(?:in|ex)clu|正反射|"
     rf"(?i:{_WITH}|{_WITHOUT})"
