@@ -95,7 +95,8 @@ _KEYS = {
 }
 GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit", "mentioned"}
 """Fields of `stated` from which the geometry follows."""
-_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device"}
+_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device", "condition"}
+_OF_MEASUREMENTS |= {"illuminant", "observer", "light"}
 _REMARK = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
 _YES, _NO = {"yes", "y", "true", "1", "on", "x"}, {"no", "n", "false", "0", "off"}
 _BOTH = re.compile(r"sc[ie]|sp(?:in|ex)|i\+e|both|incl|excl", re.IGNORECASE)
@@ -381,6 +382,11 @@ def _measured(said: Comments, fields: dict[str, Any]) -> dict[str, Any]:
     if fields.keys() & GEOMETRIES:
         found = {key: value for key, value in found.items() if key not in GEOMETRIES}
     return found
+
+
+def name_in_comments(said: Comments) -> str:
+    """Return what comments call the only sample of a file, or an empty string."""
+    return next((value for key, value in said.others if field_of(key) == "name"), "")
 
 
 def _of_comments(said: Comments) -> dict[str, Any]:

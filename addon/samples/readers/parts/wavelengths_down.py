@@ -129,7 +129,7 @@ def read(
         known = {**fields, **above.get(column, {}), **own.get(column, {})}
         name = from_cell(label) if said.escaped else label
         generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
-        alone = known.get("name") or document.path.stem
+        alone = known.get("name") or statements.name_in_comments(said) or document.path.stem
         samples.append(
             statements.make(
                 document,
