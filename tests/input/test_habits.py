@@ -319,3 +319,43 @@ def test_names_of_files_that_say_no_geometry(tmp_path, name):
 def test_a_column_named_by_its_specular_component_alone(tmp_path, label):
     [sample] = read(tmp_path, down(f"nm,{label}", times=100 if "%" in label else 1))
     assert (sample.instrument, sample.specular) == ("de:8", "SCE")
+
+
+@pytest.mark.parametrize(
+    "below",
+    [
+        "\nInstrument,CM-700d\nGeometry,d/8\nSpecular,SCE\n",
+        "Instrument: CM-700d\nMode: SCE\n",
+        ",,\nMeasured on Tuesday,,\nSpecular component,excluded,\n",
+        "\n\n##### Extended Information\n[Comments]\nAccessory: integrating sphere, SCE\n",
+    ],
+)
+@pytest.mark.parametrize("table", [down("nm,a tile"), across("name", "a tile")])
+def test_what_stands_below_a_table_is_read_as_what_stands_above(tmp_path, table, below):
+    [sample] = read(tmp_path, table + below)
+    assert is_ramp(sample)
+    assert (sample.name, sample.instrument) == ("a tile", "de:8")
+
+
+def test_statistics_below_a_table_are_no_part_of_it_and_what_is_damaged_still_is(tmp_path):
+    [sample] = read(tmp_path, down("nm,a tile") + "\nmin,0.1\nmax,0.7\n")
+    assert is_ramp(sample)
+    assert "'average' is not a number" in refusal(tmp_path, down("nm,a tile") + "average,0.4\n")
+    assert "line 3" in refusal(tmp_path, across("name", "a tile") + "b tile,0.1\n")
+    assert len(read(tmp_path, across("name", "a tile") + "\n" + across("name", "b tile"))) == 2
+
+
+def test_names_of_columns_that_are_repeated_are_no_row(tmp_path):
+    a, b = across("name", "a tile"), across("name", "b tile")
+    assert [sample.name for sample in read(tmp_path, a + b)] == ["a tile", "b tile"]
+
+
+def test_what_comments_say_of_mode_light_and_name(tmp_path):
+    above = (
+        "# Sample: Red brick\n# device: CM-700d\n# mode: SCE\n# illuminant: D50\n# observer: 10\n"
+    )
+    [sample] = read(tmp_path, above + down("nm,reflectance"))
+    told = (sample.name, sample.instrument, sample.illuminant, sample.observer)
+    assert told == ("Red brick", "de:8", "D50", 10)
+    [sample] = read(tmp_path, "# measurement mode: M1\n" + down("nm,a tile"))
+    assert (sample.name, sample.condition) == ("a tile", "M1")

@@ -15,7 +15,7 @@ import re
 from ...sample import Sample
 from ..parts import (
     column_levels,
-    foreign_comments,
+    comment_lines,
     goniometer_tables,
     label_words,
     long_tables,
@@ -67,7 +67,7 @@ def read(document: Document) -> list[Sample]:
         The delimiter or the wavelengths cannot be found, a field is not a number, or a spectrum is
         not one (`check_spectrum`).
     """
-    document = foreign_comments.as_ours(document)
+    document = comment_lines.as_ours(document)
     said = label_words.comments(document)
     start = table_start.find_start(document)
     delimiter, skip = find_delimiter(document, start)
@@ -89,6 +89,9 @@ def read(document: Document) -> list[Sample]:
     if len(top) > 1 and long_tables.is_long(header, top[1].fields):
         next(table)
         return long_tables.read(document, said, fields, header, top[0].line, table)
+    if _plain_number(header[0], comma) is None:  # programs that go on in a file repeat the names
+        names = top[0].fields
+        table = (row for i, row in enumerate(table) if not i or row.fields != names)
     if _is_across(document, said, header, top, comma):
         next(table)
         if len(top) > 1 and label_words.band(header[0]) and len(top[1].fields) == len(header) + 1:
