@@ -50,6 +50,18 @@ def table(head, numbers):
         ("# frequencies in THz\nx,brick", 299792.458 / NM),
         ("X Units,THz\nx,brick", 299792.458 / NM),
         ("XUNITS: 1/cm\nx,brick", 1e7 / NM),
+        ("Frequency,brick\nTHz,%", 299792.458 / NM),
+        ("E,brick\n(eV),%", H_C_OVER_E * 1e9 / NM),
+        ("wavelength (m),brick", NM * 1e-9),
+        ("lambda,brick\nm,%", NM * 1e-9),
+        ("Wavelength [pm],brick", NM * 1000),
+        ("wavelength (mm),brick", NM * 1e-6),
+        ("frequency (PHz),brick", 299.792458 / NM),
+        ("frequency (GHz),brick", 299792458.0 / NM),
+        ("frequency [Hz],brick", 299792458e9 / NM),
+        ("energy (meV),brick", H_C_OVER_E * 1e12 / NM),
+        ("wavenumber (m-1),brick", 1e9 / NM),
+        ("# wavelength_unit: m\nx,brick", NM * 1e-9),
     ],
 )
 def test_what_is_stated_becomes_nanometers(tmp_path, head, numbers):
@@ -103,6 +115,10 @@ def test_samples_that_are_called_by_small_numbers_stay_columns(tmp_path):
             (f"{head},brick", 299792.458 / NM, "a frequency or an energy without its unit")
             for head in ("nu", "ν", "freq", "Frequenz", "fréquence", "周波数")
         ),
+        ("energy,brick", H_C_OVER_E * 1e9 / NM, "a frequency or an energy without its unit"),
+        ("energy (keV),brick", NM, "in a unit that is not known"),
+        ("photon energy in kJ/mol (kJ),brick", NM, "in a unit that is not known"),
+        ("frequency (MHz),brick", NM, "in a unit that is not known"),
         ("Raman shift (cm-1),brick", 1e7 / NM, "a Raman shift"),
         ("x,brick", 1e7 / NM, "14285.7 to 25000, have no unit"),
         ("wavelength,brick", NM * 10, "4000 to 7000, have no unit"),

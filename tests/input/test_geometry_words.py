@@ -90,7 +90,7 @@ def test_what_the_file_says_elsewhere_of_specular_light_counts():
         ("CM-26dG", "d/8"),
         ("X-Rite SP62", "d/8"),
         ("CM-512m3A", ""),
-        ("CM-2500c", ""),
+        ("CM-2500c", "45/0"),
         ("HP DesignJet Z9 embedded spectro", ""),
         ("", ""),
     ],

@@ -97,14 +97,21 @@ def test_damage_is_named_with_its_line(rows, parts):
         assert part in str(caught.value)
 
 
+@pytest.mark.parametrize(("units", "scale"), [("%R", 100), ("R", 1), ("R (%)", 100)])
+def test_reflectance_by_its_letter(units, scale):
+    (sample,) = jcamp.read(document("400 1 2", 2, "NANOMETERS", units))
+    assert sample.values.tolist() == pytest.approx([1e-4 / scale, 2e-4 / scale])
+
+
 @pytest.mark.parametrize(
     ("x", "y", "parts"),
     [
         ("NANOMETERS", "TRANSMITTANCE", ["line 4", "transmittance"]),
         ("NANOMETERS", "ABSORBANCE", ["line 4", "absorbance"]),
         ("NANOMETERS", "KUBELKA-MUNK", ["line 4", "Kubelka-Munk"]),
+        ("NANOMETERS", "1ST DERIVATIVE OF REFLECTANCE", ["line 4", "derivative"]),
         ("NANOMETERS", "ARBITRARY UNITS", ["line 4", "'ARBITRARY UNITS'"]),
-        ("HZ", "REFLECTANCE", ["line 3", "'HZ'", "NANOMETERS"]),
+        ("MHZ", "REFLECTANCE", ["line 3", "'MHZ'", "NANOMETERS"]),
     ],
 )
 def test_other_units_are_refused_by_their_name(x, y, parts):

@@ -259,6 +259,44 @@ def test_the_description_of_an_envi_library_tells_the_geometry(tmp_path):
         assert any("follows from 'By a CM-700d, SCE." in note for note in sample.notes)
 
 
+def envi_with(folder, **words):
+    """The library with further words in its header, or other ones in their place."""
+    for name in ("walls.hdr", "walls.sli"):
+        (folder / name).write_bytes((FIXTURES / "envi_library" / name).read_bytes())
+    header = folder / "walls.hdr"
+    lines = header.read_text().split("wavelength = ")[0]
+    for key, value in words.items():
+        key = key.replace("_", " ")
+        lines = re.sub(rf"^{key} = .*\n", "", lines, flags=re.MULTILINE) + f"{key} = {value}\n"
+    header.write_text(lines)
+    return header
+
+
+MICROMETERS = "{0.40, 0.41, 0.42, 0.43, 0.44}"
+
+
+def test_what_envi_calls_the_ordinate_counts(tmp_path):
+    head = envi_with(tmp_path, wavelength=MICROMETERS, z_plot_titles="{Wavelength, Radiance}")
+    with pytest.raises(InputError, match=r"'z plot titles'.*radiance"):
+        readers.read(head)
+    titles = "{Wavelength, Reflectance (%)}"
+    first, _ = readers.read(envi_with(tmp_path, wavelength=MICROMETERS, z_plot_titles=titles))
+    np.testing.assert_allclose(first.values * 100, VALUES, rtol=1e-6)
+
+
+def test_envi_libraries_say_sensor_and_geometry_in_words_of_their_own(tmp_path):
+    head = envi_with(tmp_path, wavelength=MICROMETERS, sensor_type="CM-700d", specular="SCE")
+    assert {(s.instrument, s.device) for s in readers.read(head)} == {("de:8", "CM-700d")}
+    head = envi_with(tmp_path, wavelength=MICROMETERS, sensor_type="Unknown")
+    assert {(s.instrument, s.device) for s in readers.read(head)} == {("45a:0", "")}
+
+
+def test_envi_libraries_over_wavenumbers(tmp_path):
+    numbers = "{25000, 24390.243902, 23809.52381, 23255.813953, 22727.272727}"
+    head = envi_with(tmp_path, wavelength=numbers, wavelength_units="Wavenumber")
+    np.testing.assert_allclose(readers.read(head)[0].wavelengths, [400, 410, 420, 430, 440])
+
+
 def test_envi_library_that_promises_more_than_there_is(tmp_path):
     (tmp_path / "walls.hdr").write_bytes((FIXTURES / "envi_library" / "walls.hdr").read_bytes())
     (tmp_path / "walls.sli").write_bytes(b"skip" + bytes(36))

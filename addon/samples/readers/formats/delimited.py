@@ -14,6 +14,8 @@ import re
 
 from ...sample import Sample
 from ..parts import (
+    column_levels,
+    comment_lines,
     goniometer_tables,
     label_words,
     long_tables,
@@ -65,9 +67,9 @@ def read(document: Document) -> list[Sample]:
         The delimiter or the wavelengths cannot be found, a field is not a number, or a spectrum is
         not one (`check_spectrum`).
     """
+    document = comment_lines.as_ours(document)
     said = label_words.comments(document)
     start = table_start.find_start(document)
-    fields = table_start.above(document, start, said)
     delimiter, skip = find_delimiter(document, start)
     table = tables.rows(document, delimiter, skip)
     top = list(itertools.islice(table, _PEEK))
@@ -79,12 +81,17 @@ def read(document: Document) -> list[Sample]:
     while len(header) > 1 and not header[-1]:
         header.pop()  # a delimiter at the end of each line
     tables.check_columns(document, top[0].line, len(header))
+    levels = column_levels.find(document, start, delimiter, len(top[0].fields))
+    fields = table_start.above(document, start, said, levels.lines)
     if goniometer_tables.is_goniometer(header):
         next(table)
         return goniometer_tables.read(document, said, fields, header, top[0].line, table)
     if len(top) > 1 and long_tables.is_long(header, top[1].fields):
         next(table)
         return long_tables.read(document, said, fields, header, top[0].line, table)
+    if _plain_number(header[0], comma) is None:  # programs that go on in a file repeat the names
+        names = top[0].fields
+        table = (row for i, row in enumerate(table) if not i or row.fields != names)
     if _is_across(document, said, header, top, comma):
         next(table)
         if len(top) > 1 and label_words.band(header[0]) and len(top[1].fields) == len(header) + 1:
@@ -102,7 +109,8 @@ def read(document: Document) -> list[Sample]:
                 "them names in a first line",
             )
         header = ["wavelength", *[""] * (len(header) - 1)]
-    return wavelengths_down.read(document, said, fields, header, table)
+    header = levels.labels(header)
+    return wavelengths_down.read(document, said, fields, header, table, levels.own)
 
 
 def _plain_number(cell: str, comma: bool) -> float | None:

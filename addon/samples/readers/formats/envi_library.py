@@ -17,6 +17,7 @@ import numpy as np
 from ...sample import Sample
 from ..parts import envi_header, series, statements
 from ..parts.document import Document, open_document, plain
+from ..parts.label_words import says_percent
 
 NAME = "ENVI spectral library"
 ENDINGS = ("sli", "hdr", "slb")
@@ -24,6 +25,8 @@ PRIORITY = 100
 
 _NUMBERS = (".sli", ".SLI", ".slb", ".SLB", ".dat", ".img", "")
 _MANY = 100_000
+_OF_NUMBERS = {"wavelength", "wavelength units", "spectra names", "fwhm", "bbl", "z plot titles"}
+"""Words of the header that say nothing of how its spectra were measured."""
 _LONGEST = 1000  # characters of the description that are searched for a geometry
 
 
@@ -67,6 +70,11 @@ def read(document: Document) -> list[Sample]:
             f"{len(numbers.data)}; copy both again",
         )
     scale = 1.0 if stated is None else stated
+    ordinate = found.get("z plot titles", "").strip("{} ").rpartition(",")[2]
+    if other := series.other_quantity(ordinate):
+        raise header.not_reflectance("key 'z plot titles'", other)
+    if stated is None and says_percent(ordinate):
+        scale = stated = 100.0
     if form.kind != "f" and stated is None:
         raise header.error(
             "", "it has whole numbers and no 'reflectance scale factor'; add it, such as 10000"
@@ -76,7 +84,9 @@ def read(document: Document) -> list[Sample]:
     table = np.frombuffer(numbers.data, form, bands * count, start).reshape(count, bands)
     names = envi_header.names(found.get("spectra names", ""))
     described = plain(found.get("description", "")[:_LONGEST]).strip("{} ")
-    measured = statements.of_remarks([("", described)])
+    texts = ((key, plain(text[:_LONGEST]).strip("{} ")) for key, text in found.items())
+    own = [(k, text) for k, text in texts if k not in _OF_NUMBERS and text.lower() != "unknown"]
+    measured = statements.of_remarks([*own, ("", described)])
     samples = []
     for i, row in enumerate(table):
         with np.errstate(invalid="ignore", over="ignore"):

@@ -33,6 +33,7 @@ _WAVENUMBERS = re.compile(r"1/cm|cm *\^?-1|wave *numbers?", re.IGNORECASE)
 _NM_CM = 1e7  # nanometers in a centimeter
 _NO_LIGHT = re.compile(r"\bnmr\b|\bmass\b|\bms\b|chromatogra|raman", re.IGNORECASE)
 _PERCENT = re.compile(r"%|percent|pct", re.IGNORECASE)
+_LETTER = re.compile(r"%?\s*R\s*[\[(]?%?[\])]?", re.IGNORECASE)
 _LABEL = re.compile(r"##([^=]{1,80})=(.*)")
 _TABLES = {"XYDATA", "XYPOINTS"}
 _UNREAD = {"NTUPLES", "RADATA", "PEAKTABLE", "PEAKASSIGNMENTS"}
@@ -66,7 +67,7 @@ def read(document: Document) -> list[Sample]:
     blocks = [block for block in _blocks(document) if block.table is not None]
     if not blocks:
         raise document.error("", "there is no table of a spectrum (##XYDATA=); export it with one")
-    fit = [block for block in blocks if series.says_reflectance(block.texts.get("YUNITS", ""))]
+    fit = [block for block in blocks if _reflects(block.texts.get("YUNITS", ""))]
     if not fit:
         raise _other(document, blocks[0])
     left = [block for block in blocks if block not in fit]
@@ -75,6 +76,13 @@ def read(document: Document) -> list[Sample]:
         names = ", ".join(quote(block.texts.get("TITLE", "")) for block in left[:4])
         notes = [f"Blocks that are not reflectance were not read: {names}."]
     return [_sample(document, block, notes) for block in fit]
+
+
+def _reflects(units: str) -> bool:
+    """Return whether ordinates are reflectance; Agilent and JASCO write ``%R``."""
+    if _LETTER.fullmatch(units.strip()):
+        return True
+    return series.says_reflectance(units) and not series.other_quantity(units)
 
 
 def _blocks(document: Document) -> Iterator[_Block]:

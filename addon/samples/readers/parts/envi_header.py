@@ -12,6 +12,8 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
+from . import label_words
+
 MAGIC = b"ENVI"
 TYPES = {1: "u1", 2: "i2", 3: "i4", 4: "f4", 5: "f8", 12: "u2", 13: "u4"}
 """Numbers by the code of the header; complex ones and those of 64 bits are not read."""
@@ -124,8 +126,10 @@ def wavelengths(found: dict[str, str], bands: int) -> tuple[NDArray[np.float64],
     notes: tuple[str, ...] = ()
     if unit in _UNITS:
         nm = values * _UNITS[unit]
+    elif known := label_words.unit_of_wavelengths(unit):
+        nm = label_words.to_nanometers(values, known)
     elif unit not in ("", "unknown"):
-        raise ValueError(f"has wavelengths in {unit!r}; they may be nanometers or micrometers")
+        raise ValueError(f"has wavelengths in {unit!r}; they may be nanometers or wavenumbers")
     elif _within(values, _NANOMETERS):
         nm, notes = values, ("The header names no unit of wavelengths; taken for nanometers.",)
     elif _within(values, _MICROMETERS):

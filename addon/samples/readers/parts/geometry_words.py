@@ -38,8 +38,11 @@ _SPHERE = re.compile(
 )
 _INCIDENCE = re.compile(rf"\bi\w*\s*[=:]?\s*{_NUMBER}\W{{1,5}}e\w*\s*[=:]?\s*{_NUMBER}")
 _DIFFUSE_BOTH = re.compile(r"(?<!\w)(?:d|diffuse)\s*[:/]\s*(?:d|diffuse)(?!\w)")
+# Integrating spheres in Spanish, Portuguese, Italian, Russian and Chinese.
+_SPHERES = r"esfera (?:de )?integra|sfera (?:di )?integra|сфер\w* интегр|интегр\w* сфер|积分球"
 _HEMISPHERE = re.compile(
-    r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b|ulbricht|kugel\b|\bsph[èe]re\b|積分球"
+    r"hemispher|\bdhr\b|\bsphere\b|\bspherical\b|\bdiffuse\b|ulbricht|kugel\b|\bsph[èe]re\b|積分球|"
+    rf"{_SPHERES}"
 )
 _ONE_DIRECTION = re.compile(r"direction\w*\W*hemi|hemi\w*\W*direction|\bdhr\b")
 _RING_WORD = re.compile(r"annul|circumferen|\bring\b")
@@ -52,31 +55,43 @@ _GLANZ, _BRILLANT, _MIRROR = (
     r"(?:brillan\w*|sp[ée]culaire)\W*",
     "正反射光?(?:成分)?を?",
 )
+# Spanish, Portuguese, Italian, Russian and Chinese.
+_ROMANCE = r"(?:e?specular[ei]?|reflexi[óo]n especular|brillo)\W*(?:est[áa]\W*)?"
+_WITH = (
+    rf"{_ROMANCE}incl[uú]|зеркальн\w*(?:\W+\w+)?\W+включ|"
+    r"(?<!不)(?<!不包)含镜面|镜面[反射光分量]*\W*(?<!不)包?含"
+)
+_WITHOUT = (
+    rf"{_ROMANCE}(?:exclu|esclus)|(?:sin|sem|senza)\W*(?:componente\W*)?e?specular|"
+    r"зеркальн\w*(?:\W+\w+)?\W+исключ|"
+    r"без\W+зеркальн|不包?含镜面|镜面[反射光分量]*\W*(?:排除|除|不包?含)|排除镜面"
+)
 # "SCI-FI POSTER" and "spin-coated" go on behind a hyphen; "SCI" of a measurement does not.
 _NO_PART = r"(?![A-Za-z]|[-\u2010\u2011\u2013.'\u2019&][A-Za-z]|[\s_](?:FI|fi)(?![A-Za-z]))"
 _INCLUDED = re.compile(
     rf"(?<![a-z])(?:sci|r?spin|rsin|spi|i\+e){_NO_PART}|(?<![a-z]){_SPECULAR}incl|incl\w*\W*specular|"
-    rf"{_GLANZ}(?:ein|inkl)|\b(?:mit|inkl\w*)\W*glanz|{_BRILLANT}inclu|{_MIRROR}含"
+    rf"{_GLANZ}(?:ein|inkl)|\b(?:mit|inkl\w*)\W*glanz|{_BRILLANT}inclu|{_MIRROR}含|{_WITH}"
 )
 _EXCLUDED = re.compile(
     rf"(?<![a-z])(?:sce|r?spex|rsex|spe){_NO_PART}|(?<![a-z]){_SPECULAR}(?:excl|not incl|removed)|"
     rf"excl\w*\W*specular|without\W*specular|gloss trap\W*open|"
-    rf"{_GLANZ}(?:aus|exkl)|\bohne\W*glanz|glanzfalle|{_BRILLANT}exclu|{_MIRROR}除"
+    rf"{_GLANZ}(?:aus|exkl)|\bohne\W*glanz|glanzfalle|{_BRILLANT}exclu|{_MIRROR}除|{_WITHOUT}"
 )
 _MENTIONED = re.compile(
     r"(?<![\w./:,-])(?:d[ie]?\s*[:/]\s*[08][ie]?|[08]\s*[:/]\s*d[ie]?|45[acx]?\s*[:/]\s*0[acx]?|"
     r"0\s*/\s*45[acx]?|r?\d\das[-+]?\d{1,3}|as[-+]?\d{2,3}|aspecular\D{0,12}?[-+]?\d{2,3}|"
     r"diffuse\s*[:/]?\s*[08]|bidirectional\s+\d\d?\s*[:/]\s*\d\d?|i\s*=\s*\d\d?\W{1,3}e\s*=\s*\d\d?|"
     r"(?:di8|de8|dhr|ulbricht\w*|integrating sphere|integrationskugel|積分球)|"
-    r"sph[èe]re int[ée]grante|"
+    rf"sph[èe]re int[ée]grante|sph[èe]re d.int[ée]gration|(?:{_SPHERES})\\w*|"
     r"(?:direction\w*\W*hemispher\w*|hemispher\w*\W*direction\w*))(?![\w/:]|\.\d)"
 )
 # Capitals alone, and words with what they belong to: "sci" may be part of a name, as "SPIN COATED".
 _SPECULAR_WORDS = re.compile(
     rf"(?<![A-Za-z])(?:SCI|SCE|R?SPIN(?!\W+[A-Z]{{2}})|R?SPEX|RSIN|RSEX){_NO_PART}|"
-    r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:in|ex)cl|"
+    r"[Ss]pec(?:ular(?:ity)?|\.)\W*(?:component\W*|light\W*)?(?:is\W*)?(?:not )?(?:[Ii]n|[Ee]x)cl|"
     r"[Gg]lanz(?:anteil)?\W*(?:ein|aus|inkl|exkl)|\b(?:mit|ohne)\W*Glanz|Glanzfalle|"
-    r"(?:[Bb]rillan\w*|[Ss]p[ée]culaire)\W*(?:in|ex)clu|正反射"
+    r"(?:[Bb]rillan\w*|[Ss]p[ée]culaire)\W*(?:in|ex)clu|正反射|"
+    rf"(?i:{_WITH}|{_WITHOUT})"
 )
 
 
@@ -265,8 +280,8 @@ def geometry_of_device(model: str) -> str:
 
 
 def device_in_text(text: str) -> str:
-    """Return the device with a known geometry that free text names, or an empty string."""
-    for pattern, _ in _DEVICES:
+    """Return the device of a known geometry, or of several, that free text names, or nothing."""
+    for pattern in (*(pattern for pattern, _ in _DEVICES), _MULTI_ANGLE):
         for match in pattern.finditer(text[:_LONGEST].lower()):
             if match[0] not in _WORDS:
                 # All of the model, as in "Ci7800".
@@ -275,14 +290,25 @@ def device_in_text(text: str) -> str:
     return ""
 
 
+def is_multi_angle(text: str) -> bool:
+    """Return whether a device reads at several angles, by its name or what is said of it."""
+    plain = text[:_LONGEST].lower()
+    return bool(_MULTI_ANGLE.search(plain) or re.search(r"multi[- ]?angle", plain))
+
+
 _WORDS = {"exact", "isis", "isis "}
 """Names of devices that free text holds without meaning one."""
+_MULTI_ANGLE = re.compile(r"byk[- ]?mac\b|\bma-?(?:t\d|5\b|6\b|68|9\d)|\bcm-?(?:512|m6\b)")
 _DEVICES = (
+    (re.compile(r"\bcm-?3630|\belrepho\b"), "d/0"),
     (
         # Not all of a maker's: Konica Minolta's CM-2500c is 45/0, its CM-512m3 has many angles.
         re.compile(
-            r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcm-?(?:5\b|17d|2[56]d|36d|[67]00d|2[356]00d|3[67]\d0)|"
-            r"\bdatacolor (?:1[01]\d\d|[4-8][05]0)\b|\bultrascan\b|\bcolorquest\b"
+            r"\bsp-?6[0248]\b|\bci[67]\d{1,3}|\bcolor i[57]\b|\bcolor-?eye\b|\bce-?7000|"
+            r"\bcm-?(?:5\b|17d|2[56]d|36d|508[di]|[67]00d|2[356]00d|3[25]\d0|3[67](?!30)\d0)|"
+            r"\bdatacolor (?:spectro (?:7\d0|10\d0)|check\b|1[01]\d\d|[4-8][05]0)\b|"
+            r"\b(?:spectraflash|spectroflash)\b|\bsf-?(?:[356]00|[456]50)\b|\bultrascan\b|"
+            r"\bcolorquest\b|\bspectro-?2?-?guide (?:sphere|d/?8)|\bts-?7[67]00\b|\bys-?30[126]0\b"
         ),
         "d/8",
     ),
@@ -290,10 +316,11 @@ _DEVICES = (
         re.compile(
             r"spectrolino|spectroscan|\bi1 ?(?:pro|io|basic|photo|studio|isis)|eye-?one|isis\b|"
             r"color ?munki|\bdtp-?(?:20|22|41|70)\b|\bexact\b|\bfd-?[579]\b|myiro|"
-            r"spectro ?(?:lfp|pad)|\bcolorflex\b|\bcm-?25cg|\bdatacolor 45|"
-            r"\bnix (?:pro|mini|spectro|qc)"
+            r"spectro ?(?:lfp|pad)|\bcolorflex\b|\bcm-?25(?:cg|00c)|\bdatacolor 45|"
+            r"\bnix (?:pro|mini|spectro|qc)|\bspectroeye\b|\bspectro(?:dens|drive|jet)\b|"
+            r"\bvariable spectro\b|\bspectro 1\b|\bspectro-?2?-?guide 45|\bys-?45[168]0\b"
         ),
         "45/0",
     ),
-    (re.compile(r"\blabscan\b|\bagera\b"), "0/45"),
+    (re.compile(r"\blabscan\b|\bagera\b|\bx-?rite (?:93[89]|96[24])\b"), "0/45"),
 )

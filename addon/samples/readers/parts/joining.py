@@ -20,7 +20,7 @@ from ... import sets
 from ...sample import Sample
 from . import name_marks
 from .document import quote
-from .geometry_words import ASSUMED, instrument_of, specular_of
+from .geometry_words import ASSUMED, instrument_of, is_multi_angle, specular_of
 from .name_marks import Mark
 
 ANGLE = "angle "
@@ -29,9 +29,6 @@ ANGLE = "angle "
 _ASPECULAR = {i.aspecular for i in REGISTRY.values() if i.aspecular is not None}
 _LEAST_ANGLES = 3  # that tell a multi-angle instrument by themselves
 _LEAST_NUMBERS = 5  # samples may be called 15, 25 and 45
-_MULTI_ANGLE = re.compile(
-    r"byk-?mac|\bma-?(?:t\d|5\b|6\b|68|9\d)|\bcm-?512|multi[- ]?angle", re.IGNORECASE
-)
 _CONDITION = re.compile(r"[\s_(\[](M[0-3])[)\]]?$")
 _BRACKETS = re.compile(r"\s*\([^()]*\)$")
 _LONGEST = 200
@@ -88,7 +85,7 @@ def _trusted(samples: Sequence[Sample], marks: list[Mark]) -> list[Mark]:
         pairs.setdefault(mark.base, set()).add(mark.specular or sample.specular)
         if mark.angle is not None:
             angles.setdefault(mark.base, set()).add(mark.angle)
-        device = bool(_MULTI_ANGLE.search(f"{sample.device} {sample.geometry}"[:_LONGEST]))
+        device = is_multi_angle(f"{sample.device} {sample.geometry}")
         devices[mark.base] = devices.get(mark.base, False) or device
     return [
         _settled(sample, mark, pairs[mark.base], angles.get(mark.base, set()), devices[mark.base])
@@ -138,7 +135,7 @@ def _resolved(sample: Sample, mark: Mark) -> Sample:
     if mark.aspecular is not None and bare:
         note = "" if mark.angle is None else _ANGLES
         return _measured(sample, f"45as{mark.aspecular}", note, "")
-    if bare and not sample.geometry and _MULTI_ANGLE.search(sample.device[:_LONGEST]):
+    if bare and not sample.geometry and is_multi_angle(sample.device):
         kept = (note for note in sample.notes if note != instrument_of("")[1])
         return replace(sample, notes=(_NO_ANGLE.format(quote(sample.device)), *kept))
     return sample

@@ -22,8 +22,17 @@ from .tables import lines
 
 T = TypeVar("T")
 
-NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0, "Å": 0.1}
-NM_TIMES_UNIT = {"cm⁻¹": 1e7, "THz": 299_792.458, "eV": 1239.8419843320026}
+NM_PER_UNIT = {"nm": 1.0, "µm": 1000.0, "Å": 0.1, "m": 1e9, "mm": 1e6, "pm": 1e-3}
+NM_TIMES_UNIT = {
+    "cm⁻¹": 1e7,
+    "m⁻¹": 1e9,
+    "THz": 299_792.458,
+    "PHz": 299.792458,
+    "GHz": 299_792_458.0,
+    "Hz": 2.99792458e17,
+    "eV": 1239.8419843320026,
+    "meV": 1239841.9843320026,
+}
 """What an abscissa other than a wavelength is divided into to give nm: c, and h c / e of CODATA."""
 
 _BAND = re.compile(
@@ -40,31 +49,50 @@ _LEAST_BARE = 3  # columns of bands called by numbers alone, where more than a n
 # ArgyllCMS' family of names is percent, as CGATS readers know.
 _SPEC = re.compile(r"spec_\d", re.IGNORECASE)
 _UNIT = re.compile(
-    r"[\[(]?(?:nm|[µμu]m|nanomet\w+|micromet\w+|å|angstroms?|1/cm|cm\^?-1|cm⁻¹|thz|ev|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
+    r"[\[(]?(?:nm|[µμupm]?m|nanomet\w+|micromet\w+|å|angstroms?|1/c?m|c?m\^?-1|c?m⁻¹|[tpg]?hz|m?ev|1|%|percent|fraction|counts|a\.?u\.?|-|none|units?)?"
     r"(?: ?(?:r|refl\w*|t|transm\w*|abs\w*))?[\])]?",
     re.IGNORECASE,
 )
 _WAVELENGTH = re.compile(
-    r"(?:wave[ _-]?(?:lengths?|numbers?)|wvl|wl|lambda|λ|nm|1/cm|cm\^?-1|cm⁻¹|thz|ev)(?![a-z])|"
+    r"(?:wave[ _-]?(?:lengths?|numbers?)|wvl|wl|lambda|λ|nm|1/cm|cm\^?-1|cm⁻¹|thz|ev|"
+    r"wellenl(?:ä|ae)ngen?|wellenzahl(?:en)?|longueurs? d.onde|nombres? d.onde|longitud de onda|"
+    r"n[úu]mero de onda|lunghezz[ae] d.onda|comprimento de onda|golflengte|våglängd|"
+    r"длин[аы] волн\w*|波[長长数])(?![a-z])|"
     r"(?:photon )?(?:frequency|energy)\s*[\[(/,]",
     re.IGNORECASE,
 )
 _FREQUENCY = re.compile(
-    r"\bfrequen[cz]|\bfr[ée]quence|\bfrecuencia|周波数|振動数|\bphoton energ|"
+    r"\benerg(?:y|ie|ía|ia)\b|\bfrequen[cz]|\bfr[ée]quence|"
+    r"\bfrecuencia|周波数|振動数|\bphoton energ|"
     r"^\s*(?:nu|ν|f|freq\.?|energ(?:y|ie|ía|ia)|[ée]nergie)\s*$",
     re.IGNORECASE,
 )
 _RAMAN = re.compile(r"\braman\b|\bshift\b", re.IGNORECASE)
 _OTHER_UNITS = {
     "Å": re.compile(r"\bangstr|ångstr|å\b|[\[(]\s*aa?\s*[\])]", re.IGNORECASE),
+    "m⁻¹": re.compile(
+        r"(?<![a-zµμ])m\s*\^?\s*[-−–]\s*1\b|(?<![a-zµμ])m⁻¹|\b1\s*/\s*m\b", re.IGNORECASE
+    ),
     "cm⁻¹": re.compile(
         r"cm\s*\^?\s*\{?\s*[-−–]\s*1\b|cm⁻¹|\b1\s*/\s*cm\b|\b(?:per|inverse) cm\b|"
         r"wave[ _-]?number|wellenzahl|nombre d.onde|numero d.onda|(?<!周)波数|\bkaysers?\b",
         re.IGNORECASE,
     ),
-    "THz": re.compile(r"\bthz\b|terahertz", re.IGNORECASE),
-    "eV": re.compile(r"\bev\b|ele[ck]tronen?[ -]?volts?", re.IGNORECASE),
+    "THz": re.compile(r"\bthz\b|терагерц|тгц|terahertz", re.IGNORECASE),
+    "PHz": re.compile(r"\bphz\b|petahertz", re.IGNORECASE),
+    "GHz": re.compile(r"\bghz\b|gigahertz", re.IGNORECASE),
+    "Hz": re.compile(r"\bhz\b|\bhertz\b|\bs\^?-1\b", re.IGNORECASE),
+    "meV": re.compile(r"\bmev\b|milli-?ele[ck]tronen?[ -]?volts?", re.IGNORECASE),
+    "eV": re.compile(r"\bev\b|\bele[ck]tronen?[ -]?volts?|эв\b", re.IGNORECASE),
+    "pm": re.compile(r"(?:^|[\[(/,])\s*(?-i:pm)\s*[\])]?\s*$|picomet", re.IGNORECASE),
+    "mm": re.compile(r"(?:^|[\[(/,])\s*(?-i:mm)\s*[\])]?\s*$|millimet", re.IGNORECASE),
+    "m": re.compile(
+        r"(?:^|[\[(/,])\s*(?-i:m)\s*[\])]?\s*$|(?<![a-z])met(?:er|re)s?\b", re.IGNORECASE
+    ),
 }
+_UNKNOWN_UNIT = re.compile(
+    r"\b[a-z]?(?:ev|hz)\b|\bjoule|\bkcal|\bcal\b|[\[(]\s*[kmµ]?j\b", re.IGNORECASE
+)
 _MICROMETERS = re.compile(
     r"[µμ]m\b|\bum\b|\bmi[ck]rons?\b|\bmi[ck]rom[eè]t(?:er|re)s?\b", re.IGNORECASE
 )
@@ -107,6 +135,15 @@ _WAVELENGTH_UNITS = {
     **dict.fromkeys(("cm-1", "cm^-1", "cm⁻¹", "1/cm", "wavenumber", "wavenumbers"), "cm⁻¹"),
     **dict.fromkeys(("thz", "THz"), "THz"),
     **dict.fromkeys(("ev", "eV"), "eV"),
+    "m": "m",
+    "mm": "mm",
+    "pm": "pm",
+    "m-1": "m⁻¹",
+    "1/m": "m⁻¹",
+    "mev": "meV",
+    "hz": "Hz",
+    "ghz": "GHz",
+    "phz": "PHz",
 }
 
 
@@ -234,11 +271,18 @@ def unit_of_abscissa(key: str, value: str) -> str:
     return unit_of_wavelengths(value[:_LONGEST]) if _OF_ABSCISSA.fullmatch(words) else ""
 
 
-def no_wavelength(label: str) -> str:
-    """Return what the column named as the one with the wavelengths holds instead, or nothing."""
+def no_wavelength(label: str, stated: bool = False) -> str:
+    """Return what the column named as the one with the wavelengths holds instead, or nothing.
+
+    `stated` tells whether its unit stands elsewhere, such as below its name.
+    """
     if _RAMAN.search(label):
         return "a Raman shift, which is no wavelength"
-    if _FREQUENCY.search(label) and not unit_of_wavelengths(label):
+    if unit_of_wavelengths(label):
+        return ""
+    if _UNKNOWN_UNIT.search(label.replace("_", " ")):
+        return "a frequency or an energy in a unit that is not known"
+    if _FREQUENCY.search(label) and not stated:
         return "a frequency or an energy without its unit"
     return ""
 

@@ -7,6 +7,7 @@ Such as ``name, geometry, wavelength, reflectance``, as programs write that have
 
 from __future__ import annotations
 
+import itertools
 from array import array
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,7 +22,7 @@ from .tables import Row
 from .wavelengths_across import not_read
 from .wavelengths_down import names_quantity
 
-_IN_WORDS = {"name", "geometry", "specular", "device", "surface"}
+_IN_WORDS = {"name", "geometry", "specular", "device", "surface", "condition"}
 _ANGLES = {"aspecular", "angle", "view", "lit"}
 
 
@@ -34,9 +35,23 @@ def is_long(header: list[str], first: list[str]) -> bool:
     columns = _columns(header)
     if columns is None or len(first) < len(header) or not _is_number(first[columns[0]]):
         return False
+    if _naming(header, first, columns) is not None:
+        return True
     fields = {statements.field_of(header[i]): first[i].strip() for i in columns[2]}
     words = {field for field, cell in fields.items() if cell and not _is_number(cell)}
     return bool(words & _IN_WORDS or fields.keys() & _ANGLES)
+
+
+def _naming(header: list[str], first: list[str], columns: tuple[int, int, list[int]]) -> int | None:
+    """Return the column of names where no key says so: the only other one that is not numbers."""
+    axis, value, keyed = columns
+    if any(statements.field_of(header[i]) == "name" for i in keyed):
+        return None
+    rest = [i for i, label in enumerate(header) if label and i not in (axis, value, *keyed)]
+    words = [
+        i for i in rest if first[i].strip() and not _is_number(first[i]) and not tells(header[i])
+    ]
+    return words[0] if len(words) == 1 else None
 
 
 def read(
@@ -51,6 +66,10 @@ def read(
     columns = _columns(header)
     assert columns is not None, "ask `is_long` first"
     axis, value, keyed = columns
+    top = next(table, None)
+    naming = None if top is None else _naming(header, top.fields, columns)
+    table = table if top is None else itertools.chain([top], table)
+    keyed = keyed if naming is None else [naming, *keyed]
     telling = [i for i, label in enumerate(header) if i not in (axis, value) and tells(label)]
     keyed = [*keyed, *telling]
     if series.other_quantity(header[value]) == "emissivity":
@@ -67,7 +86,7 @@ def read(
     for cells, at in groups.items():
         own = dict(fields)
         for i, cell in zip(keyed, cells, strict=True):
-            own.update(statements.stated(header[i], cell))
+            own.update({"name": cell} if i == naming else statements.stated(header[i], cell))
         start = block.lines[at[0]]
         divisor, other = of_row(cells[len(keyed) - len(telling) :], one != 1.0)
         if other and other != "emissivity":

@@ -84,7 +84,7 @@ def of_name(name: str) -> Mark:
         return _of_geometry(name, match)
     base = name[: len(name) - len(match[0])].rstrip()
     if match[1]:
-        sure = bool(base) and (match is inside or _stands_out(match[1], base))
+        sure = match is inside or _stands_out(match[1], base)
         return Mark(base, specular=_component(match[1]), sure=sure)
     if match[3]:
         return Mark(base, aspecular=_degrees(match[3]), sure=bool(match[2]))
@@ -92,7 +92,12 @@ def of_name(name: str) -> Mark:
 
 
 def _stands_out(word: str, base: str) -> bool:
-    """Return whether a word behind a name is a mark: "TOP SPIN" may be what a color is called."""
+    """Return whether a word behind a name is a mark: "TOP SPIN" may be what a color is called.
+
+    Capitals alone, with no name before them, are one, too.
+    """
+    if not base:
+        return word.isupper() and word != "SPIN"
     return word.upper() != "SPIN" or bool(re.search(r"[a-z\d]", base))
 
 

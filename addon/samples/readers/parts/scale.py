@@ -42,7 +42,8 @@ def nanometers(
     InputError
         The two disagree, the column holds something else, or its unit is missing and not nm.
     """
-    other = next(filter(None, map(label_words.no_wavelength, labels)), "")
+    stated = any(map(label_words.unit_of_wavelengths, labels))
+    other = next(filter(None, (label_words.no_wavelength(label, stated) for label in labels)), "")
     if other and not said.wavelength_unit:
         raise document.error(
             f"column {quote(labels[0])}", f"it holds {other}; export the spectrum over wavelength"

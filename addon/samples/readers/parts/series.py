@@ -19,6 +19,29 @@ from .document import Document, quote
 
 _NAMED = 8  # how many of the bands left out a sentence names
 
+_LOG = r"log[\s_]*(?:10)?\s*\(?\s*1\s*/|-\s*(?:log|lg)(?:_?10)?(?![a-z])"
+_KUBELKA = r"kubelka|\bk\s*/\s*s\b|f\(r\)|remission function"
+# What is computed from a reflectance, and named by it.
+_DERIVED = (
+    (re.compile(_LOG, re.IGNORECASE), "absorbance"),
+    (re.compile(_KUBELKA, re.IGNORECASE), "Kubelka-Munk values (K/S)"),
+    (
+        re.compile(
+            r"derivative|ableitung|d[ée]riv[ée]e|derivad|derivata|производн|微分|导数|"
+            r"\bd\^?[r2]?r\s*/|[ΔδΔ∆]r\b",
+            re.IGNORECASE,
+        ),
+        "a derivative or a difference of reflectance",
+    ),
+    (
+        re.compile(r"continuum[\s_-]*remov", re.IGNORECASE),
+        "reflectance divided by its continuum",
+    ),
+    (
+        re.compile(r"^\W*1\s*[-−–]\s*(?:r|refl\w*)\W*$", re.IGNORECASE),
+        "one less the reflectance",
+    ),
+)
 # Whole words, the longest first: "transmission" says more than its "T". "Scope" is what both Ocean
 # Optics and Avantes call raw counts.
 _OTHERS = (
@@ -27,22 +50,42 @@ _OTHERS = (
         "a BRDF, the reflectance factor over π, without the angles of light and view",
     ),
     (re.compile(r"/\s*sr\b", re.IGNORECASE), "radiance"),
-    (re.compile(r"irradian[cz]|µ?w(?:att)?/c?m|j/cm", re.IGNORECASE), "irradiance"),
-    (re.compile(r"radiance\b(?! factor)|\brad\. \(", re.IGNORECASE), "radiance"),
-    (re.compile(r"transmi|durchlass|%\s*t\b|^t\s*[\[(]?%|透過", re.IGNORECASE), "transmittance"),
     (
         re.compile(
-            r"absorban|absorpt|extin[ck]tion(?! coef)|\babs\b|\ba\.u\.|"
-            r"log[\s_]*(?:10)?\s*\(?\s*1\s*/|-\s*log|\bdensity\b|optische dichte|吸光|吸収",
+            r"irradian[cz]|µ?w(?:att)?/c?m|j/cm|bestrahlungsst|放射照度|辐照度", re.IGNORECASE
+        ),
+        "irradiance",
+    ),
+    (
+        re.compile(r"radiance\b(?! factor)|\brad\. \(|strahldichte|放射輝度|辐亮度", re.IGNORECASE),
+        "radiance",
+    ),
+    (
+        re.compile(
+            r"transmi|trasmit|durchlass|%\s*t\b|^t\s*[\[(]?%|透過|透过|透射|пропуск",
+            re.IGNORECASE,
+        ),
+        "transmittance",
+    ),
+    (
+        re.compile(
+            rf"absorb[âa]n|assorban|absorpt|extin[ck]tion(?! coef)|\babs\b|\ba\.u\.|{_LOG}|"
+            r"\bdensity\b|optische dichte|吸光|吸収|吸收|поглощ|оптическ\w+ плотн",
             re.IGNORECASE,
         ),
         "absorbance",
     ),
-    (re.compile(r"kubelka|\bk\s*/\s*s\b|f\(r\)", re.IGNORECASE), "Kubelka-Munk values (K/S)"),
+    (re.compile(_KUBELKA, re.IGNORECASE), "Kubelka-Munk values (K/S)"),
     (re.compile(r"[\[(]\s*(?:1/|/)\s*[mc]m\s*[\])]"), "coefficients of absorption or scattering"),
     (re.compile(r"emissivit|emittance", re.IGNORECASE), "emissivity"),
-    (re.compile(r"emissi|emitted|fluorescence|luminescence", re.IGNORECASE), "emission"),
-    (re.compile(r"\bcounts?\b|\bscope\b|digital number|\bdn\b", re.IGNORECASE), "counts"),
+    (
+        re.compile(r"emissi|emitted|fluorescence|luminescence|\bpl\W+intens", re.IGNORECASE),
+        "emission",
+    ),
+    (
+        re.compile(r"\bcounts?\b|\bscope\b|digital number|\bdn\b|single[\s_-]*beam", re.IGNORECASE),
+        "counts",
+    ),
     (
         re.compile(r"sensitivit|responsivit|quantum efficiency", re.IGNORECASE),
         "sensitivities of a camera, a detector or the eye",
@@ -66,7 +109,7 @@ _OTHERS = (
 # Shorter words are names of samples as well, such as ABS.
 _LEAST_IN_NAMES = 6
 _REFLECTANCE = re.compile(
-    r"reflec|r[ée]flec|reflex|refle[tc]t|riflett|remission|albedo|radiance factor|反射",
+    r"r[ée]fle[ckx]|reflet|riflet|remission|albedo|radiance factor|反射|отраж",
     re.IGNORECASE,
 )
 
@@ -133,8 +176,9 @@ def other_quantity(text: str) -> str:
 
     The result is fit for `Document.not_reflectance`.
     """
-    if _REFLECTANCE.search(text):
-        return ""
+    derived = next((name for pattern, name in _DERIVED if pattern.search(text)), "")
+    if derived or _REFLECTANCE.search(text):
+        return derived
     return next((name for pattern, name in _OTHERS if pattern.search(text.strip())), "")
 
 

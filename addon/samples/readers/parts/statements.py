@@ -42,6 +42,7 @@ _UNITS = re.compile(r"\s*(\d+(?:[.,]\d*)?)\s*(?:gu|gloss units?)?\s*", re.IGNORE
 _KEYS = {
     **dict.fromkeys(("device", "instrument", "instrumentname", "instrumenttype"), "device"),
     **dict.fromkeys(("instrumentmodel", "spectrophotometer", "spectrometer"), "device"),
+    **dict.fromkeys(("sensor", "sensortype", "sensorname"), "device"),
     **dict.fromkeys(("geometry", "measurementgeometry", "measuringgeometry"), "geometry"),
     **dict.fromkeys(("instrumentgeometry", "opticalgeometry", "optics"), "geometry"),
     **dict.fromkeys(("aperture", "aperturesize", "measuringaperture"), "aperture"),
@@ -73,10 +74,29 @@ _KEYS = {
     **dict.fromkeys(("正反射", "正反射光", "正反射光処理", "正反射成分"), "specular"),
     **dict.fromkeys(("winkel", "messwinkel"), "angle"),
     **dict.fromkeys(("probe", "probenname", "echantillon", "試料", "試料名"), "name"),
+    # Spanish, Italian, Portuguese, Russian and Chinese.
+    **dict.fromkeys(("instrumento", "strumento", "equipo", "equipamento", "dispositivo"), "device"),
+    **dict.fromkeys(
+        ("espectrofotometro", "spettrofotometro", "прибор", "仪器", "仪器型号"), "device"
+    ),
+    **dict.fromkeys(("geometriademedicion", "геометрия", "геометрияизмерения"), "geometry"),
+    **dict.fromkeys(
+        ("geometriadimisura", "几何条件", "光学结构", "测量几何", "照明观察条件"), "geometry"
+    ),
+    **dict.fromkeys(("apertura", "abertura", "апертура", "测量口径", "口径"), "aperture"),
+    **dict.fromkeys(("componenteespecular", "especular", "componentespeculare"), "specular"),
+    **dict.fromkeys(("speculare", "зеркальнаясоставляющая", "镜面反射", "镜面光"), "specular"),
+    **dict.fromkeys(
+        ("measuremode", "modo", "modalita", "测量模式", "测量方式", "режим"), "condition"
+    ),
+    **dict.fromkeys(("angulo", "angolo", "угол", "角度", "测量角度"), "angle"),
+    **dict.fromkeys(("muestra", "nombre", "campione", "nome", "amostra", "nom"), "name"),
+    **dict.fromkeys(("образец", "название", "样品", "样品名称", "样品名", "名称"), "name"),
 }
 GEOMETRIES = {"geometry", "specular", "sphere", "aspecular", "angle", "view", "lit", "mentioned"}
 """Fields of `stated` from which the geometry follows."""
-_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device"}
+_OF_MEASUREMENTS = {*GEOMETRIES, "aperture", "surface", "gloss", "device", "condition"}
+_OF_MEASUREMENTS |= {"illuminant", "observer", "light"}
 _REMARK = re.compile(r"\s*[\[(][^\[\]()]*[\])]\s*$")
 _YES, _NO = {"yes", "y", "true", "1", "on", "x"}, {"no", "n", "false", "0", "off"}
 _BOTH = re.compile(r"sc[ie]|sp(?:in|ex)|i\+e|both|incl|excl", re.IGNORECASE)
@@ -364,6 +384,11 @@ def _measured(said: Comments, fields: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
+def name_in_comments(said: Comments) -> str:
+    """Return what comments call the only sample of a file, or an empty string."""
+    return next((value for key, value in said.others if field_of(key) == "name"), "")
+
+
 def _of_comments(said: Comments) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in said.others:
@@ -381,6 +406,8 @@ def _stated_specular(key: str, value: str) -> dict[str, Any]:
     asked = specular_of(key.replace("_", " "))
     if not said and asked and value.lower() in _YES | _NO:
         said = asked if value.lower() in _YES else {"SCI": "SCE", "SCE": "SCI"}[asked]
+    if not said and not asked:  # "Glanz: aus", "componente speculare: esclusa", "镜面反射: 不包含"
+        said = specular_of(f"{key} {value}")
     if said:
         return _specular(said)
     return {"sphere": value} if _BOTH.search(value) else {}

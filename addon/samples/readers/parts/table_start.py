@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Collection
 from typing import Any
 
 from . import (
@@ -21,6 +22,7 @@ _SEARCHED = 400  # lines; the longest preamble known has about 90
 _ROWS_BETWEEN = 8  # between the names of columns and the first numbers
 _ENOUGH = 64  # fields of a row
 _WORDS_OF_A_TITLE = 2  # "Log(1/R)", "Transmittance [%]"; names of samples may be longer
+_WORDS_OF_A_QUANTITY = 3  # "Reflectance in %"; a title goes on
 _LONGEST = 4096  # characters of a line that decide what it is
 LEAST_BAND = 100.0
 """Names of columns in nanometers start here: samples are called 1, 2, 3 more often than 100."""
@@ -36,7 +38,9 @@ _KIND_KEY = re.compile(
     re.I,
 )
 """Keys whose values may say which quantity it is; they are no units."""
-_PERCENT_ALONE = re.compile(r"%\s*(?:r|refl\w*)?|(?:r|refl\w*)\s*%", re.I)
+_PERCENT_ALONE = re.compile(
+    r"[%％]\s*(?:r|refl\w*)?|(?:r|refl\w*)(?:\s*[/\[(]\s*|[\s_])?(?:[%％]|pct|percent)[\])]?", re.I
+)
 _OF_WHAT = re.compile(r"\s+(?:of|spectr\w*|values?|data|von|de)\b", re.I)
 _VALUES_ARE = re.compile(r"(?:all )?(?:the )?(?:values|data|spectra|numbers) (?:are|is|in)\b", re.I)
 
@@ -67,8 +71,12 @@ def find_start(document: Document) -> int:
     return content[0][0] if content else 0
 
 
-def above(document: Document, start: int, said: label_words.Comments) -> dict[str, Any]:
+def above(
+    document: Document, start: int, said: label_words.Comments, but: Collection[int] = ()
+) -> dict[str, Any]:
     """Return what the lines above the table say of its samples; note units and kind in `said`.
+
+    Lines in `but`, counted from 0, are about single columns.
 
     Raises
     ------
@@ -79,7 +87,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
     free: dict[str, Any] = {}
     for number, line in enumerate(itertools.islice(tables.lines(document), start), start=1):
         text = line[:_LONGEST].strip().strip("\t;,").strip()
-        if not text or (number == 1 and tables.announced(line)):
+        if not text or number - 1 in but or (number == 1 and tables.announced(line)):
             continue
         is_comment = text.startswith("#")  # what comments say of samples, `label_words` found
         text = text.lstrip("# ")
@@ -93,7 +101,7 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
             said.wavelength_unit = unit
         if _KIND_KEY.match(key):
             _refuse_other(document, number, start, value)
-            if said.scale is None and _PERCENT_ALONE.fullmatch(value):
+            if said.scale is None and is_percent_reflectance(value):
                 said.scale = 100.0
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
@@ -111,6 +119,16 @@ def above(document: Document, start: int, said: label_words.Comments) -> dict[st
         if said.scale is None and not is_comment and label_words.percent_of_values(text):
             said.scale = 100.0
     return found if found.keys() & statements.GEOMETRIES else found | free
+
+
+def is_percent_reflectance(text: str) -> bool:
+    """Return whether a text is a quantity in percent, such as ``%R`` and ``Reflexion [%]``."""
+    text = text[:_LONGEST].strip()
+    return bool(_PERCENT_ALONE.fullmatch(text)) or (
+        len(text.split()) <= _WORDS_OF_A_QUANTITY
+        and series.says_reflectance(text)
+        and label_words.says_percent(text)
+    )
 
 
 def _refuse_other(document: Document, number: int, start: int, text: str) -> None:

@@ -23,7 +23,7 @@ from . import (
 )
 from .document import Document, plain, quote
 from .scale import nanometers, of_row, scale, tells
-from .table_start import LEAST_BAND
+from .table_start import LEAST_BAND, is_percent_reflectance
 from .tables import Row
 
 _NAME_COLUMN = re.compile(
@@ -79,6 +79,8 @@ def read(
     telling = [i for i in others if i not in (name, *keyed, *color) and tells(header[i])]
     texts = [*([] if name is None else [name]), *keyed, *color, *telling]
     unread = [header[i] for i in sorted(set(others) - set(texts)) if header[i]]
+    over = [label for label in unread if is_percent_reflectance(label)]  # a heading over the bands
+    unread = [label for label in unread if label not in over]
     block = tables.numbers(document, table, header, bands, texts, decimal_comma=True, gaps=0)
     marked = {name_marks.of_band(header[i])[1] for i in bands}
     tables.check_count(document, len(block.lines) * len(marked))
@@ -86,16 +88,20 @@ def read(
     stated = [header[0]] if 0 not in bands else []
     if label_words.unit_of_wavelengths(header[bands[0]]) == "":
         every = nanometers(document, said, every, stated)
-    # Of the other columns' names only the corner's is about the values below.
+    # Of the other columns' names only the corner's, and a heading, are about the values below.
     values = block.values
-    one = scale(document, said, f"line {line}", [header[i] for i in sorted({0, *bands})])
+    labels = [*over, *(header[i] for i in sorted({0, *bands}))]
+    one = scale(document, said, f"line {line}", labels)
     values /= one
     parts = _parts([header[i] for i in bands], every, values)
     samples: list[Sample] = []
     left: dict[str, str] = {}
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
-        divisor, other = of_row(cells[len(texts) - len(telling) :], one != 1.0)
+        telling_cells = cells[len(texts) - len(telling) :]
+        if name is not None and is_percent_reflectance(cells[0]):
+            telling_cells = [*telling_cells, "%"]
+        divisor, other = of_row(telling_cells, one != 1.0)
         other = other or series.other_quantity_of_name(cells[0] if name is not None else "")
         if other and other != "emissivity":
             left.setdefault(other, f"line {row}")

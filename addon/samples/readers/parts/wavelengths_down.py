@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -15,6 +15,7 @@ import numpy as np
 from ....support.shown_text import from_cell
 from ...sample import Sample
 from . import (
+    beside,
     label_words,
     series,
     shapes,
@@ -29,17 +30,14 @@ from .wavelengths_across import not_read
 # A single column with such a name says what is in it, not which sample it is.
 _QUANTITY = re.compile(
     r"%?\s*(?:reflectance|reflect\.?|refl\.?|reflectance[ _]factor|reflectivity|albedo|reading|"
-    r"emissivity|values?|r|y|spectrum)?"
-    r"\s*[\[(]?(?:%|percent|fraction|-|1)?[\])]?",
+    r"reflexion(?:sgrad)?|remission|r[ée]flectanc\w*|reflectancia|riflettanza|reflet[âa]ncia|反射率|"
+    r"отражени[ея]|emissivity|values?|r|y|spectrum)?"
+    r"[\s_]*[\[(]?(?:%|％|pct|percent|fraction|-|1)?[\])]?",
     re.IGNORECASE,
 )
 _NEUTRAL = re.compile(r"values?|y|spectrum|%", re.IGNORECASE)
 # What stands beside a spectrum and is none.
-_ASIDE = re.compile(
-    r"std\.?|std[ _.]?dev\.?|stdev|sd|standard[ _]deviation|(?:std )?error|uncertainty|index|no\.?|"
-    r"chan(?:nel)?s?\.?\s*#?|#|unnamed: 0",
-    re.IGNORECASE,
-)
+_ASIDE = re.compile(r"index|no\.?|chan(?:nel)?s?\.?\s*#?|#|unnamed: 0", re.IGNORECASE)
 # Names of columns that say what they are only together; their marks and brackets do not count.
 _TOGETHER = {
     frozenset("xyz"): "color matching functions",
@@ -52,6 +50,8 @@ _ALONE = {
     "a": "absorbance (a logarithm)",
     "od": "optical density (a logarithm)",
     "t": "transmittance (light through the sample)",
+    "intensity": "an intensity, and nothing says of what",
+    "signal": "a signal, and nothing says of what",
     "ks": "Kubelka-Munk values (K/S)",
     "km": "Kubelka-Munk values (K/S)",
 }
@@ -71,6 +71,7 @@ def read(
     fields: dict[str, Any],
     header: list[str],
     table: Iterator[Row],
+    above: Mapping[int, dict[str, Any]],
 ) -> list[Sample]:
     """Return one sample a column.
 
@@ -84,6 +85,8 @@ def read(
         The names of the columns.
     table
         The rows below.
+    above
+        What rows above the names of the columns say of each.
     """
     if len(header) < 2:
         raise document.error(
@@ -123,10 +126,10 @@ def read(
             f"{document.path}, {place}",
             lambda band: f"line {block.lines[band]}",
         )
-        known = {**fields, **own.get(column, {})}
+        known = {**fields, **above.get(column, {}), **own.get(column, {})}
         name = from_cell(label) if said.escaped else label
         generic = len(columns) == 1 and _QUANTITY.fullmatch(label)
-        alone = known.get("name") or document.path.stem
+        alone = known.get("name") or statements.name_in_comments(said) or document.path.stem
         samples.append(
             statements.make(
                 document,
@@ -198,16 +201,20 @@ def _columns(
         There is none of the former.
     """
     rest = [i for i in range(len(header)) if i != axis]
+    letters = beside.letters([header[i] for i in rest])
     others = {i: series.other_quantity(header[i]) or series.other_quantity(units[i]) for i in rest}
+    others = {i: others[i] or letters.get(header[i], "") for i in rest}
     emitting = [i for i in rest if others[i] == "emissivity"]
     others |= dict.fromkeys(emitting, "")
     named = any(series.says_reflectance(header[i]) for i in rest)
+    spread = beside.uncertainties([header[i] for i in rest])
     aside = {
         i
         for i in rest
         if len(rest) > 1
         and (
             _ASIDE.fullmatch(header[i])
+            or header[i] in spread
             or (named and _RAW.fullmatch(header[i]))
             or (i < axis and not header[i])  # pandas writes its index without a name
         )
