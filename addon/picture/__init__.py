@@ -14,6 +14,8 @@ spectra        the spectrum of each pixel
 picture        the picture that comes of it, beside the ordinary one
 settings       how a scene's picture is rendered from the interface
 images         the last picture as images of the open file
+last_verdict   the last verdict on a scene of it
+of_file        what is kept in memory as long as a file is open
 pixel          what a pixel of it is
 exr_file       pixels as a file
 files          the picture as a file and as Blender's image
@@ -23,5 +25,7 @@ relight        other lamps in a picture of which that was rendered
 frames         pictures of a range of frames
 infrared       what a camera sees of lamps in the infrared, with infrared_wanted, infrared_light,
                infrared_scene and infrared_file
+cameras        what cameras for the infrared are unless told otherwise
+camera_images  what they saw last, as images of the open file
 thermal        what a thermal camera sees, with thermal_worker and thermal_file
 """
