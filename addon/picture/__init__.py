@@ -10,6 +10,7 @@ passes         the renders: which bands, and what each color is in them
 direct_light   whether direct light has renders of its own
 worker         the script of the second Blender, which sets colors and renders
 render         asks for it, and puts the renders together
+channels       what was rendered, on the disk
 spectra        the spectrum of each pixel
 picture        the picture that comes of it, beside the ordinary one
 settings       how a scene's picture is rendered from the interface

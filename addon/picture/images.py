@@ -3,7 +3,7 @@
 """The last spectral picture as images of the open file, and what a pixel of them is.
 
 A file has one such picture, and one map of ΔE00 beside it; the next takes their places. They stay
-with the file when it is saved. Spectra are in memory only, as long as the session.
+with the file when it is saved. Spectra are on the disk only, as long as the file is open.
 """
 
 from __future__ import annotations

@@ -197,6 +197,7 @@ class Judging(Rendering):
             most=_BANDS,
             steady=True,
             halves=self._halves,
+            spectra=False,
         )
         super().__init__(scene, wanted)
 

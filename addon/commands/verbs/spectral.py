@@ -127,6 +127,7 @@ def run(options: argparse.Namespace) -> int:
         options.samples,
         options.percentage,
         dict(options.light),
+        spectra=options.spectral is not None,
     )
 
     def make(progress: Progress) -> SpectralPicture:
