@@ -200,11 +200,8 @@ def asking_whether_rgb_is_enough(found):
     first = advised[judged.advised.kind.split()[0]]
     found["advised"] = first
     yield from find(panel, first, 0.5)
-    yield from find(panel, "rough_spectra.render_spectral", 0.5)
-    yield 0.5
+    yield 1.0  # the report no longer moves
     yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
-    yield 2.0
-    _grab("advised")
     yield lambda: bool(jobs())
     shares = found["shares"] = []
 

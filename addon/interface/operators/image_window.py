@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import bpy
@@ -16,8 +17,7 @@ def show(image: Any) -> bool:
     An Image Editor that is open has it, unless it is pinned to another; else what the preference
     Temporary Editors ▸ Render In names: a new window, an editor, or none.
     """
-    spaces = list(_spaces())
-    for space in spaces:
+    for space in _spaces():
         if not space.use_image_pin:
             space.image = image
             _redraw()
@@ -26,16 +26,27 @@ def show(image: Any) -> bool:
         return False
     if bpy.context.preferences.view.render_display_type == "NONE":
         return False
+    # Later: the handler of an operator that opens a window while it is modal would stay.
+    open_it = partial(_open, image.session_uid, bpy.context.window.as_pointer())
+    bpy.app.timers.register(open_it, first_interval=0)
+    return True
+
+
+def _open(uid: int, pointer: int) -> None:
+    """Open what F12 opens, and show an image there."""
+    windows = list(bpy.context.window_manager.windows)
+    image = next((each for each in bpy.data.images if each.session_uid == uid), None)
+    if image is None or not windows:
+        return
+    asked = [window for window in windows if window.as_pointer() == pointer]
     known = set(bpy.data.images)
-    if "FINISHED" not in bpy.ops.render.view_show("INVOKE_DEFAULT"):
-        return False
-    opened = [space for space in _spaces() if space.image is not None]
-    found = [space for space in opened if space.image.type == "RENDER_RESULT"]
-    for space in found:
-        space.image = image
+    with bpy.context.temp_override(window=(asked or windows)[0]):
+        bpy.ops.render.view_show("INVOKE_DEFAULT")
+    for space in _spaces():
+        if space.image is not None and space.image.type == "RENDER_RESULT":
+            space.image = image
     for made in set(bpy.data.images) - known:  # the file had no render result
         bpy.data.images.remove(made)
-    return bool(found)
 
 
 def _spaces() -> Iterator[Any]:
