@@ -93,9 +93,14 @@ def _state():
     ]
 
 
-def _start():
+def _start(tries=1):
+    """Press the first button that renders; a slow machine may lose a click while a report fades."""
     panel = area("PROPERTIES")
-    yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
+    for _ in range(tries):
+        yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
+        yield 3.0 if tries > 1 else 0.1
+        if jobs():
+            break
     yield lambda: bool(jobs())
 
 
@@ -200,9 +205,7 @@ def asking_whether_rgb_is_enough(found):
     first = advised[judged.advised.kind.split()[0]]
     found["advised"] = first
     yield from find(panel, first, 0.5)
-    yield 1.0  # the report no longer moves
-    yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
-    yield lambda: bool(jobs())
+    yield from _start(2)
     shares = found["shares"] = []
 
     def ended():
