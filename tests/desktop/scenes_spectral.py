@@ -185,7 +185,6 @@ def asking_whether_rgb_is_enough(found):
     """Ask, do what is advised, and see the picture where F12 shows one: no editor is open."""
     yield from _room("TEXT_EDITOR")
     panel, scene = area("PROPERTIES"), bpy.context.scene
-    scene.render.resolution_x, scene.render.resolution_y = 2 * COLUMNS, 2 * ROWS
     before = _state()
     yield from click(*(yield from find(panel, "rough_spectra.judge_picture", 0.5)))
     yield lambda: bool(jobs())
@@ -205,6 +204,7 @@ def asking_whether_rgb_is_enough(found):
     first = advised[judged.advised.kind.split()[0]]
     found["advised"] = first
     yield from find(panel, first, 0.5)
+    scene.cycles.samples = 96  # so that Cycles says how far it is within a render
     yield from _start(2)
     shares = found["shares"] = []
 
