@@ -29,6 +29,8 @@ Progress = Callable[[int, int], None]
 """Is told how much is done, and of how much."""
 
 _POLL_SECONDS = 0.05
+_SAYS_A_RATE = 0.05
+"""Share done from which on the time left is told."""
 
 
 class Waitable(Protocol):
@@ -90,6 +92,8 @@ class Job:
         self._traces = ExitStack()
         self.total = 0
         self.done = 0
+        self.share = 0.0
+        self._started = time.monotonic()
         try:
             with ExitStack() as undone:
                 undone.callback(self.close)
@@ -111,16 +115,27 @@ class Job:
             raise OutputError(msg) from error
 
     def poll(self) -> bool:
-        """Update `done` and `total`; returns whether the job has ended."""
+        """Update `done`, `total` and `share`; returns whether the job has ended.
+
+        `share` of 0 to 1 is done, parts of a step as well where the worker tells them.
+        """
         assert self._process is not None
         assert self._folder is not None
         ended = self._process.poll() is not None or self._is_done()
         try:
             done, total = (self._folder / "progress").read_text(encoding="ascii").split()
-            self.done, self.total = int(done), int(total)
+            self.done, self.total = int(float(done)), int(total)
+            self.share = float(done) / max(self.total, 1)
         except FileNotFoundError:
             pass  # the other Blender is still starting
         return ended
+
+    @property
+    def left(self) -> float | None:
+        """Seconds until the end, at the rate of so far; None while that is a guess."""
+        if self.share < _SAYS_A_RATE:
+            return None
+        return (time.monotonic() - self._started) * (1 - self.share) / self.share
 
     def wait(self, progress: Progress | None = None) -> None:
         """Wait for the end.

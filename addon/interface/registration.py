@@ -12,13 +12,13 @@ from ..material import follow, preferences, properties
 from ..picture import chosen_light, settings
 from ..support import events
 from . import gltf_export, operators, shelf
-from .panels import lights, menus, panels, pictures, shading
+from .panels import cameras, lights, menus, panels, pictures, shading
 
 _OPERATORS = operators.modules()
 _MODULES = (
     *(properties, chosen_light, settings, preferences),
     *_OPERATORS,
-    *(panels, lights, pictures, shelf),
+    *(panels, lights, pictures, cameras, shelf),
 )
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 

@@ -85,13 +85,18 @@ def check(path: Path, spectra: Path | None = None) -> None:
 
 def image(picture: SpectralPicture, name: str) -> Any:
     """Put the picture into a `bpy.types.Image` of the open file, a new one; it is packed."""
-    rows, columns = picture.rgb.shape[:2]
+    return image_of(picture.rgb, name)
+
+
+def image_of(pixels: Array, name: str) -> Any:
+    """Put RGBA in the working space, shape (rows, columns, 4), from the bottom up, into one."""
+    rows, columns = pixels.shape[:2]
     found = bpy.data.images.new(name, columns, rows, alpha=True, float_buffer=True)
     space = working_space.working_space_name()
     known = found.colorspace_settings.bl_rna.properties["name"].enum_items
     if space in known:
         found.colorspace_settings.name = space
-    found.pixels.foreach_set(picture.rgb.astype(np.float32).ravel())
+    found.pixels.foreach_set(pixels.astype(np.float32).ravel())
     found.update()
     found.pack()
     return found

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Spectral pictures of a range of frames, one after the other: each has a second Blender."""
+"""Pictures of a range of frames, one after the other: each has a second Blender."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import re
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ...core.errors import DomainError
+from ..blender.background_job import Progress
 from ..support import journal
-from . import files
-from .render import Wanted, render
 from .spectral_file import ENDING as SPECTRAL
 
+_Picture = TypeVar("_Picture")
 _RANGE = re.compile(r"(-?\d+)(?:-(-?\d+)(?:x(\d+))?)?")
 _MOST = 1_000_000
 """Frames that can be asked for; Blender has as many."""
@@ -78,16 +78,12 @@ def left(frames: Sequence[int], path: Path) -> list[int]:
 def each(
     scene: Any,
     frames: Sequence[int],
-    wanted: Wanted,
-    path: Path,
-    spectra: Path | None = None,
-    progress: Callable[[int, int], None] | None = None,
-    *,
-    at_bands: bool = False,
-) -> Generator[tuple[int, Any, list[Path]], None, None]:
-    """Render and write frames; gives number, picture and files of each once they are there.
+    make: Callable[[Progress], _Picture],
+    progress: Progress,
+) -> Generator[tuple[int, _Picture], None, None]:
+    """Render frames; gives number and picture of each once it is there.
 
-    Memory does not grow with the frames: each picture is let go before the next.
+    Memory does not grow with the frames if whoever takes a picture lets it go before the next.
 
     Parameters
     ----------
@@ -95,10 +91,8 @@ def each(
         A `bpy.types.Scene`; its frame is put back at the end.
     frames
         Their numbers.
-    wanted
-        As of `render`.
-    path, spectra, at_bands
-        Of the files, without the numbers; see `files.write`.
+    make
+        Renders the scene as it is, and tells how many of its renders are done.
     progress
         Called with renders done and renders in all frames.
     """
@@ -107,14 +101,9 @@ def each(
             scene.frame_set(frame)
 
             def told(done: int, total: int, before: int = number) -> None:
-                if progress is not None:
-                    progress(before * total + done, len(frames) * total)
+                progress(before * total + done, len(frames) * total)
 
-            picture = render(scene, wanted, told)
-            beside = None if spectra is None else path_of(spectra, frame)
-            written = files.write(picture, path_of(path, frame), beside, at_bands=at_bands)
-            yield frame, picture, written
-            del picture
+            yield frame, make(told)
 
 
 @contextmanager

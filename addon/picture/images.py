@@ -3,7 +3,7 @@
 """The last spectral picture as images of the open file, and what a pixel of them is.
 
 A file has one such picture, and one map of ΔE00 beside it; the next takes their places. They stay
-with the file when it is saved. Spectra are in memory only, as long as the session.
+with the file when it is saved. Spectra are on the disk only, as long as the file is open.
 """
 
 from __future__ import annotations
@@ -13,11 +13,10 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from bpy.app.handlers import persistent
 
 from ...core.numerics.arrays import Array
-from ..support import events
 from . import files
+from .of_file import OfFile
 from .picture import SpectralPicture
 from .pixel import Pixel
 
@@ -55,9 +54,9 @@ class Shown(NamedTuple):
     top: float | None
 
 
-_held: list[Shown] = []
-"""The last picture, if it is of the open file."""
-_picked: list[Pixel] = []
+_held: OfFile[Shown] = OfFile()
+"""The last picture."""
+_picked: OfFile[Pixel] = OfFile()
 """The pixel of it that was read last, if any was."""
 
 
@@ -68,15 +67,12 @@ def put(picture: SpectralPicture) -> list[Any]:
     -------
     The images, the picture first.
     """
-    if not _held:
-        bpy.app.handlers.load_post.append(_forget)
-        events.unregistering.subscribe(_end)
     top = None if picture.comparison is None else _top(picture.comparison.delta_e)
-    _picked.clear()
-    _held[:] = [Shown(picture, tuple(files.told(picture)), top)]
-    shown = [_replace(PICTURE, files.image(picture, PICTURE))]
+    _picked.forget()
+    _held.put(Shown(picture, tuple(files.told(picture)), top))
+    shown = [replace(PICTURE, files.image(picture, PICTURE))]
     if picture.comparison is not None and top is not None:
-        shown.append(_replace(MAP, _map(picture.comparison.delta_e, top)))
+        shown.append(replace(MAP, on_screen(picture.comparison.delta_e / top, MAP)))
     for image in bpy.data.images:
         if image.get(_MARK) == MAP and image not in shown and image.is_editable:
             del image[_MARK]  # of an earlier picture: it stays, as anybody's image
@@ -85,17 +81,22 @@ def put(picture: SpectralPicture) -> list[Any]:
 
 def last() -> Shown | None:
     """Give the last picture of the open file, while it is in memory."""
-    return _held[0] if _held else None
+    return _held.get()
 
 
 def pick(pixel: Pixel) -> None:
     """Remember the pixel that was read, for the panel."""
-    _picked[:] = [pixel]
+    _picked.put(pixel)
 
 
 def picked() -> Pixel | None:
     """Give the pixel that was read last of the last picture."""
-    return _picked[0] if _picked else None
+    return _picked.get()
+
+
+def find(name: str) -> Any | None:
+    """Give our image of a name, such as `MAP`, whatever it is called by now; None without one."""
+    return next((image for image in bpy.data.images if image.get(_MARK) == name), None)
 
 
 def of(image: Any) -> SpectralPicture | None:
@@ -113,21 +114,21 @@ def _top(delta_e: Array) -> float:
     return float(max(math.ceil(np.quantile(delta_e, 0.98)), 1))
 
 
-def _map(delta_e: Array, top: float) -> Any:
-    """Make an image of colors on screen, which no view changes."""
-    rows, columns = delta_e.shape
-    share = np.clip(delta_e / top, 0, 1)
+def on_screen(share: Array, name: str) -> Any:
+    """Make an image of colors on screen, which no view changes, of what is 0 to 1."""
+    rows, columns = share.shape
+    shown = np.clip(share, 0, 1)
     pixels = np.ones((rows, columns, 4), np.float32)
     for channel in range(3):
-        pixels[..., channel] = np.interp(share, _RAMP[:, 0], _RAMP[:, 1 + channel])
-    found = bpy.data.images.new(MAP, columns, rows)
+        pixels[..., channel] = np.interp(shown, _RAMP[:, 0], _RAMP[:, 1 + channel])
+    found = bpy.data.images.new(name, columns, rows)
     found.pixels.foreach_set(pixels.ravel())
     found.update()
     found.pack()
     return found
 
 
-def _replace(name: str, new: Any) -> Any:
+def replace(name: str, new: Any) -> Any:
     """Let an image be used wherever the one before was."""
     for old in list(bpy.data.images):
         if old.get(_MARK) == name and old.is_editable and old != new:
@@ -136,19 +137,5 @@ def _replace(name: str, new: Any) -> Any:
     new[_MARK] = name
     new.name = name
     new.use_fake_user = True  # it stays with the file though nothing there uses it
-    new.use_view_as_render = name == PICTURE
+    new.use_view_as_render = new.is_float  # the others have colors on screen
     return new
-
-
-@persistent
-def _forget(_path: str) -> None:
-    """Another file has other pictures."""
-    _end()
-
-
-def _end() -> None:
-    _held.clear()
-    _picked.clear()
-    events.unregistering.unsubscribe(_end)
-    if _forget in bpy.app.handlers.load_post:
-        bpy.app.handlers.load_post.remove(_forget)

@@ -14,8 +14,9 @@ from ...core.emissivity import Filter
 from ...core.emissivity.band import Band
 from ...core.errors import DomainError
 from ..samples.sample import Sample
+from . import cameras
 
-BAND = 700.0, 1000.0
+BAND = cameras.NEAR
 IN_A_RENDER = 3
 LEAST, MOST = 300.0, 20_000.0
 """Nanometers between which a band may lie."""

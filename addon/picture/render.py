@@ -21,6 +21,7 @@ from ..blender import working_space
 from ..blender.background_job import Job, waited
 from ..colorimetry import cie_tables, illuminant_spectra
 from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
+from .channels import Channels
 from .passes import Pass
 from .picture import SpectralPicture, compare
 
@@ -61,6 +62,8 @@ class Wanted:
     halves
         Whether to render everything twice, with random numbers of their own, of which the picture
         is the mean: what the two differ by is noise.
+    spectra
+        Whether the spectra of pixels can be asked for: all renders stay on the disk for them.
 
     Raises
     ------
@@ -79,6 +82,7 @@ class Wanted:
     most: int = MOST
     steady: bool = False
     halves: bool = False
+    spectra: bool = True
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""
@@ -224,7 +228,7 @@ class Rendering(Job):
             If the second Blender failed.
         """
         seconds = json.loads(self.output("seconds.json").read_text(encoding="utf-8"))
-        alpha, xyz, channels = _together(self, self._passes)
+        alpha, xyz, channels = together(self.output, self._passes, self._wanted.spectra)
         adapted = xyz @ illuminant_spectra.to_2_degrees(self._wanted.observer).T
         rgb = adapted @ self._space.from_xyz.T
         shown = np.concatenate((rgb, alpha), axis=-1)
@@ -245,7 +249,9 @@ class Rendering(Job):
             {name: tuple(rules) for name, rules in self._found.told.items()},
             {name: tuple(left) for name, left in self._found.untranslated.items()},
             tuple(clock for clock, _ in seconds),
-            spectra.of(
+            None
+            if channels is None
+            else spectra.of(
                 channels,
                 passes.surfaces_of(self._found, self._space),
                 self._lamps,
@@ -284,12 +290,33 @@ def _check(scene: Any, wanted: Wanted) -> None:
         raise MaterialError(msg)
 
 
-def _together(job: Job, renders: list[Pass]) -> tuple[Array, Array, Array]:
-    """Alpha (rows, columns, 1), XYZ (rows, columns, 3) and all channels of all renders."""
-    pixels = [np.load(job.output(f"pass-{number}.npy")) for number in range(len(renders))]
-    xyz = sum(
-        part[..., :3].astype(np.float64) @ each.to_xyz
-        for part, each in zip(pixels, renders, strict=True)
-    )
-    channels = np.concatenate([part[..., :3] for part in pixels], axis=-1)
-    return pixels[0][..., 3:].astype(np.float64), np.asarray(xyz), channels
+def together(
+    output: Callable[[str], Path], renders: list[Pass], keep: bool
+) -> tuple[Array, Array, Channels | None]:
+    """Sum up renders, one after the other: memory does not grow with them.
+
+    Parameters
+    ----------
+    output
+        Gives the path of a file that the worker left.
+    renders
+        Which there are.
+    keep
+        Whether to keep their channels.
+
+    Returns
+    -------
+    Alpha, shape (rows, columns, 1), XYZ, shape (rows, columns, 3), and channels.
+    """
+    alpha = xyz = np.zeros(())
+    channels = None
+    for number, each in enumerate(renders):
+        pixels = np.load(output(f"pass-{number}.npy"))
+        if not number:
+            alpha = pixels[..., 3:].astype(np.float64)
+            xyz = np.zeros((*pixels.shape[:2], 3))
+            channels = Channels(*pixels.shape[:2]) if keep else None
+        xyz += pixels[..., :3].astype(np.float64) @ each.to_xyz
+        if channels is not None:
+            channels.add(pixels[..., :3])
+    return alpha, xyz, channels

@@ -6,12 +6,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+)
 from bpy.types import PropertyGroup, Scene
 
 from ...core import limits
+from . import cameras
 
 if TYPE_CHECKING:
+    from . import infrared_wanted, thermal
     from .render import Wanted
 
 _MOST_RENDERS = 12
@@ -73,6 +82,60 @@ class RoughSpectraPicture(PropertyGroup):
         description="Render the ordinary picture, too, and a map of how far it is off",
         default=True,
     )
+    infrared_band: FloatVectorProperty(
+        name="Band",
+        description="First and last wavelength of an infrared camera, nanometers",
+        size=2,
+        default=cameras.NEAR,
+        min=limits.E308_NM[0],
+        max=cameras.THERMAL[1],
+        precision=0,
+        step=1000,
+    )
+    false_color: BoolProperty(
+        name="False Color",
+        description="Red, green and blue are the thirds of the band, red the longest wavelengths",
+    )
+    thermal_band: FloatVectorProperty(
+        name="Band",
+        description="First and last wavelength of a thermal camera, nanometers",
+        size=2,
+        default=cameras.THERMAL,
+        min=cameras.NEAR[0],
+        max=cameras.LONGEST,
+        precision=0,
+        step=10000,
+    )
+    ambient: FloatProperty(
+        name="Ambient",
+        description="Temperature of objects that have none of their own, kelvin",
+        default=cameras.AMBIENT,
+        min=0.0,
+        max=cameras.HOTTEST,
+        precision=2,
+        step=100,
+    )
+    use_sky: BoolProperty(
+        name="Own Sky",
+        description="The sky has a temperature of its own, instead of the ambient one",
+    )
+    sky: FloatProperty(
+        name="Sky",
+        description="Temperature where nothing is, kelvin",
+        default=250.0,
+        min=0.0,
+        max=cameras.HOTTEST,
+        precision=2,
+        step=100,
+    )
+    emissivity: FloatProperty(
+        name="Emissivity",
+        description="Of materials without infrared data",
+        default=cameras.EMISSIVITY,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
 
 
 classes = (RoughSpectraPicture,)
@@ -90,17 +153,49 @@ def unregister_pointers() -> None:
     del Scene.rough_spectra
 
 
-def wanted(scene: Any) -> Wanted:
-    """Give what a scene's settings ask for."""
+def wanted(scene: Any, renders: int = 0) -> Wanted:
+    """Give what a scene's settings ask for; `renders` instead of what decides the bands."""
     from ...core.bands import IN_A_PASS
     from .render import Wanted
 
     group = scene.rough_spectra
+    if not renders and group.by == "RENDERS":
+        renders = group.renders
     return Wanted(
         tolerance=group.tolerance,
-        bands=group.renders * IN_A_PASS if group.by == "RENDERS" else None,
+        bands=IN_A_PASS * renders if renders else None,
         observer=int(group.observer),
         direct=_DIRECT[group.direct],
         plain=group.compare,
-        percentage=max(round(scene.render.resolution_percentage * group.percentage / 100), 1),
+        percentage=percentage(scene),
+    )
+
+
+def percentage(scene: Any) -> int:
+    """Give the part of the resolution that pictures of a scene have."""
+    whole = scene.render.resolution_percentage
+    return max(round(whole * scene.rough_spectra.percentage / 100), 1)
+
+
+def infrared(scene: Any) -> infrared_wanted.Wanted:
+    """Give what a scene's settings ask of an infrared camera."""
+    from . import infrared_wanted
+
+    first, last = scene.rough_spectra.infrared_band
+    return infrared_wanted.Wanted((first, last), percentage=percentage(scene))
+
+
+def heat(scene: Any) -> thermal.Wanted:
+    """Give what a scene's settings ask of a thermal camera."""
+    from . import thermal
+
+    group = scene.rough_spectra
+    first, last = group.thermal_band
+    # Single precision has 293.15 as 293.149994 and 0.95 as 0.949999988.
+    return thermal.Wanted(
+        (first, last),
+        ambient=round(group.ambient, 4),
+        sky=round(group.sky, 4) if group.use_sky else None,
+        emissivity=round(group.emissivity, 6),
+        percentage=percentage(scene),
     )

@@ -12,6 +12,7 @@ from ...core.bands import restoring
 from ...core.limits import E308_NM
 from ...core.numerics.arrays import Array
 from ..colorimetry import cie_tables, illuminant_spectra
+from .channels import Channels
 from .passes import Lamps, Pass
 
 NM = np.arange(E308_NM[0], E308_NM[1] + 1, 10.0)
@@ -28,7 +29,7 @@ class Spectra:
     Parameters
     ----------
     channels
-        Of all renders, shape (rows, columns, channels), from the bottom up.
+        Of all renders.
     to_grid
         From the channels to radiance at `NM`, each the mean around it, shape (channels, values).
     bands
@@ -37,14 +38,14 @@ class Spectra:
         From the channels to radiance at `bands`, shape (channels, bands).
     """
 
-    channels: Array
+    channels: Channels
     to_grid: Array
     bands: Array
     to_bands: Array
 
     def at(self, column: int, row: int) -> Array:
         """Radiance at `NM` in a pixel, counted from the bottom left, shape (values,)."""
-        return np.asarray(self.channels[row, column].astype(np.float64) @ self.to_grid)
+        return np.asarray(self.channels.at(column, row).astype(np.float64) @ self.to_grid)
 
 
 def observer(degrees: int) -> Array:
@@ -54,7 +55,7 @@ def observer(degrees: int) -> Array:
 
 
 def of(
-    channels: Array,
+    channels: Channels,
     surfaces: Array,
     lamps: Lamps,
     passes: list[Pass],

@@ -73,7 +73,7 @@ def write(picture: SpectralPicture, part: Path, target: Path, *, at_bands: bool 
     if not nm.size:
         msg = f"{target} was not written: nothing was rendered in bands; write every 10 nm instead."
         raise OutputError(msg)
-    rows, columns = held.channels.shape[:2]
+    rows, columns = held.channels.rows, held.channels.columns
     names = [f"S0.{value:.6f}nm".replace(".", ",").replace("S0,", "S0.", 1) for value in nm]
     oiio = openimageio()
     spec = oiio.ImageSpec(columns, rows, 4 + len(names), oiio.FLOAT)
@@ -89,9 +89,9 @@ def write(picture: SpectralPicture, part: Path, target: Path, *, at_bands: bool 
     out = oiio.ImageOutput.create("openexr")
     whole = out is not None and out.open(str(part), spec)
     for first in range(0, rows, _LINES):
-        lines = slice(max(rows - first - _LINES, 0), rows - first)  # from the bottom up
-        values = held.channels[lines].astype(np.float64) @ matrix
-        block = np.concatenate((picture.rgb[lines], values), axis=-1)[::-1]
+        low, high = max(rows - first - _LINES, 0), rows - first  # from the bottom up
+        values = held.channels.lines(low, high).astype(np.float64) @ matrix
+        block = np.concatenate((picture.rgb[low:high], values), axis=-1)[::-1]
         pixels = np.ascontiguousarray(block, np.float32)
         whole = whole and out.write_scanlines(first, first + len(pixels), 0, pixels)
     # Closed in any case: a file that could not be written whole is still open.

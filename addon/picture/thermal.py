@@ -27,19 +27,16 @@ from ..blender.background_job import Job, waited
 from ..matching import emission
 from ..material import snapshot, storage
 from ..samples.sample import Sample
-from . import scene_copy
+from . import cameras, scene_copy
+from .cameras import AMBIENT, EMISSIVITY, HOTTEST
 
-PROPERTY = "rough_spectra_temperature"
-"""Custom property of an object, or attribute of its mesh's vertices: its temperature, kelvin."""
-BAND = 8000.0, 14000.0
-AMBIENT = 293.15
-EMISSIVITY = 0.95
-"""Of what nothing is known of in the infrared."""
+PROPERTY = cameras.TEMPERATURE
+BAND = cameras.THERMAL
 
-_SHORTEST, _HOTTEST = 700.0, 20_000.0
-"""Nanometers from which a band may begin, and kelvin that are taken for a temperature at most."""
+_SHORTEST = 700.0
+"""Nanometers from which a band may begin."""
 _IN_A_RENDER = 3
-_KELVIN = np.concatenate(([0.0], np.geomspace(1.0, _HOTTEST, 40_000)))
+_KELVIN = np.concatenate(([0.0], np.geomspace(1.0, HOTTEST, 40_000)))
 """Temperatures of the table from which they are read back, 0.025 % apart."""
 _SURFACES = {"MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD"}
 
@@ -286,7 +283,7 @@ def _check_kelvin(value: Any, what: str) -> float:
         kelvin = float(value)
     except (TypeError, ValueError):
         kelvin = float("nan")
-    if not 0 <= kelvin <= _HOTTEST:
-        msg = f"{what} has a temperature of {value!r}; give kelvin, 0 to {_HOTTEST:g}."
+    if not 0 <= kelvin <= HOTTEST:
+        msg = f"{what} has a temperature of {value!r}; give kelvin, 0 to {HOTTEST:g}."
         raise MaterialError(msg)
     return kelvin

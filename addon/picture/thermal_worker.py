@@ -40,7 +40,7 @@ def main(job_path: Path) -> None:
             for number in range(job["renders"]):
                 by_vertex(thing.data, job["attribute"], kept, number)
     background = sky(scene)
-    shared.report(folder, 0, job["renders"])
+    progress = worker.Progress(folder, job["renders"])
     for number in range(job["renders"]):
         shared.end_if_orphaned(job["asked_by"], folder)
         part = slice(3 * number, 3 * number + 3)
@@ -48,7 +48,7 @@ def main(job_path: Path) -> None:
         for each, (_, put) in zip(job["variants"], variants, strict=True):
             put(each["emissivity"][part], each["sent"][part], number)
         worker.take(scene, folder, f"pass-{number}", False)
-        shared.report(folder, number + 1, job["renders"])
+        progress.step()
 
 
 def prepare(job: dict[str, Any]) -> Any:

@@ -26,6 +26,7 @@ from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra, standard_spaces
 from ..colorimetry.rgb_space import WorkingSpace
 from ..scene import analysis
+from ..support import durations
 from . import colors, passes
 from .colors import Measured
 from .passes import Pass
@@ -134,9 +135,13 @@ class Verdict:
         if self.enough:
             return f"RGB is enough: {off}."
         if self.chosen is None:
-            best = min(self.rungs, key=lambda rung: rung.usual)
-            return f"RGB is not enough ({off}), and nothing is; nearest come {_do(best)}."
+            return f"RGB is not enough ({off}), and nothing is; nearest come {_do(self.advised)}."
         return f"RGB is not enough ({off}); {_do(self.chosen)}."
+
+    @property
+    def advised(self) -> Rung:
+        """What is to be done: what was chosen, else what comes nearest."""
+        return self.chosen or min(self.rungs, key=lambda rung: rung.usual)
 
 
 class Judging(Rendering):
@@ -192,6 +197,7 @@ class Judging(Rendering):
             most=_BANDS,
             steady=True,
             halves=self._halves,
+            spectra=False,
         )
         super().__init__(scene, wanted)
 
@@ -320,15 +326,7 @@ def _do(rung: Rung) -> str:
         "passes": f"a spectral picture of {rung.words}",
         "rgb": "RGB as it is",
     }[rung.kind]
-    return f"{what}: ΔE00 {rung.usual:.2f}, about {_time(rung.seconds)} a picture"
-
-
-def _time(seconds: float) -> str:
-    if seconds < 0.5:
-        return "less than a second"
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+    return f"{what}: ΔE00 {rung.usual:.2f}, about {durations.words(rung.seconds)} a picture"
 
 
 def _fitting(render: Any) -> int:

@@ -36,10 +36,60 @@ _OLDER |= {"Dir": "Direct", "Col": "Color", "Emit": "Emission", "Env": "Environm
 """How Blender 4.5 shortens the names of passes in files, as in DiffDir."""
 
 
+_SAMPLES = re.compile(r"Sample (\d+)/(\d+)")
+_TILES = re.compile(r"Rendered (\d+)/(\d+) Tiles")
+"""How Cycles says how far it is."""
+_TOLD_SECONDS = 0.2
 DRAWN = {"GREASEPENCIL", "GPENCIL"}
 """Types of objects that are drawn over what Cycles has rendered."""
 _ENOUGH = 200_000
 """Pixels by which the part of a picture is counted."""
+
+
+class Progress:
+    """Tells how much is rendered, also within a render, by what Cycles says of its samples.
+
+    Parameters
+    ----------
+    folder
+        Of the job.
+    total
+        Number of renders.
+    each
+        Times that the scene is rendered for one of them.
+    """
+
+    def __init__(self, folder: Path, total: int, each: int = 1) -> None:
+        self._folder, self._total, self._each = folder, total, each
+        self._done, self._told = 0.0, 0.0
+        self._times = 0
+        shared.report(folder, 0, total)
+        bpy.app.handlers.render_stats.append(self)  # until another file is opened
+        bpy.app.handlers.render_complete.append(self._rendered)
+
+    def __call__(self, text: str, _: Any = None) -> None:
+        """Take what Cycles says."""
+        found = _SAMPLES.search(text)
+        if found is None or time.monotonic() - self._told < _TOLD_SECONDS:
+            return
+        self._told = time.monotonic()
+        tiles = _TILES.search(text)
+        parts = [int(number) for number in found.groups()]
+        share = parts[0] / max(parts[1], 1)
+        if tiles is not None:
+            share = (int(tiles[1]) + share) / int(tiles[2])
+        within = (min(self._times, self._each - 1) + min(share, 1.0)) / self._each
+        shared.report(self._folder, round(self._done + min(within, 0.99), 3), self._total)
+
+    def _rendered(self, *_: Any) -> None:
+        self._times += 1
+        self._told = time.monotonic()  # at the end Cycles counts from 0 again
+
+    def step(self) -> None:
+        """Note that one more is done."""
+        self._done += 1
+        self._times = 0
+        shared.report(self._folder, int(self._done), self._total)
 
 
 def main(job_path: Path) -> None:
@@ -53,13 +103,12 @@ def main(job_path: Path) -> None:
     gather(scene.view_layers[job["layer"]], scene, groups)
     total = job["passes"] + bool(job["plain"])
     seconds: list[tuple[float, float]] = []
-    done = 0
+    progress = Progress(folder, total, 1 + job.get("halves", False))
     if job["plain"]:
         start = now()
         take(scene, folder, "plain", job["apart"], halves=job.get("halves", False))
         seconds.append(tuple(np.subtract(now(), start).tolist()))
-        done += 1
-    shared.report(folder, done, total)
+        progress.step()
     for each in job["reset"]:
         setattr(owner(each["of"]), each["attribute"], each["value"])
     setters = [setter(each) for each in job["edits"]]
@@ -75,8 +124,7 @@ def main(job_path: Path) -> None:
             halves = job.get("halves", False)
             take(scene, folder, name, job["apart"], job["direct"][number], halves=halves)
         seconds.append(tuple(np.subtract(now(), start).tolist()))
-        done += 1
-        shared.report(folder, done, total)
+        progress.step()
     if job["untranslated"]:
         share = seen(scene, folder, job["layer"], job["untranslated"])
         (folder / "touched.json").write_text(json.dumps(share), encoding="utf-8")

@@ -469,7 +469,7 @@ def test_light_between_surfaces_is_that_of_the_spectrum():
     whole = every_10(level * bounces * planck())
     assert picture.spectra.at(0, 0)[4:37] == pytest.approx(whole[4:37], rel=0.05)
     held = picture.spectra
-    there = held.channels[0, 0].astype(float) @ held.to_bands
+    there = held.channels.at(0, 0).astype(float) @ held.to_bands
     exact = level * bounces * planck()
     assert there == pytest.approx(exact[(held.bands - NM[0]).astype(int)], rel=5e-3)
     assert picture.comparison.mean > 1  # which three channels are not

@@ -30,8 +30,7 @@ NO_CACHES = {
     ("addon/material/changes.py", "_pauses"),
     ("addon/preview/icons.py", "_pending"),
     # What was rendered last, which is dear to make again.
-    ("addon/picture/images.py", "_held"),
-    ("addon/picture/images.py", "_picked"),
+    ("addon/picture/of_file.py", "_kept"),
     # What is registered.
     ("addon/interface/panels/menus.py", "_groups"),
     ("addon/interface/shelf.py", "_asked"),

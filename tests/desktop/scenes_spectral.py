@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A spectral picture from the Render tab: rendered, stopped, and read where the mouse clicks."""
 
+import contextlib
 import os
 import subprocess
 from pathlib import Path
@@ -35,9 +36,9 @@ def _panels(context, *opened):
         bpy.utils.register_class(cls)
 
 
-def _room():
+def _room(beside="IMAGE_EDITOR"):
     """A room of measured patches, a lamp with the spectrum of a fluorescent tube, and a camera."""
-    yield from empty_file("IMAGE_EDITOR")
+    yield from empty_file(beside)
     bpy.data.objects.remove(bpy.data.objects["Wall"])
     api = ours("addon.api")
     walls = {
@@ -73,7 +74,8 @@ def _room():
     undo_step("Room")
     panels = ours("addon.interface.panels.pictures")
     area("PROPERTIES").spaces.active.context = "RENDER"
-    _panels("render", panels.ROUGHSPECTRA_PT_picture, panels.ROUGHSPECTRA_PT_picture_rules)
+    cameras = ours("addon.interface.panels.cameras")
+    _panels("render", *panels.classes[:2], *cameras.classes)
     yield 0.5
 
 
@@ -91,9 +93,14 @@ def _state():
     ]
 
 
-def _start():
+def _start(tries=1):
+    """Press the first button that renders; a slow machine may lose a click while a report fades."""
     panel = area("PROPERTIES")
-    yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
+    for _ in range(tries):
+        yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
+        yield 3.0 if tries > 1 else 0.1
+        if jobs():
+            break
     yield lambda: bool(jobs())
 
 
@@ -160,6 +167,72 @@ def _pick(found, editor, images):
         bpy.ops.image.view_all(fit_view=True)
     yield 0.5
     _grab("spectral-map")
+
+
+def _windows():
+    return list(bpy.context.window_manager.windows)
+
+
+def _image_shown():
+    """Names of the images that Image Editors show, and of how many windows."""
+    spaces = [a.spaces.active for w in _windows() for a in w.screen.areas]
+    shown = [s.image.name for s in spaces if s.type == "IMAGE_EDITOR" and s.image is not None]
+    return [len(_windows()), *shown]
+
+
+@scene
+def asking_whether_rgb_is_enough(found):
+    """Ask, do what is advised, and see the picture where F12 shows one: no editor is open."""
+    yield from _room("TEXT_EDITOR")
+    panel, scene = area("PROPERTIES"), bpy.context.scene
+    before = _state()
+    yield from click(*(yield from find(panel, "rough_spectra.judge_picture", 0.5)))
+    yield lambda: bool(jobs())
+    yield 1.0
+    _grab("verdict-running")
+    yield _ended
+    yield 0.5
+    judged = ours("addon.picture.last_verdict").of(scene)
+    found["sentence"], found["kind"] = judged.sentence, judged.advised.kind
+    found["same"] = _state() == before
+    _grab("verdict")
+    advised = {
+        "passes": "rough_spectra.render_spectral",
+        "lights": "rough_spectra.analyze_scene",
+        "space": "rough_spectra.use_rec2020",
+    }
+    first = advised[judged.advised.kind.split()[0]]
+    found["advised"] = first
+    yield from find(panel, first, 0.5)
+    scene.cycles.samples = 96  # so that Cycles says how far it is within a render
+    yield from _start(2)
+    shares = found["shares"] = []
+
+    def ended():
+        for progress in (job.with_name("progress") for job in jobs()):
+            with contextlib.suppress(OSError):  # not there yet, or no more
+                shares.append(progress.read_text(encoding="ascii").split()[0])
+        return _ended()
+
+    yield ended
+    yield 1.0
+    found["picture"] = _image_shown()
+    found["images"] = _images()
+    _grab("picture-window")
+    yield from click(*(yield from find(panel, "rough_spectra.show_picture", 0.8)))
+    yield 0.5
+    found["map"] = _image_shown()
+    for each in _windows()[1:]:
+        with bpy.context.temp_override(window=each):
+            bpy.ops.wm.window_close()
+    yield 0.5
+    panel.spaces.active.context = "RENDER"
+    scene.render.engine = "BLENDER_WORKBENCH"
+    yield 0.5
+    _grab("picture-other-engine")
+    yield from click(*(yield from find(panel, "rough_spectra.switch_to_cycles", 0.5)))
+    yield 0.3
+    found["engine"] = scene.render.engine
 
 
 @scene

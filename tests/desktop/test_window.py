@@ -339,6 +339,17 @@ def test_rendering_a_spectral_picture(scene):
     assert scene["undone"] == []
 
 
+def test_asking_whether_rgb_is_enough(scene):
+    assert scene["sentence"].startswith("RGB is not enough")
+    assert scene["same"]
+    assert any(float(share) % 1 for share in scene["shares"])  # within a render
+    # No editor was open, so a window is, and closing it is the user's.
+    assert scene["picture"] == [2, "Spectral"]
+    assert scene["images"] == ["Spectral", "Spectral ΔE00"]  # and no result of a render
+    assert scene["map"] == [2, "Spectral ΔE00"]
+    assert scene["engine"] == "CYCLES"
+
+
 def test_stopping_a_spectral_picture(scene):
     assert scene["ran"]
     assert scene["left"] == [0, 0, []]

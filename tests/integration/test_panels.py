@@ -47,8 +47,9 @@ class Layout:
         self.page.append(text)
 
     def prop(self, data, name, *, text=None, slider=False, expand=False, translate=True):
-        assert name in data.bl_rna.properties
-        assert data.bl_rna.properties[name].description
+        if not name.startswith("["):  # a custom property
+            assert name in data.bl_rna.properties
+            assert data.bl_rna.properties[name].description
         self.page.append(name)
 
     def operator(

@@ -151,7 +151,7 @@ def test_operator_has_tooltips_and_undo_where_it_changes_data(cls):
     assert "REGISTER" in cls.bl_options
     only_files = {"bake", "rename_sample", "remove_sample", "open_library", "build_assets"}
     only_files.add("show_presets")
-    only_window = {"show_rendered", "pick_pixel"}
+    only_window = {"show_rendered", "judge_picture", "pick_pixel", "show_picture"}
     only_files |= {"export_materials", "submit_to_flamenco"}
     name = cls.bl_idname.partition(".")[2]
     assert ("UNDO" in cls.bl_options) == (name not in only_files | only_window)

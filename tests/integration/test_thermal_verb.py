@@ -65,3 +65,30 @@ def test_what_is_refused(words, sentence, blend, tmp_path, main):
     result = main("thermal", "--blend", blend, "-o", tmp_path / "x.exr", *words)
     assert result.status == 2
     assert sentence in result.err
+
+
+def test_frames_of_a_plate_that_warms_up(blend, tmp_path, main):
+    """Its temperature is a property with keys; what is done is left out, and the frame put back."""
+    plate = bpy.context.scene.objects[0]
+    for frame, kelvin in ((1, 300.0), (3, 340.0)):
+        plate[thermal.PROPERTY] = kelvin
+        plate.keyframe_insert(f'["{thermal.PROPERTY}"]', frame=frame)
+    bpy.context.scene.frame_set(2)
+    bpy.ops.wm.save_mainfile()
+    target = tmp_path / "out" / "warm.exr"
+    words = ("thermal", "--blend", blend, "-o", target, "--samples", "1", "--frames", "1-3x2")
+    black = ("--emissivity", "1", "--json")
+    first = main(*words, *black, "--shard", "1/2")
+    assert first.status == 0, first.err
+    result = main(*words, *black, "--skip-done")
+    assert result.status == 0, result.err
+    told = [json.loads(each.out.splitlines()[-1])["result"] for each in (first, result)]
+    assert [found["done_before"] for found in told] == [0, 1]
+    assert [each["frame"] for found in told for each in found["frames"]] == [1, 3]
+    kelvin = [each["kelvin"]["mean"] for found in told for each in found["frames"]]
+    assert kelvin == pytest.approx([300.0, 340.0], abs=0.05)
+    assert sorted(path.name for path in target.parent.iterdir()) == [
+        "warm-0001.exr",
+        "warm-0003.exr",
+    ]
+    assert bpy.context.scene.frame_current == 2

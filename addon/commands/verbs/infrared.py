@@ -6,8 +6,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ...support.shown_text import inform, tell
+
+if TYPE_CHECKING:
+    from ...blender.background_job import Progress
+    from ...picture.infrared import InfraredPicture
 
 NAME = "infrared"
 SUMMARY = "what an infrared camera sees by the light of lamps"
@@ -21,6 +26,7 @@ DESCRIPTION = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `infrared`."""
     from ...picture import infrared_wanted
+    from .. import picture_frames
     from .spectral import add_light
     from .thermal import add_material, band
 
@@ -53,6 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "the file of a spectrum that reaches there; repeatable",
     )
     add_material(parser, "its reflectance, such as Leaf=0.5")
+    picture_frames.add_arguments(parser)
     parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
     parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
     parser.add_argument(
@@ -64,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
     """Render, write and tell; exit status 0."""
     from ...picture import files, infrared, infrared_file, infrared_wanted
     from ...samples import filter_response
-    from ..progress import ProgressLine
+    from .. import picture_frames
     from ..result import add
     from .spectral import scene_of
     from .thermal import known
@@ -79,24 +86,46 @@ def run(options: argparse.Namespace) -> int:
         options.samples,
         options.percentage,
     )
-    with ProgressLine("rendering") as progress:
-        found = infrared.render(scene, wanted, progress)
-    for name, why in found.assumed.items():
-        tell(f"warning: {name} has no infrared data ({why}); it is as bright as to the eye")
-    for name, why in found.dark.items():
-        tell(f"warning: {name} is dark in the infrared: {why}")
-    for name, rule in found.told.items():
-        inform(f"{name}: {rule}")
-    infrared_file.write(found, options.output, false_color=options.false_color)
-    mean, (first, last) = float(found.gray.mean()), found.ends
-    tell(f"{first:g} to {last:g} nm: mean {mean:.4g}; wrote {options.output.name}")
-    add(
-        options,
-        mean=mean,
-        parts=found.parts.mean(axis=(0, 1)).tolist(),
-        assumed=dict(found.assumed),
-        dark=dict(found.dark),
-        told=dict(found.told),
-        file=options.output,
-    )
+
+    def make(progress: Progress) -> InfraredPicture:
+        return infrared.render(scene, wanted, progress)
+
+    def write(picture: InfraredPicture, path_of: picture_frames.PathOf) -> list[Path]:
+        path = path_of(options.output)
+        infrared_file.write(picture, path, false_color=options.false_color)
+        return [path]
+
+    told: set[str] = set()
+    results: list[dict[str, Any]] = []
+    for made in picture_frames.pictures(options, scene, make, write):
+        found = made.picture
+        for sentence in _warnings(found):
+            if sentence not in told:
+                tell(sentence)
+        for name, rule in found.told.items():
+            if f"{name}: {rule}" not in told:
+                inform(f"{name}: {rule}")
+        told |= {*_warnings(found), *(f"{name}: {rule}" for name, rule in found.told.items())}
+        mean, (first, last) = float(found.gray.mean()), found.ends
+        tell(f"{made.words}{first:g} to {last:g} nm: mean {mean:.4g}; wrote {made.names}")
+        facts = {
+            "mean": mean,
+            "parts": found.parts.mean(axis=(0, 1)).tolist(),
+            "assumed": dict(found.assumed),
+            "dark": dict(found.dark),
+            "told": dict(found.told),
+            "file": made.files[0],
+        }
+        results.append({"frame": made.frame, **facts})
+    add(options, **(results[0] if options.frames is None else {"frames": results}))
     return 0
+
+
+def _warnings(found: InfraredPicture) -> list[str]:
+    return [
+        *(
+            f"warning: {name} has no infrared data ({why}); it is as bright as to the eye"
+            for name, why in found.assumed.items()
+        ),
+        *(f"warning: {name} is dark in the infrared: {why}" for name, why in found.dark.items()),
+    ]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ...support.shown_text import tell
 
 if TYPE_CHECKING:
+    from ...blender.background_job import Progress
     from ...picture.picture import SpectralPicture
 
 NAME = "spectral"
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `spectral`."""
     from ....core.limits import TOLERANCE
     from ...colorimetry.tristimulus import OBSERVERS
-    from ..work_list import share
+    from .. import picture_frames
 
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="an EXR")
     parser.add_argument(
@@ -38,24 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--at-bands", action="store_true", help="the bands themselves in that, as rendered"
     )
-    parser.add_argument(
-        "--frames",
-        metavar="A-B",
-        help="these frames, such as 1-48, 1-48x2 for every second one, or 7,12-20; their numbers "
-        "go into the names of the files: room-0007.exr",
-    )
-    parser.add_argument(
-        "--shard",
-        type=share,
-        default=(1, 1),
-        metavar="I/N",
-        help="only every N-th of the frames, from the I-th on",
-    )
-    parser.add_argument(
-        "--skip-done",
-        action="store_true",
-        help="leave out frames whose picture is there; a file that is there is whole",
-    )
+    picture_frames.add_arguments(parser)
     parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
     amount = parser.add_mutually_exclusive_group()
     amount.add_argument(
@@ -126,54 +110,14 @@ def scene_of(options: argparse.Namespace) -> Any:
 
 def run(options: argparse.Namespace) -> int:
     """Render, write and tell; exit status 0."""
-    from ....core.errors import InputError
     from ...picture import files
+    from ...picture.render import Wanted, render
+    from .. import picture_frames
+    from ..progress import counted
+    from ..result import add
 
     scene = scene_of(options)
     files.check(options.output, options.spectral)  # before the work that could not be written
-    if options.frames is not None:
-        return _frames(options, scene)
-    if options.shard != (1, 1) or options.skip_done:
-        raise InputError("--shard and --skip-done are for --frames; name the frames.")
-    return _one(options, scene)
-
-
-def _one(options: argparse.Namespace, scene: Any) -> int:
-    from ... import api
-    from ..progress import ProgressLine, counted
-
-    with ProgressLine("rendering") as progress:
-        picture = api.spectral_picture(
-            scene,
-            tolerance=options.tolerance,
-            bands=options.bands,
-            observer=options.observer,
-            direct=options.direct,
-            compare=not options.no_comparison,
-            samples=options.samples,
-            percentage=options.percentage,
-            lights=dict(options.light),
-            progress=progress,
-        )
-    _tell(picture, options, set())
-    written = api.write_picture(
-        picture, options.output, options.spectral, at_bands=options.at_bands
-    )
-    tell(
-        f"{counted(len(picture.seconds), 'render')} in {sum(picture.seconds):.1f} s; wrote "
-        f"{', '.join(path.name for path in written)}"
-    )
-    return 0
-
-
-def _frames(options: argparse.Namespace, scene: Any) -> int:
-    from ...picture import frames
-    from ...picture.render import Wanted
-    from ..progress import ProgressLine, counted
-    from ..result import add
-
-    index, count = options.shard
-    mine = frames.numbers(options.frames)[index - 1 :: count]
     wanted = Wanted(
         options.tolerance,
         options.bands,
@@ -183,29 +127,27 @@ def _frames(options: argparse.Namespace, scene: Any) -> int:
         options.samples,
         options.percentage,
         dict(options.light),
+        spectra=options.spectral is not None,
     )
-    rest = frames.left(mine, options.output) if options.skip_done else mine
-    if len(rest) < len(mine):
-        tell(f"{counted(len(mine) - len(rest), 'frame')} done before")
+
+    def make(progress: Progress) -> SpectralPicture:
+        return render(scene, wanted, progress)
+
+    def write(picture: SpectralPicture, path_of: picture_frames.PathOf) -> list[Path]:
+        beside = None if options.spectral is None else path_of(options.spectral)
+        return files.write(picture, path_of(options.output), beside, at_bands=options.at_bands)
+
     told: set[str] = set()
     results: list[dict[str, Any]] = []
-    progress = ProgressLine("rendering")
-    made = frames.each(
-        scene, rest, wanted, options.output, options.spectral, progress, at_bands=options.at_bands
-    )
-    try:
-        for frame, picture, written in made:
-            progress.close()
-            _tell(picture, options, told)
-            names = ", ".join(path.name for path in written)
-            tell(f"frame {frame}: {sum(picture.seconds):.1f} s; wrote {names}")
-            found = picture.comparison
-            off = None if found is None else {"mean": found.mean, "usual": found.usual}
-            results.append({"frame": frame, "files": written, "delta_e_00": off})
-    finally:
-        made.close()  # the scene's frame is put back
-        progress.close()
-    add(options, frames=results, done_before=len(mine) - len(rest))
+    for made in picture_frames.pictures(options, scene, make, write):
+        picture = made.picture
+        _tell(picture, options, told)
+        renders = counted(len(picture.seconds), "render")
+        tell(f"{made.words}{renders} in {sum(picture.seconds):.1f} s; wrote {made.names}")
+        found = picture.comparison
+        off = None if found is None else {"mean": found.mean, "usual": found.usual}
+        results.append({"frame": made.frame, "files": made.files, "delta_e_00": off})
+    add(options, **(results[0] if options.frames is None else {"frames": results}))
     return 0
 
 

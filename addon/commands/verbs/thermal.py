@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...support.shown_text import tell
 
 if TYPE_CHECKING:
+    from ...blender.background_job import Progress
+    from ...picture.thermal import ThermalPicture
     from ...samples.sample import Sample
 
 NAME = "thermal"
@@ -26,6 +28,7 @@ DESCRIPTION = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of `thermal`."""
     from ...picture import thermal
+    from .. import picture_frames
 
     parser.add_argument(
         "-o", "--output", type=Path, required=True, metavar="FILE", help="an EXR of two channels"
@@ -58,6 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of materials without infrared data, which are named; 0.95",
     )
     add_material(parser, "its emissivity, such as Foil=0.05")
+    picture_frames.add_arguments(parser)
     parser.add_argument("--scene", metavar="NAME", help="a scene other than the file's active one")
     parser.add_argument("--samples", type=int, metavar="N", help="instead of the scene's")
     parser.add_argument(
@@ -80,7 +84,7 @@ def add_material(parser: argparse.ArgumentParser, number: str) -> None:
 def run(options: argparse.Namespace) -> int:
     """Render, write and tell; exit status 0."""
     from ...picture import files, thermal, thermal_file
-    from ..progress import ProgressLine
+    from .. import picture_frames
     from ..result import add
     from .spectral import scene_of
 
@@ -96,30 +100,41 @@ def run(options: argparse.Namespace) -> int:
         options.samples,
         options.percentage,
     )
-    with ProgressLine("rendering") as progress:
-        found = thermal.render(scene, wanted, progress)
-    for name in found.assumed:
+
+    def make(progress: Progress) -> ThermalPicture:
+        return thermal.render(scene, wanted, progress)
+
+    def write(picture: ThermalPicture, path_of: picture_frames.PathOf) -> list[Path]:
+        thermal_file.write(picture, path_of(options.output))
+        return [path_of(options.output)]
+
+    named: set[str] = set()
+    results: list[dict[str, Any]] = []
+    for made in picture_frames.pictures(options, scene, make, write):
+        found, kelvin = made.picture, made.picture.kelvin
+        for name in found.assumed:
+            if name not in named:
+                tell(
+                    f"warning: material {name!r} has no infrared data; its emissivity is taken as "
+                    f"{options.emissivity:g}"
+                )
+        named |= set(found.assumed)
+        for name, own in found.temperatures.items():
+            tell(f"{made.words}Object {name!r}: {own:g} K")
+        low, mean, high = float(kelvin.min()), float(kelvin.mean()), float(kelvin.max())
+        first, last = found.band
         tell(
-            f"warning: material {name!r} has no infrared data; its emissivity is taken as "
-            f"{options.emissivity:g}"
+            f"{made.words}{first:g} to {last:g} nm: {low:.2f} to {high:.2f} K, mean {mean:.2f} K; "
+            f"wrote {made.names}"
         )
-    for name, own in found.temperatures.items():
-        tell(f"Object {name!r}: {own:g} K")
-    thermal_file.write(found, options.output)
-    kelvin = found.kelvin
-    low, mean, high = float(kelvin.min()), float(kelvin.mean()), float(kelvin.max())
-    first, last = found.band
-    tell(
-        f"{first:g} to {last:g} nm: {low:.2f} to {high:.2f} K, mean {mean:.2f} K; wrote "
-        f"{options.output.name}"
-    )
-    add(
-        options,
-        kelvin={"least": low, "mean": mean, "largest": high},
-        assumed=list(found.assumed),
-        temperatures=dict(found.temperatures),
-        file=options.output,
-    )
+        facts = {
+            "kelvin": {"least": low, "mean": mean, "largest": high},
+            "assumed": list(found.assumed),
+            "temperatures": dict(found.temperatures),
+            "file": made.files[0],
+        }
+        results.append({"frame": made.frame, **facts})
+    add(options, **(results[0] if options.frames is None else {"frames": results}))
     return 0
 
 

@@ -67,6 +67,9 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
             if sentence:
                 self.report({"WARNING"}, sentence)
         common.report_warnings(self, [(c.material, c.solution) for c in changes])
+        from ...picture import last_verdict
+
+        last_verdict.forget()  # it was on materials that are others now
         after = sum(change.solution.delta_e_mean for change in changes) / len(changes)
         if len(changes) == 1:
             sentence = rpt_("1 material matched to the scene in {time:.1f} s, mean ΔE00 {mean:.2f}")
