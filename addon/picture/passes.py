@@ -191,7 +191,7 @@ def _of_light(
 ) -> dict[str, Any]:
     if number is not None:
         values = [shining.strength * each.lamps[number] for each in passes]
-        return edit(shining.place, "colors", values)
+        return edit(shining.place, "colors", values) | {"picked": shining.picked}
     matrices = [each.lamps[-3:].T @ (to_rec709 * shining.strength) for each in passes]
     return edit(shining.place, "matrices", matrices)
 

@@ -343,8 +343,11 @@ def test_direct_light_is_apart_where_that_needs_fewer_renders(together, apart, l
     assert not direct_light.decide(scene, None, lamps, False, found.__getitem__).apart
 
 
-@pytest.mark.parametrize("space", ["Linear Rec.709", "Linear Rec.2020"])
-def test_a_white_furnace_is_neutral(space):
+@pytest.mark.parametrize(
+    ("space", "bands"),
+    [*(("Linear Rec.709", count) for count in (3, 6, 9, 12)), ("Linear Rec.2020", 6)],
+)
+def test_a_white_furnace_is_neutral(space, bands):
     """White of any kind in a white world, its light from a texture: neutral to 1e-4."""
     if space != working_space.working_space_name():
         if bpy.app.version < (5, 0, 0):
@@ -367,7 +370,7 @@ def test_a_white_furnace_is_neutral(space):
     output = tree.nodes.new("ShaderNodeOutputWorld")
     tree.links.new(background.outputs[0], output.inputs["Surface"])
     glowing(tree, background.inputs["Color"])
-    picture = api.spectral_picture(bands=6, compare=False)
+    picture = api.spectral_picture(bands=bands, compare=False)
     rgb = picture.rgb[0, :3, :3]
     assert rgb == pytest.approx(np.repeat(rgb[:, 1:2], 3, axis=1), rel=1e-4)
     assert rgb == pytest.approx(1, rel=1e-3)
@@ -401,6 +404,42 @@ def test_lamps_of_two_colors_are_no_noise_of_color():
         thing = bpy.data.objects.new("Panel", light)
         scene.collection.objects.link(thing)
         thing.location = (place, ROWS / 2, 4)
+    picture = api.spectral_picture(bands=6, samples=4)
+    assert picture.xyz[..., 1].min() > 0
+    assert picture.comparison.largest < 0.3
+
+
+def test_many_lamps_are_picked_alike_in_all_renders():
+    """Gray below lamps of many colors and kinds: the light tree goes by strength times color."""
+    scene = from_above(16)
+    scene.cycles.use_light_tree = True
+    for column in range(16):
+        strip(column, new_material("Gray", (0.5, 0.5, 0.5)))
+    rng = np.random.default_rng(3)
+    for number in range(10):
+        light = bpy.data.lights.new("Bulb", "POINT")
+        light.energy, light.color = 300, rng.uniform(0.02, 1, 3)
+        thing = bpy.data.objects.new("Bulb", light)
+        scene.collection.objects.link(thing)
+        thing.location = (rng.uniform(0, 16), rng.uniform(0, ROWS), 3)
+        if number < 3 and light.node_tree is None:
+            light.use_nodes = True
+    for kind, color, strength in (
+        ("ShaderNodeEmission", "Color", "Strength"),
+        ("ShaderNodeBsdfPrincipled", "Emission Color", "Emission Strength"),
+    ):
+        panel = new_material("Panel")
+        tree = panel.node_tree
+        node = tree.nodes.new(kind)
+        node.inputs[color].default_value = (*rng.uniform(0.02, 1, 3), 1)
+        node.inputs[strength].default_value = 3
+        if "Base Color" in node.inputs:
+            node.inputs["Base Color"].default_value = (0, 0, 0, 1)
+        tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+        strip(int(rng.uniform(0, 16)), panel)
+        [above] = [o for o in bpy.data.objects if o.material_slots and o.active_material == panel]
+        above.location.z = 5
+    scene.world = bpy.data.worlds.new("World")
     picture = api.spectral_picture(bands=6, samples=4)
     assert picture.xyz[..., 1].min() > 0
     assert picture.comparison.largest < 0.3
