@@ -78,17 +78,15 @@ from .material import state as material_state
 from .material.properties import SHADER_ITEMS
 from .material.settled import Settled
 from .material.state import State
+from .picture import files as picture_files
+from .picture import groups as picture_groups
 from .picture import (
-    chosen_light,
     infrared,
     infrared_file,
     infrared_wanted,
-    light_spectra,
     thermal,
     thermal_file,
 )
-from .picture import files as picture_files
-from .picture import groups as picture_groups
 from .picture import pixel as picture_pixels
 from .picture import relight as picture_relight
 from .picture import render as picture_render
@@ -109,6 +107,7 @@ from .samples import presets as preset_files
 from .samples.palette import Row
 from .samples.sample import Kind, Sample
 from .samples.stated_sigma import Names, StatedSigma
+from .scene import chosen_light, light_spectra
 from .textures import convert
 from .textures import material as material_of_texture
 from .textures.wanted import Made

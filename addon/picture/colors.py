@@ -25,9 +25,8 @@ from ..colorimetry import illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import surface_spectra
 from ..material import settled, state, storage
-from ..scene import emission
-from . import chosen_light
-from .light_spectra import KnownLight
+from ..scene import chosen_light, emission
+from ..scene.light_spectra import KnownLight
 
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
 _GLOWS = {

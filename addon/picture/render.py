@@ -20,7 +20,8 @@ from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job
 from ..colorimetry import cie_tables, illuminant_spectra
-from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
+from ..scene import light_spectra
+from . import colors, direct_light, passes, scene_copy, spectra
 from .passes import Pass
 from .picture import SpectralPicture, compare
 
