@@ -11,13 +11,13 @@ import bpy
 
 from ...core.errors import MaterialError
 from ...core.limits import TOLERANCE
-from ..picture import chosen_light, light_spectra
 from ..picture import groups as picture_groups
 from ..picture import relight as picture_relight
 from ..picture import render as picture_render
 from ..picture.picture import SpectralPicture
 from ..picture.relight import Lights
 from ..samples import light_source
+from ..scene import chosen_light, light_spectra
 from .checks import check_enabled
 
 

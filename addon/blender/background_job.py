@@ -17,18 +17,21 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import IO, Any, ClassVar, Protocol, TypeVar
 
 import bpy
 
 from ...core.errors import CancelledError, OutputError, OwnFaultError, RoughSpectraError
-from ..support import events
+from ..support import events, file_lock
 from . import job_failure, second_blender
 
 Progress = Callable[[int, int], None]
 """Is told how much is done, and of how much."""
 
 _POLL_SECONDS = 0.05
+_PREFIX = "rough-spectra-"
+_HELD = "held"
+"""File in the folder of a job, locked for as long as the process lives that asked for it."""
 _SAYS_A_RATE = 0.05
 """Share done from which on the time left is told."""
 
@@ -87,6 +90,7 @@ class Job:
 
     def __init__(self, worker: Path, prepare: Callable[[Path], dict[str, Any]]) -> None:
         self._folder: Path | None = None
+        self._held: IO[bytes] | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._is_at_work = False
         self._traces = ExitStack()
@@ -99,7 +103,9 @@ class Job:
                 undone.callback(self.close)
                 # Switching the extension off, or quitting Blender, ends what runs.
                 events.unregistering.subscribe(self.close)
-                self._folder = Path(tempfile.mkdtemp(prefix="rough-spectra-"))
+                sweep(Path(tempfile.gettempdir()))
+                self._folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
+                self._held = _hold(self._folder)
                 scene = bpy.context.scene
                 frame = (scene.frame_current, scene.frame_subframe)
                 job = {"asked_by": os.getpid(), "frame": frame, **prepare(self._folder)}
@@ -180,6 +186,8 @@ class Job:
         if self._is_at_work and self._process is not None:
             second_blender.give_back(self._process, self._is_done())
             self._is_at_work = False  # by now it may be at work for another
+        if self._held is not None:
+            self._held.close()
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
         events.unregistering.unsubscribe(self.close)
@@ -210,3 +218,32 @@ class Job:
         job_path.write_text(json.dumps(job), encoding="utf-8")
         self._process = second_blender.start(worker, job_path)
         self._is_at_work = True
+
+
+def sweep(temporary: Path) -> None:
+    """Remove the folders of jobs whose process was killed, and its second Blender with it.
+
+    Parameters
+    ----------
+    temporary
+        Where they are. Folders of other users, and those that cannot be removed, stay.
+    """
+    for folder in temporary.glob(f"{_PREFIX}*"):
+        try:
+            is_mine = not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid()
+            if is_mine and file_lock.is_left(folder / _HELD):
+                shutil.rmtree(folder, ignore_errors=True)
+        except OSError:
+            continue  # not a job's, or gone by now
+
+
+def _hold(folder: Path) -> IO[bytes]:
+    """Lock the file by which others tell that a job is alive."""
+    # It has its name only once it is locked, but for Windows, which renames no open file.
+    named = folder / _HELD
+    making = named if os.name == "nt" else named.with_suffix(".new")
+    held = making.open("wb")
+    file_lock.hold(held, 0)
+    if making != named:
+        making.rename(named)
+    return held

@@ -23,11 +23,13 @@ What asks for its place in the world is alone in its picture; see `asks_place`. 
 keeps fewer digits.
 """
 
+import atexit
 import json
 import math
 import os
 import shutil
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -137,15 +139,57 @@ def asks_place(tree: Any, seen: set[Any]) -> bool:
     return False
 
 
+_PARENT = os.getppid()
+_LOOKS_SECONDS = 0.5
+_is_ending = threading.Event()
+_watched: dict[Path, threading.Thread] = {}
+
+
 def end_if_orphaned(asked_by: int, folder: Path) -> None:
-    """Stop, and leave nothing behind, when the process that asked for this was killed."""
+    """Stop, and leave nothing behind, when the process that asked for this was killed.
+
+    From the first call on a thread looks, too, until the folder is gone: one render may take hours.
+    """
     if os.name != "posix":
         return  # there os.kill(pid, 0) would not ask but kill
+    if is_gone(asked_by):
+        shutil.rmtree(folder, ignore_errors=True)
+        sys.exit("the Blender that asked for this measurement is gone")
+    if folder not in _watched:
+        own = [folder]
+        session = Path(bpy.app.tempdir)
+        if session.name.startswith("blender_"):
+            own.append(session)
+        watch = threading.Thread(target=_watch, args=(asked_by, own), daemon=True)
+        _watched[folder] = watch
+        watch.start()
+
+
+def is_gone(asked_by: int) -> bool:
+    """Whether a process has ended, also while nobody has asked yet how."""
+    if asked_by == _PARENT:
+        return os.getppid() != asked_by
     try:
         os.kill(asked_by, 0)
     except ProcessLookupError:
-        shutil.rmtree(folder, ignore_errors=True)
-        sys.exit("the Blender that asked for this measurement is gone")
+        return True
+    return False
+
+
+def _watch(asked_by: int, own: list[Path]) -> None:
+    """Do the same from a thread of its own, which calls nothing of Blender's."""
+    while not _is_ending.wait(_LOOKS_SECONDS) and own[0].exists():
+        if is_gone(asked_by):
+            for each in own:
+                shutil.rmtree(each, ignore_errors=True)
+            os._exit(1)
+
+
+@atexit.register
+def _end_watching() -> None:
+    _is_ending.set()
+    for watch in _watched.values():
+        watch.join(_LOOKS_SECONDS)
 
 
 def find(name: str, library: str | None) -> Any:

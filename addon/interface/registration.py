@@ -9,7 +9,8 @@ import bpy
 from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
-from ..picture import chosen_light, settings
+from ..picture import settings
+from ..scene import chosen_light
 from ..support import events
 from . import gltf_export, operators, shelf
 from .panels import cameras, lights, menus, panels, pictures, shading

@@ -3,8 +3,6 @@
 """A spectral picture of the scene by ordinary renders of three bands each, in a second Blender.
 
 colors         where colors stand in materials, lamps and world, and what spectra they stand for
-light_spectra  what a lamp sends, where that is known
-chosen_light   the spectrum that a lamp or a world keeps in the .blend
 scene_copy     a copy of the open file for the second Blender
 passes         the renders: which bands, and what each color is in them
 direct_light   whether direct light has renders of its own

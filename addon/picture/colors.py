@@ -26,9 +26,8 @@ from ..colorimetry import illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import surface_spectra
 from ..material import settled, state, storage
-from ..scene import emission, visibility
-from . import chosen_light
-from .light_spectra import KnownLight
+from ..scene import chosen_light, emission, visibility
+from ..scene.light_spectra import KnownLight
 from .scene_copy import path_of
 
 LINEAR = "a spectrum for its RGB, by three spectra of red, green and blue"
@@ -131,6 +130,9 @@ class Shining:
         By which it is told, such as "Light 'Sun'", and what the lamp, world or material is called.
     kelvin
         Temperature that is set for it, or None.
+    picked
+        Mean of its color's channels, by which Cycles picks it among other lamps; None where
+        another node sets the color.
     """
 
     place: Place
@@ -139,6 +141,7 @@ class Shining:
     name: str = ""
     called: str = ""
     kelvin: float | None = None
+    picked: float | None = None
 
 
 @dataclass(eq=False)
@@ -445,7 +448,8 @@ class _Search:
         if known is not None and _are_apart(illuminant_spectra.to_xyz(spectrum), xyz):
             words += ", though its RGB is another color"
         called, strength = self._called[name], np.full(3, xyz[1])
-        self._found.shining.append(Shining(place, spectrum, strength, name, called, kelvin))
+        picked = float(np.maximum(rgb, 0).mean())
+        self._found.shining.append(Shining(place, spectrum, strength, name, called, kelvin, picked))
         self._found.tell(name, words)
 
     def _node(self, node: Any, name: str) -> None:

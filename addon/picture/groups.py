@@ -162,7 +162,9 @@ class Gathering(Rendering):
             for number in group.shining:
                 spectrum = self._found.shining[number].spectrum
                 if spectrum is not None and spectrum is not group.base:
-                    found[number] = np.where(lit, spectrum / np.where(lit, group.base, 1), 0)
+                    found[number] = np.where(lit, spectrum / np.where(lit, group.base, 1), 0).clip(
+                        0
+                    )
         return found
 
 

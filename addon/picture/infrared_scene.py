@@ -20,7 +20,8 @@ from ..colorimetry import illuminant_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import emission
 from ..samples.sample import Sample
-from . import chosen_light, colors, infrared_light, passes
+from ..scene import chosen_light
+from . import colors, infrared_light, passes
 from .colors import Colored, Colors, Measured, Place, Shining
 from .infrared_light import Light
 from .infrared_wanted import IN_A_RENDER, LEAST, MOST, Wanted, covers

@@ -66,7 +66,7 @@ class Lamps:
     Parameters
     ----------
     spectra
-        At `GRID`, shape (lamps, wavelengths).
+        At `GRID`, shape (lamps, wavelengths); a little below 0 beside a line.
     of
         For each of `Colors.shining` its number, or None: then the last three stand for red, green
         and blue of Rec.709.
@@ -108,8 +108,8 @@ def lamps_of(found: Colors, space: WorkingSpace) -> Lamps:
             spectra.append(each.spectrum)
         numbers.append([*alike, True].index(True))
     if None in numbers:
-        spectra += list(rgb_spectra.lights(space))
-    return Lamps(np.maximum(np.stack(spectra), 0), tuple(numbers))
+        spectra += list(np.maximum(rgb_spectra.lights(space), 0))
+    return Lamps(np.stack(spectra), tuple(numbers))
 
 
 def surfaces_of(found: Colors, space: WorkingSpace) -> Array:
@@ -158,8 +158,9 @@ def of_direct(lamps: Lamps, observer: int) -> list[Pass]:
     for number, spectrum in enumerate(lamps.spectra):
         seen = spectrum[:, np.newaxis] * functions
         sent = np.zeros((len(lamps.spectra), 3))
-        sent[number] = seen.sum(axis=0)
-        found.append(Pass(seen / sent[number], sent, np.eye(3), direct=True))
+        sent[number] = np.maximum(seen.sum(axis=0), 0)
+        taken = np.divide(seen, sent[number], out=np.zeros_like(seen), where=sent[number] > 0)
+        found.append(Pass(taken, sent, np.eye(3), direct=True))
     return found
 
 
@@ -191,7 +192,7 @@ def _of_light(
 ) -> dict[str, Any]:
     if number is not None:
         values = [shining.strength * each.lamps[number] for each in passes]
-        return edit(shining.place, "colors", values)
+        return edit(shining.place, "colors", values) | {"picked": shining.picked}
     matrices = [each.lamps[-3:].T @ (to_rec709 * shining.strength) for each in passes]
     return edit(shining.place, "matrices", matrices)
 

@@ -22,8 +22,8 @@ from ...core.errors import DomainError, InputError
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..colorimetry import cie_tables, illuminant_spectra
+from ..scene import light_spectra
 from ..support import atomic_files
-from . import light_spectra
 from .picture import SpectralPicture
 
 ILLUMINANTS = ("D65", "A", "F11", "LED-B3")

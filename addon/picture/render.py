@@ -20,16 +20,20 @@ from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job, waited
 from ..colorimetry import cie_tables, illuminant_spectra
-from . import colors, direct_light, light_spectra, passes, scene_copy, spectra
+from ..scene import light_spectra
+from . import colors, direct_light, passes, scene_copy, spectra
 from .channels import Channels
 from .passes import Pass
 from .picture import SpectralPicture, compare
 
 MOST = 36
 """Bands that can be asked for, at most."""
-_FEW = 8
-"""Lamps among which no light tree has to pick. It goes by what they send, and another one in each
-render makes noise of color: three colored tubes put RGB off by a ΔE00 of 13 instead of 1."""
+_FEW = 4
+"""Lamps among which no light tree has to pick: it costs more time there than it saves of noise
+(`tools/benchmarks/bench_lamps.py`)."""
+_FEW_IN_A_TEXTURE = 8
+"""The same in a world of many colors. The tree picks it by its mean, another one in each render,
+which is noise of color; all else it picks alike."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +153,7 @@ class Rendering(Job):
                 "apart": self._light.apart,
                 "steady": wanted.steady,
                 "halves": wanted.halves,
-                "few_lamps": self._lamp_count(depsgraph) <= _FEW,
+                "few_lamps": self._lamp_count(depsgraph) <= self._few(),
                 "passes": len(renders),
                 "direct": [each.direct for each in renders],
                 "edits": self._edits(renders),
@@ -176,6 +180,11 @@ class Rendering(Job):
 
         lamps = len(self._lamps.spectra)
         return direct_light.decide(scene, wanted.direct, lamps, counted, choose)
+
+    def _few(self) -> int:
+        """Give the number of lamps up to which the light tree is left out."""
+        worlds = [each for each in self._found.shining if each.place.of[0] == "worlds"]
+        return _FEW_IN_A_TEXTURE if any(each.spectrum is None for each in worlds) else _FEW
 
     def _lamp_count(self, depsgraph: Any) -> int:
         """Count lamps and objects that shine."""

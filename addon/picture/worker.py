@@ -111,7 +111,7 @@ def main(job_path: Path) -> None:
         progress.step()
     for each in job["reset"]:
         setattr(owner(each["of"]), each["attribute"], each["value"])
-    setters = [setter(each) for each in job["edits"]]
+    setters = [setter(each, scene.cycles.use_light_tree) for each in job["edits"]]
     for number in range(job["passes"]):
         shared.end_if_orphaned(job["asked_by"], folder)
         for put in setters:
@@ -353,11 +353,21 @@ def whole_path(path: str) -> str:
     return os.path.normpath(bpy.path.abspath(path))
 
 
-def setter(edit: dict[str, Any]) -> Any:
-    """Give a function that sets a color to what it is in the render of a number."""
+def setter(edit: dict[str, Any], is_picked: bool) -> Any:
+    """Give a function that sets a color to what it is in the render of a number.
+
+    Parameters
+    ----------
+    edit
+        Where, and what.
+    is_picked
+        Whether Cycles picks lamps by what they send.
+    """
     thing = owner(edit["of"])
     # Curves and drivers would set what they set again before every render.
     thing.animation_data_clear()
+    if is_picked and edit.get("picked") and edit["of"][0] != "worlds":
+        return picked_alike(edit, thing)
     if edit["attribute"]:
         name, extra = edit["attribute"], len(getattr(thing, edit["attribute"])) - 3
 
@@ -382,6 +392,46 @@ def setter(edit: dict[str, Any]) -> Any:
 
     def put(number: int) -> None:
         socket.default_value = (*edit["colors"][number], *(1.0,) * extra)
+
+    return put
+
+
+def picked_alike(edit: dict[str, Any], thing: Any) -> Any:
+    """Give such a function for a lamp, which Cycles is then to pick as often in all renders.
+
+    The light tree goes by strength times color, where the color is constant: other ones in each
+    render would be noise of color. So it gets the strength that it has in the ordinary render, and
+    a color that is as good as constant, but that Cycles does not know to be.
+    """
+    picked = edit["picked"]
+    if edit["attribute"]:
+        if not thing.use_nodes or thing.node_tree is None:
+            thing.use_nodes = True
+        tree = thing.node_tree
+        socket = next(n for n in tree.nodes if n.type == "EMISSION").inputs["Color"]
+        thing.color = (picked,) * 3
+    else:
+        tree = thing if edit["of"][0] == "node_groups" else thing.node_tree
+        tree.animation_data_clear()
+        node = tree.nodes[edit["node"]]
+        socket = node.inputs[edit["socket"]]
+        is_emission_apart = socket.name == "Emission Color"
+        strength = node.inputs["Emission Strength" if is_emission_apart else "Strength"]
+        if strength.is_linked:
+            picked = 1.0
+        else:
+            strength.default_value *= picked
+    path, one, color = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("LightPath", "Math", "VectorMath")
+    )
+    one.operation, one.inputs[1].default_value = "GREATER_THAN", -1.0
+    color.operation = "SCALE"
+    tree.links.new(path.outputs[0], one.inputs[0])
+    tree.links.new(one.outputs[0], color.inputs["Scale"])
+    tree.links.new(color.outputs[0], socket)
+
+    def put(number: int) -> None:
+        color.inputs[0].default_value = [value / picked for value in edit["colors"][number]]
 
     return put
 

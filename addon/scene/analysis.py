@@ -218,7 +218,7 @@ def _views(
     if not power.sum() > 0:
         return {}, [materials[index] for index in seen]
     xyz = np.array([_arriving(i, lamp, samples, weights, space) for i, lamp in enumerate(lamps)])
-    groups = sampling.group_colors(xyz, power)
+    groups = sampling.group_colors(xyz, power, _numbered(lamps))
     colors = [_color(groups == light, xyz, power, lamps) for light in range(groups.max() + 1)]
     names = [name for name, _, _ in colors]
     for light, (name, words, spd) in enumerate(colors):
@@ -254,10 +254,26 @@ def _overall(scene: str, power: Array, colors: list[tuple[str, str, Array]]) -> 
     return _view(scene, ways, light, weight, np.arange(len(ways)), colors)
 
 
+def _numbered(lamps: list[Lamp]) -> Array:
+    """Give each lamp the number of the spectrum that was chosen for it, -1 for none."""
+    found: list[Array] = []
+    numbers = []
+    for lamp in lamps:
+        number = -1
+        if lamp.known is not None:
+            alike = [np.array_equal(lamp.known[0], spectrum) for spectrum in found]
+            number = [*alike, True].index(True)
+            found += [] if True in alike else [lamp.known[0]]
+        numbers.append(number)
+    return np.array(numbers, int)
+
+
 def _arriving(
     index: int, lamp: Lamp, samples: Samples, weights: Array, space: rgb_space.WorkingSpace
 ) -> Array:
     """XYZ of a lamp; of a picture around the scene, the mean of what arrives from it."""
+    if lamp.known is not None:
+        return illuminant_spectra.to_xyz(lamp.known[0])
     mine = samples.lamp == index
     if not isinstance(lamp.source, Dome) or lamp.source.xyz is None or not weights[mine].any():
         return np.linalg.solve(space.from_xyz, lamp.rgb)
@@ -291,7 +307,9 @@ def _color(members: Array, xyz: Array, power: Array, lamps: list[Lamp]) -> tuple
     found = found[np.argsort(-power[found], kind="stable")]
     mean = (xyz[found] / xyz[found, 1:2] * power[found, np.newaxis]).sum(axis=0)
     main = lamps[found[0]]
-    spd, words = illuminant_spectra.like(mean, main.temperature)
+    spd, words = main.known or illuminant_spectra.like(mean, main.temperature)
+    spd = np.maximum(spd, 0)  # beside a line it may be a little below
+    spd = spd / illuminant_spectra.to_xyz(spd)[1]
     others = "" if len(found) == 1 else f" and {len(found) - 1} more"
     if len(found) == 2:
         others = f" and {lamps[found[1]].name}"

@@ -96,7 +96,7 @@ def per_place(samples: Samples, hits: int, materials: Array) -> Array:
     )
 
 
-def group_colors(xyz: Array, power: Array) -> Array:
+def group_colors(xyz: Array, power: Array, spectra: Array) -> Array:
     """Put lamps of one color together.
 
     Parameters
@@ -105,6 +105,9 @@ def group_colors(xyz: Array, power: Array) -> Array:
         Colors of the lamps, shape (lamps, 3).
     power
         Their part in the picture's light, shape (lamps,).
+    spectra
+        Number of the spectrum that is known of each, -1 for none: lamps of different ones stay
+        apart, whatever their color. Shape (lamps,).
 
     Returns
     -------
@@ -117,10 +120,12 @@ def group_colors(xyz: Array, power: Array) -> Array:
     for lamp in np.argsort(-power, kind="stable"):
         if not power[lamp] > 0:
             break
-        apart = [float(np.linalg.norm(uv[lamp] - uv[leader])) for leader in leaders]
-        nearest = int(np.argmin(apart)) if apart else -1
+        apart = np.array([np.linalg.norm(uv[lamp] - uv[leader]) for leader in leaders])
+        alike = spectra[leaders] == spectra[lamp]
         faint = power[lamp] < LEAST_SHARE * power.sum()
-        if apart and (apart[nearest] < SAME_COLOR or len(leaders) == MOST_LIGHTS or faint):
+        is_known = bool((alike & (apart < SAME_COLOR)).any())
+        if leaders and (is_known or len(leaders) == MOST_LIGHTS or faint):
+            nearest = int(np.argmin(np.where(alike | (not is_known), apart, np.inf)))
             groups[lamp] = nearest
         else:
             groups[lamp] = len(leaders)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.numerics.arrays import Array
 from ..colorimetry.rgb_space import WorkingSpace
-from . import emission, world
+from . import chosen_light, emission, world
 from .lamps import (
     Bulb,
     Glow,
@@ -21,6 +21,7 @@ from .lamps import (
     Source,
     Sun,
 )
+from .light_spectra import KnownLight
 from .surfaces import Surfaces
 from .visibility import Rendered
 
@@ -45,6 +46,8 @@ class Lamp:
         Index of the emitting material among `Surfaces.materials`, or -1.
     shadow
         Whether what is in its way casts a shadow.
+    known
+        The spectrum that was chosen for it, if any.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Lamp:
     excluded: frozenset[str] = frozenset()
     emitter: int = -1
     shadow: bool = True
+    known: KnownLight | None = None
 
     def lights(self, name: str) -> bool:
         """Whether light linking lets it reach the object of that name."""
@@ -64,7 +68,13 @@ class Lamp:
 def find(
     depsgraph: Any, scene: Any, surfaces: Surfaces, space: WorkingSpace
 ) -> tuple[list[Lamp], list[str]]:
-    """List all lamps of a scene, and sentences about what could not be read of them."""
+    """List all lamps of a scene, and sentences about what could not be read of them.
+
+    Raises
+    ------
+    MaterialError
+        If a lamp is to have a measured spectrum, and there is none that can be used.
+    """
     lamps: list[Lamp] = []
     rendered = Rendered(depsgraph.view_layer)
     warnings: list[str] = [rendered.left_out()]
@@ -78,7 +88,10 @@ def find(
     lit_by = getattr(depsgraph.view_layer, "world_override", None) or scene.world
     if lit_by is not None and _lights_diffuse(lit_by):
         parts, unread = world.read(lit_by, space)
-        lamps += [Lamp(part.name, part.source, part.rgb, part.temperature) for part in parts]
+        known = chosen_light.known(lit_by)
+        for part in parts:
+            of_part = known if part.is_of_one_color else None
+            lamps.append(Lamp(part.name, part.source, part.rgb, part.temperature, known=of_part))
         warnings += unread
     lamps += _glowing(surfaces, space, warnings)
     return lamps, [sentence for sentence in dict.fromkeys(warnings) if sentence]
@@ -100,6 +113,7 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
     if light.use_temperature:
         rgb = rgb * emission.blackbody(light.temperature, space)
         temperature = light.temperature if neutral else None
+    known = chosen_light.known(light.original)
     tree = emission.tree(light)
     if tree is not None:
         shining = emission.of_tree(tree, "ShaderNodeOutputLight", space)
@@ -111,7 +125,7 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
         elif np.ptp(shining.rgb) > 1e-6 * shining.rgb.max():
             temperature = None
         if shining.unread or shining.source is not None:
-            node = shining.unread or shining.source.name
+            node, known = shining.unread or shining.source.name, None
             warnings.append(
                 f"Light {thing.name!r}: node {node!r} cannot be read without rendering; it counts "
                 "as white."
@@ -121,7 +135,8 @@ def _of_light(thing: Any, matrix: Array, space: WorkingSpace, warnings: list[str
     receivers, excluded = _linking(thing.original)
     source, scale = _source(light, matrix)
     name, shadow = thing.original.name, bool(light.use_shadow)
-    return Lamp(name, source, rgb * scale, temperature, receivers, excluded, shadow=shadow)
+    lit = receivers, excluded
+    return Lamp(name, source, rgb * scale, temperature, *lit, shadow=shadow, known=known)
 
 
 def _source(light: Any, matrix: Array) -> tuple[Source, float]:

@@ -30,6 +30,7 @@ class Part:
     source: Source
     rgb: Array
     temperature: float | None = None
+    is_of_one_color: bool = False
 
 
 def read(world: Any, space: WorkingSpace) -> tuple[list[Part], list[str]]:
@@ -37,7 +38,8 @@ def read(world: Any, space: WorkingSpace) -> tuple[list[Part], list[str]]:
     tree = emission.tree(world)
     if tree is None:
         rgb = np.array(world.color[:])
-        return ([Part(world.name, _even(), rgb)] if rgb.max() > 0 else []), []
+        part = Part(world.name, _even(), rgb, is_of_one_color=True)
+        return ([part] if rgb.max() > 0 else []), []
     shining = emission.of_tree(tree, "ShaderNodeOutputWorld", space)
     if shining is None:
         return [], []
@@ -53,7 +55,8 @@ def read(world: Any, space: WorkingSpace) -> tuple[list[Part], list[str]]:
             f"World {world.name!r}: node {name!r} cannot be read without rendering; it counts as "
             "white."
         )
-    return [Part(world.name, _even(), shining.rgb, shining.temperature)], warnings
+    even = _even(), shining.rgb, shining.temperature
+    return [Part(world.name, *even, is_of_one_color=not warnings)], warnings
 
 
 def _even() -> Dome:

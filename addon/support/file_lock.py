@@ -70,17 +70,37 @@ def hold(handle: IO[bytes], wait: float) -> bool:
     return True
 
 
+def is_left(path: Path) -> bool:
+    """Whether the process that held a file is surely gone: False also where there are no locks.
+
+    Raises
+    ------
+    OSError
+        If there is no such file, or it cannot be opened.
+    """
+    with path.open("rb+") as handle:
+        try:
+            _lock(handle)
+        except OSError:
+            return False
+    return True
+
+
+def _lock(handle: IO[bytes]) -> None:
+    if sys.platform == "win32":
+        import msvcrt
+
+        handle.seek(0)
+        msvcrt.locking(handle.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
 def _try_to_lock(handle: IO[bytes]) -> bool:
     try:
-        if sys.platform == "win32":
-            import msvcrt
-
-            handle.seek(0)
-            msvcrt.locking(handle.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _lock(handle)
     except OSError as error:
         # Some network drives have no locks. Files are still replaced whole.
         return error.errno in _UNSUPPORTED

@@ -37,6 +37,9 @@ _ELSE = 17
 """Waves that stand for anything else that a scene might hold."""
 _WEIGHT_ELSE = 1e-5
 """What each counts, as a part of all pixels."""
+_BESIDE_A_LINE = 0.15
+"""Part of a lamp's largest value by which others may be below 0: a cubic through four nodes, which
+tells where between them a line is, has an eighth."""
 _USUAL = 0.95
 """Part of the pixels that has to be within the tolerance."""
 
@@ -166,6 +169,8 @@ def choose(
         Of the scene's surfaces, 0 to 1, shape (surfaces, n).
     lights
         What its lamps send, shape (lamps, n), each as much as it contributes to the scene's light.
+        A line between two wavelengths may be told by a cubic through four, of which two are a
+        little below 0.
     observer
         Sensitivities, such as color matching functions, shape (n, channels).
     tolerance
@@ -371,13 +376,14 @@ def _start(scene: _Scene, taken: list[int]) -> tuple[Array, Array]:
     """Weights and lamps as if spectra were straight lines between the bands."""
     parts = fitting.hats(scene.nm, scene.nm[taken])
     sensitivity = np.abs(scene.to_observer).sum(axis=1)
-    if len(scene.lights) == 1:
-        light = scene.lights[0]
-        return parts.T @ (light[:, np.newaxis] * scene.to_observer), np.ones((1, len(taken)))
+    shining = np.maximum(scene.lights, 0)
+    if len(shining) == 1:
+        weights = parts.T @ (shining[0][:, np.newaxis] * scene.to_observer)
+        return weights * (scene.whites[0] / weights.sum(axis=0)), np.ones((1, len(taken)))
     # A lamp of several sends what it sends around the band, as it is seen there.
     seen = np.maximum(sensitivity @ parts, np.finfo(float).tiny)
-    lights = (scene.lights * sensitivity) @ parts / seen
-    together = np.einsum("n,nk,nc->kc", scene.lights.sum(axis=0), parts, scene.to_observer)
+    lights = (shining * sensitivity) @ parts / seen
+    together = np.einsum("n,nk,nc->kc", shining.sum(axis=0), parts, scene.to_observer)
     total = lights.sum(axis=0)[:, np.newaxis]
     return together / np.where(total > 0, total, 1), lights
 
@@ -411,7 +417,7 @@ def _checked(
         worst = surfaces.flat[np.argmax(np.abs(surfaces - 0.5))]
         msg = f"An albedo is {worst:g}; give 0 to 1, and leave out what glows or fluoresces."
         raise DomainError(msg)
-    if (lamps < 0).any():
+    if (lamps < -_BESIDE_A_LINE * lamps.max(axis=1, keepdims=True)).any():
         msg = f"A lamp sends {lamps.min():g}; light is 0 or more."
         raise DomainError(msg)
     if metric == "delta-e" and eye.shape[1] != 3:

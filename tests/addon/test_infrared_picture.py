@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon import api
-from rough_spectra.addon.picture import chosen_light, infrared, infrared_light, infrared_wanted
+from rough_spectra.addon.picture import infrared, infrared_light, infrared_wanted
 from rough_spectra.addon.samples.light_source import LightSource
+from rough_spectra.addon.scene import chosen_light
 from rough_spectra.core import emissivity
 
 from tests.addon.test_spectral_picture import KELVIN, ROWS, from_above, new_material, strip, sun

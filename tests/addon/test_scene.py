@@ -22,8 +22,8 @@ from rough_spectra.addon.material import (
     state,
     storage,
 )
-from rough_spectra.addon.samples import presets
-from rough_spectra.addon.scene import analysis, follow_scene, sampling
+from rough_spectra.addon.samples import light_source, presets
+from rough_spectra.addon.scene import analysis, chosen_light, follow_scene, sampling
 from rough_spectra.core import cycles
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.errors import InputError, MaterialError
@@ -361,6 +361,41 @@ def test_lights_of_one_color_count_as_one(plate):
         add_lamp(f"Bulb {number}", place=(number - 1, 0, 2), color=(1, 0.7, 0.4))
     view = analyze().views[plate]
     assert [light.name.endswith("and 2 more") for light in view.lights] == [True]
+
+
+def test_lamps_send_the_spectra_that_were_chosen_for_them(plate, tmp_path):
+    """What spectral pictures go by; a lamp of the same color with no such choice stays apart."""
+    path = tmp_path / "line.csv"
+    path.write_text("nm,power\n588.8,0\n589.3,1\n589.8,0\n", encoding="utf-8")
+    color = (1, 0.85, 0.7)
+    for number, spectrum in enumerate(("F11", "F11", "COLOR", "MEASURED")):
+        lamp = add_lamp(f"Bulb {number}", place=(number - 1, 0, 2), color=color)
+        if spectrum == "MEASURED":
+            chosen_light.keep(lamp.data, light_source.read(path), str(path))
+        else:
+            lamp.data.rough_spectra.spectrum = spectrum
+    scene = bpy.context.scene
+    scene.world = bpy.data.worlds.new("Sky")
+    scene.world.rough_spectra.spectrum = "D65"
+    view = analyze().views[plate]
+    found = {light.words: light for light in view.lights}
+    assert len(found) == 4
+    assert {"CIE F11", "CIE D65", "measured: line.csv"} < set(found)
+    f11, line = found["CIE F11"], found["measured: line.csv"]
+    assert f11.spd == pytest.approx(illuminant_spectra.cie("F11"), rel=1e-3)
+    assert np.dot(illuminant_spectra.GRID, line.spd) / np.sum(line.spd) == pytest.approx(
+        589.3, abs=1
+    )
+    # By hand: the reading under F11, of its white, in place of that under a lamp of its color.
+    sample = presets.load("light skin")
+    weights = f11.weights(sample.wavelengths)
+    seen = sample.values @ illuminant_spectra.weights(
+        tuple(sample.wavelengths.tolist()), tuple(illuminant_spectra.cie("F11").tolist())
+    )
+    assert sample.values @ weights == pytest.approx(seen, rel=1e-3)
+    bpy.data.lights["Bulb 3"].rough_spectra.measured = "[1"
+    with pytest.raises(MaterialError, match="is damaged"):
+        analyze()
 
 
 def test_light_linking_shadows_and_hidden_lights_count(plate):

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import bpy
 import pytest
+from rough_spectra.addon.blender import background_job
 
 from tests.integration.support import COMMAND, SECONDS, contents, rgb_material
 
@@ -165,6 +166,38 @@ def test_kill_while_measuring_leaves_the_old_outputs_and_no_process(
     process.wait()
     wait_for(lambda: not workers(temporary))
     assert contents(tmp_path / "out") == before
+
+
+@linux
+@pytest.mark.parametrize("group", [False, True], ids=["alone", "both"])
+def test_kill_amid_a_long_render_leaves_no_process_and_no_folder(group, start, temporary, tmp_path):
+    """Alone, its second Blender ends and tidies up; together, the next job does."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.world = bpy.data.worlds.new("World")
+    bpy.ops.object.camera_add()
+    scene.camera = bpy.context.object
+    path = tmp_path / "long.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    words = ("--bands", "3", "--samples", "1000000", "--no-comparison")
+    process = start("spectral", "--blend", path, "-o", tmp_path / "x.exr", *words)
+    wait_for(lambda: list(temporary.glob("rough-spectra-*/progress")))
+    background_job.sweep(temporary)
+    [folder] = temporary.glob("rough-spectra-*")
+    if group:
+        os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.kill()
+    process.wait()
+    wait_for(lambda: not workers(temporary))
+    if group:
+        background_job.sweep(temporary)
+    assert not folder.exists()
+    # An empty one of its own stays where any Blender is killed.
+    blenders = [each for each in temporary.iterdir() if not any(each.iterdir())]
+    assert [*temporary.iterdir()] == blenders
+    assert len(blenders) <= 1 + group
+    assert not (tmp_path / "x.exr").exists()
 
 
 # The first part appears when writing begins, the last just before the files get their names.

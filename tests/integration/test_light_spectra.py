@@ -4,7 +4,7 @@
 
 import bpy
 import pytest
-from rough_spectra.addon.picture import chosen_light
+from rough_spectra.addon.scene import chosen_light
 
 from tests.integration.support import ROOT
 

@@ -5,9 +5,12 @@
     .venv/bpy-5.2/bin/python -m tools.checks.check_spectral --mitsuba .venv/chart/bin/python --write
 
 A closed room of ColorChecker patches, all Lambertian, with two boxes in it and a light in the
-ceiling, with the spectra of several illuminants. Both programs render it twice with other random
-numbers, so that their noise is known: what two pictures of one program differ by, over √2. A pixel
-is a block of the rendered ones. --write puts the table into docs/spectral-table.md.
+ceiling, with the spectra of several lamps: illuminants of the CIE, sodium at high pressure (HP1 of
+CIE 15, from colour-science), and at low pressure, where all light is a line. Mitsuba is told of
+each at 1 nm or finer. Both programs render it twice with other random numbers, so that their noise
+is known: half of what two pictures of one program differ by is that of their mean. A pixel is a
+block of the rendered ones. --write puts its rows into docs/spectral-table.md, and leaves the
+others there.
 """
 
 from __future__ import annotations
@@ -26,7 +29,9 @@ from tools.run.run_command_line import ROOT, load_extension
 WIDTH, HEIGHT, BLOCK = 64, 48, 4
 BOUNCES = 6
 """As Cycles counts them; light that met one surface more is seen where that meets a lamp."""
-LIGHTS = ("D65", "A", "F11", "LED-B3")
+LIGHTS = ("D65", "A", "F11", "LED-B3", "HP1", "sodium line")
+_LINE, _WIDE = 589.3, 2.0
+"""Nanometers: middle of sodium's two lines, and as wide as a spectrometer shows them at half."""
 PATCHES = ("red", "green", "white 9.5", "neutral 8", "blue", "yellow", "orange", "cyan", "magenta")
 TABLE = ROOT / "docs" / "spectral-table.md"
 EYE, AHEAD, LENS = (0.0, -1.9, 1.5), (0.0, 1.0, 1.3), 90.0
@@ -111,16 +116,52 @@ def build() -> Any:
     return scene
 
 
-def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) -> Any:
+def spectrum_of(light: str) -> tuple[Any, Any]:
+    """Wavelengths and power of a lamp, with a luminance Y of 1 by sums over its nanometers."""
+    from rough_spectra.addon.colorimetry import cie_tables
+    from rough_spectra.addon.support.colour_science import colour
+
+    nm = cie_tables.GRID
+    if light in cie_tables.ILLUMINANTS:
+        power = cie_tables.illuminant(light)
+    elif light == "sodium line":
+        nm = np.arange(_LINE - 3 * _WIDE, _LINE + 3 * _WIDE, 0.05)
+        power = np.exp(-4 * np.log(2) * ((nm - _LINE) / _WIDE) ** 2)
+    else:
+        table = colour().SDS_ILLUMINANTS[light]
+        power = np.interp(nm, table.wavelengths, table.values)
+    bright = np.interp(nm, cie_tables.GRID, cie_tables.observer(2)[:, 1])
+    return nm, power / (power @ bright * (nm[1] - nm[0]))
+
+
+def white_of(light: str) -> Any:
+    """XYZ of a lamp."""
+    from rough_spectra.addon.colorimetry import cie_tables
+
+    nm, power = spectrum_of(light)
+    seen = [np.interp(nm, cie_tables.GRID, each) for each in cie_tables.observer(2).T]
+    return np.array(seen) @ power * (nm[1] - nm[0])
+
+
+def by_cycles(
+    scene: Any, light: str, samples: int, bands: int, direct: bool, folder: Path
+) -> tuple[list[Any], Any]:
     """Two pictures of other seeds, and the first's RGB picture: blocks of XYZ, top down."""
     from rough_spectra.addon import api
     from rough_spectra.addon.blender import working_space
-    from rough_spectra.addon.colorimetry import illuminant_spectra
+    from rough_spectra.addon.colorimetry import cie_tables
 
-    # The RGB picture has at least the lamp's color.
-    xyz = illuminant_spectra.to_xyz(illuminant_spectra.cie(light))
+    named = light
+    if light not in cie_tables.ILLUMINANTS:
+        named = str(folder / f"{light}.csv")
+        rows = np.column_stack(spectrum_of(light))
+        np.savetxt(named, rows, fmt="%.7g", delimiter=",", header="wavelength,power", comments="")
+    # The RGB picture has at least the lamp's color, or the nearest that its space has.
+    from_xyz = working_space.current().from_xyz
+    rgb = np.maximum(from_xyz @ white_of(light), 0)
+    rgb /= np.linalg.solve(from_xyz, rgb)[1]  # as bright as the lamp, which has a luminance of 1
     color = bpy.data.materials["Lamp"].node_tree.nodes["Emission"].inputs["Color"]
-    color.default_value = (*np.maximum(working_space.current().from_xyz @ xyz, 0), 1)
+    color.default_value = (*rgb, 1)
     found, plain = [], None
     for seed in (1, 2):
         scene.cycles.seed = seed
@@ -129,7 +170,7 @@ def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) ->
             bands=bands,
             direct=direct,
             samples=samples,
-            lights={"Lamp": light},
+            lights={"Lamp": named},
             compare=seed == 1,
         )
         found.append(blocks(picture.xyz[::-1]))
@@ -139,13 +180,14 @@ def by_cycles(scene: Any, light: str, samples: int, bands: int, direct: bool) ->
     return found, plain
 
 
-def by_mitsuba(python: str, light: str, samples: int) -> tuple[list[Any], float]:
+def by_mitsuba(python: str, light: str, samples: int, *words: str) -> tuple[list[Any], float]:
     """Two pictures of other seeds, as blocks of XYZ, top down, and the seconds of one."""
     from rough_spectra.addon import api
-    from rough_spectra.addon.colorimetry import illuminant_spectra
+    from rough_spectra.addon.colorimetry import cie_tables
     from rough_spectra.core.numerics import wavelength_grid
 
-    nm = illuminant_spectra.GRID
+    nm = cie_tables.GRID
+    sent, lamp = spectrum_of(light)
     albedos = [
         wavelength_grid.resample(s.reflectance, s.wavelengths, nm, ends="hold")
         for s in map(api.find, PATCHES)
@@ -158,11 +200,12 @@ def by_mitsuba(python: str, light: str, samples: int) -> tuple[list[Any], float]
             corners=np.array(corners, float),
             materials=np.array(numbers),
             albedos=np.array(albedos),
-            lamp=5 * illuminant_spectra.cie(light),
+            lamp=5 * lamp,
+            sent=sent,
             nm=nm,
             samples=samples,
         )
-        command = [python, "-m", "tools.checks.spectral_mitsuba", str(work)]
+        command = [python, "-m", "tools.checks.spectral_mitsuba", str(work), *words]
         subprocess.run(command, check=True, cwd=ROOT)
         rendered = np.load(work.with_name("rendered.npz"))
         return [blocks(each) for each in rendered["xyz"]], float(rendered["seconds"])
@@ -174,11 +217,24 @@ def blocks(pixels: Any) -> Any:
     return pixels.reshape(rows, BLOCK, columns, BLOCK, 3).mean(axis=(1, 3))
 
 
+def write(rows: dict[str, str]) -> None:
+    """Put rows into the table, and keep the others in it."""
+    _, _, *there = TABLE.read_text(encoding="utf-8").splitlines()
+    kept = {line.split("|")[1].strip(): line for line in there}
+    lines = [
+        "| light | mean X, Y, Z off | ΔE00 between the two | of it noise | beyond it | RGB off |",
+        "|---|---|---|---|---|---|",
+        *((kept | rows)[light] for light in LIGHTS if light in kept | rows),
+    ]
+    TABLE.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
 def main() -> None:
     """Print the table, and write it if asked."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--mitsuba", default=str(ROOT / ".venv" / "chart" / "bin" / "python"))
     parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--more", type=int, default=4, help="times as many samples in Mitsuba")
     parser.add_argument("--bands", type=int, default=12)
     parser.add_argument("--light", action="append", choices=LIGHTS)
     parser.add_argument("--direct", action="store_true")
@@ -186,34 +242,36 @@ def main() -> None:
     options = parser.parse_args()
     extension = load_extension()
     extension.register()
-    from rough_spectra.addon.colorimetry import illuminant_spectra
     from rough_spectra.core.color import color_difference
 
     def apart(one: Any, other: Any) -> Any:
         labs = (color_difference.xyz_to_lab(each, white) for each in (one, other))
         return color_difference.delta_e(*labs)[seen]
 
-    lines = [
-        "| light | mean X, Y, Z off | ΔE00 between the two | of it noise | RGB off |",
-        "|---|---|---|---|---|",
-    ]
+    rows = {}
     scene = build()
     for light in options.light or LIGHTS:
-        white = illuminant_spectra.to_xyz(illuminant_spectra.cie(light))
-        cycles, plain = by_cycles(scene, light, options.samples, options.bands, options.direct)
-        mitsuba, _ = by_mitsuba(options.mitsuba, light, options.samples)
+        white = white_of(light)
+        with tempfile.TemporaryDirectory() as folder:
+            cycles, plain = by_cycles(
+                scene, light, options.samples, options.bands, options.direct, Path(folder)
+            )
+        mitsuba, _ = by_mitsuba(options.mitsuba, light, options.samples * options.more)
         seen = mitsuba[0][..., 1] < 2.0  # without the lamp itself and its edge
         ours, theirs = (np.mean(each, axis=0) for each in (cycles, mitsuba))
         off = ours[seen].mean(axis=0) / theirs[seen].mean(axis=0) - 1
         # The mean of two pictures has half the noise that they differ by.
-        noise = np.sqrt(sum((apart(*each).mean() / 2) ** 2 for each in (cycles, mitsuba)))
-        lines.append(
-            f"| {light} | {', '.join(f'{100 * each:+.2f} %' for each in off)} | "
-            f"{apart(ours, theirs).mean():.2f} | {noise:.2f} | {apart(plain, theirs).mean():.2f} |"
+        noises = [apart(*each).mean() / 2 for each in (cycles, mitsuba)]
+        found, noise = apart(ours, theirs).mean(), np.hypot(*noises)
+        beyond = np.sqrt(max(found**2 - noise**2, 0))
+        rows[light] = (
+            f"| {light} | {', '.join(f'{100 * each:+.2f} %' for each in off)} | {found:.2f} | "
+            f"{noises[0]:.2f} and {noises[1]:.2f} | {beyond:.2f} | "
+            f"{apart(plain, theirs).mean():.2f} |"
         )
-        print("\n".join(lines[:2] * (len(lines) == 3) + lines[-1:]), flush=True)
-    if options.write:
-        TABLE.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        print(rows[light], flush=True)
+        if options.write:
+            write(rows)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     extension.unregister()
 

@@ -112,6 +112,15 @@ def of_scenes(folder: Path, materials: int) -> dict[str, Words]:
             *("thermal", "--blend", small[0], "--samples", 1, "--sky", 250 + 20 * which),
             *("-o", to / "x.exr"),
         ],
+        "spectral --frames": lambda to, which: [
+            *("spectral", "--blend", small[which], *picture, "--frames", "1-4"),
+            *("-o", to / "x.exr"),
+        ],
+        "infrared": lambda to, which: [
+            *("infrared", "--blend", small[0], "--samples", 1, "--band", "700-1000"),
+            *("--light", f"Sun={4000 + 1000 * which}K", "-o", to / "x.exr"),
+        ],
+        "verdict": lambda _, which: ["verdict", "--blend", small[which], "--samples", 2],
     }
 
 
