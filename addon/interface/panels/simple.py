@@ -65,15 +65,18 @@ _REMEDIES: dict[verdict.Remedy, tuple[str, tuple[str, ...]]] = {
 
 
 def draw_details_header(layout: Any, context: Any) -> None:
-    """Name the panel Details, in the Material tab with whose they are."""
+    """Name the panel Details."""
     form = redraw.current(context).format
-    names = (iface_("Rough Spectra Details"), iface_("Details"))
-    layout.label(text=form.fitting(names[form.sidebar :], _FOLD), translate=False)
+    layout.label(text=form.fitting((iface_("Details"),), _FOLD), translate=False)
 
 
 def draw(layout: Any, context: Any) -> None:
     """Draw what there is to see, and to do, without a second thought."""
     here = redraw.begin(context)
+    if not here.format.sidebar:
+        # Blender lets only panels without a header come right below the slots; in sidebars the tab
+        # and the header say whose it is.
+        layout.label(text=iface_("Rough Spectra"), translate=False)
     if here.shown is None:
         _draw_sample(layout, here, None, 0.0)
         told = "Choose a sample, or open a file that an instrument wrote"
