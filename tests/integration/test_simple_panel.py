@@ -688,3 +688,26 @@ def test_tooltips_of_the_closed_panel_begin_with_a_plain_sentence(name, monkeypa
         first = re.split(r"[.:;] ", tooltip)[0]
         assert not [word for word in JARGON if word in first], (what, tooltip)
         assert len(first.split()) <= 18, (what, tooltip)
+
+
+@pytest.mark.parametrize("width", range(200, 620, 20))
+def test_neither_verdict_nor_button_is_cut_where_they_stand_beside_each_other(width):
+    """Blender divides a line as it is told to, and cuts what does not fit into its part."""
+    here = types.SimpleNamespace(format=text.Format(width, False, 1.0, 11.0))
+    icon, margins = 20.0, 16.0
+    beside = 0
+    for words in ("looks right", "differs: Eevee lacks roughness", "measured: differs"):
+        for button in (
+            "Renew",
+            "Switch to Cycles",
+            "Set Metallic to 0",
+            "Set Specular IOR Level to 0",
+        ):
+            share = simple._share(here, words, button)
+            if share == 0:
+                continue
+            beside += 1
+            room = width - 40.0  # of tabs and margins, as in `docs/images/window`
+            assert text._width(words, 11.0) + icon <= share * room
+            assert text._width(button, 11.0) + margins <= (1 - share) * room
+    assert beside > 0 or width < 400
