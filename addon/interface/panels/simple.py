@@ -164,7 +164,7 @@ def _draw_sliders(
     shine.prop(group, names[1], slider=True)
     if here.together.objects > 1:
         count, is_exact = here.together.objects, here.together.is_exact
-        text.draw(column, sentences.together(count, is_exact, here.style))
+        text.draw(layout, sentences.together(count, is_exact, here.style))
 
 
 def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
