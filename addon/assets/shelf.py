@@ -39,15 +39,19 @@ def offer(again: bool = False) -> str | None:
 
     Returns
     -------
-    The name that the preferences show, if it was added; None where nothing was to do, the extension
-    is not enabled, or the library is missing.
+    The name that the preferences show, if it was added; None where nothing was to do, or the
+    library is missing.
     """
-    addon = bpy.context.preferences.addons.get(preferences.PACKAGE)
-    if addon is None or addon.preferences is None or not (folder() / BLEND).is_file():
+    if not (folder() / BLEND).is_file():
         return None
-    chosen = addon.preferences
-    wanted, before = str(folder()), chosen.shelf_folder
+    wanted = str(folder())
     libraries = bpy.context.preferences.filepaths.asset_libraries
+    addon = bpy.context.preferences.addons.get(preferences.PACKAGE)
+    if addon is None or addon.preferences is None:
+        # Switched on for this session alone, as by `--addons`: so is the library.
+        return None if _find(libraries, wanted) is not None else _new(libraries, wanted)
+    chosen = addon.preferences
+    before = chosen.shelf_folder
     chosen.shelf_folder = wanted
     if _find(libraries, wanted) is not None:
         return None
@@ -67,9 +71,14 @@ def is_offered() -> bool:
 
 def add(libraries: Any, path: str) -> str:
     """Add an asset library whose materials are appended; returns its name."""
+    name = _new(libraries, path)
+    bpy.context.preferences.is_dirty = True
+    return name
+
+
+def _new(libraries: Any, path: str) -> str:
     library = libraries.new(name=catalogs.ROOT, directory=path)
     library.import_method = IMPORT_METHOD
-    bpy.context.preferences.is_dirty = True
     return str(library.name)
 
 

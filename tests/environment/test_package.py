@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -59,6 +60,17 @@ def test_zip_holds_what_ships_and_nothing_else(built):
         f"wheels/{wheels.pin(ROOT).trimmed}",
         f"wheels/{wheels.pin(ROOT, wheels.DEFUSEDXML).upstream}",
     ]
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/install.md"])
+def test_installing_begins_with_the_zip_and_building_it_comes_after(page):
+    """Who paints has no compiler: the zip is named as it is built, and where Blender wants it."""
+    text = (ROOT / page).read_text("utf-8").partition("Install")[2]
+    manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text("utf-8"))
+    zipped = f"`{manifest['id']}-{manifest['version']}.zip`"
+    named, chosen = text.index(zipped), text.index("Install from Disk…")
+    assert named < text.index("dev.py build")
+    assert chosen < text.index("dev.py build")
 
 
 def test_blender_finds_the_zip_valid(built):

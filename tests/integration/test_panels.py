@@ -125,7 +125,8 @@ def test_without_an_object_there_is_no_panel():
 def test_without_a_spectrum_the_panel_says_how_to_begin():
     mesh_object("Wall")
     page = drawn()
-    assert page[:2] == ["[Rough Spectra]", "rough_spectra.choose_sample: Choose Sample"]
+    title = ["[Rough Spectra]", "Rough Spectra"]
+    assert page[:3] == [*title, "rough_spectra.choose_sample: Choose Sample"]
     assert any("Choose a sample" in line for line in page)
     assert "[Difference]" not in page
     assert "[Measurement]" not in page

@@ -90,6 +90,18 @@ def test_the_library_is_offered_once_and_dragged_as_a_copy(user):
     assert shelf.offer(again=True).startswith("Rough Spectra")
 
 
+def test_switched_on_for_a_session_alone_it_has_its_library_too(user, monkeypatch):
+    """As by `blender --addons`, which leaves no mark in the preferences: the shelf was empty."""
+    monkeypatch.setattr(preferences, "PACKAGE", "switched_on_by_a_command")
+    count, dirty = len(user.libraries), bpy.context.preferences.is_dirty
+    assert shelf.offer().startswith("Rough Spectra")
+    assert user.libraries[-1].import_method == "APPEND"
+    assert shelf.offer() is None
+    assert len(user.libraries) == count + 1
+    assert bpy.context.preferences.is_dirty == dirty  # nothing for Blender to save
+    assert user.chosen.shelf_folder == ""
+
+
 def test_a_library_of_an_extension_that_moved_is_found_again(user):
     user.libraries.new(name="Rough Spectra", directory="/somewhere/else/presets/shelf")
     user.chosen.shelf_folder = "/somewhere/else/presets/shelf"

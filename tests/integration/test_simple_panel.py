@@ -286,7 +286,8 @@ def test_a_small_difference_names_its_reason_where_something_can_be_done():
 def test_without_a_sample_there_is_one_thing_to_do():
     mesh_object("Wall")
     page = closed()
-    assert page[1][0] == "rough_spectra.choose_sample"
+    assert page[0] == "Rough Spectra"
+    assert page[2][0] == "rough_spectra.choose_sample"
     assert counted(page)[0] <= WORDS
     assert counted(page)[1] == 0
 
@@ -469,8 +470,10 @@ def test_the_three_places_show_the_same():
         closed("NODE_EDITOR", space_data=space),
     ]
     one, two, three = ([text for text in texts(page) if "Details" not in text] for page in pages)
-    assert one == two == three
-    assert [texts(page)[-1] for page in pages] == ["Rough Spectra Details", "Details", "Details"]
+    # In the tab the panel has no header, which would stand far below the slots, but a title.
+    assert one == ["Rough Spectra", *two]
+    assert two == three
+    assert {texts(page)[-1] for page in pages} == {"Details"}
 
 
 def test_the_panel_stands_right_below_the_slots():
@@ -644,3 +647,67 @@ def test_details_offer_what_their_sentence_names():
         assert done == {"FINISHED"}
     assert not any("remove_obstacle" in text for text in drawn())
     assert judged()[0] == "right: looks right"
+
+
+JARGON = (
+    "σ",
+    "rms",
+    "Rdq",
+    "ΔE",
+    "spectrophotometer",
+    "derive",
+    "gamut",
+    "reflectance",
+    "spectrum",
+)
+
+
+@pytest.mark.parametrize("name", ["fresh", "edited", "muted", "metallic", "flat", "shiny"])
+def test_tooltips_of_the_closed_panel_begin_with_a_plain_sentence(name, monkeypatch):
+    """How it is called by color people comes after, for who reads on."""
+    shown, real = {}, Shown.prop
+
+    def prop(self, data, prop, **options):
+        shown[prop] = data.bl_rna.properties[prop].description
+        real(self, data, prop, **options)
+
+    monkeypatch.setattr(Shown, "prop", prop)
+    STATES[name][0]()
+    judged()
+    for entry in closed():
+        if not isinstance(entry, tuple):
+            continue
+        call, properties = entry
+        name = call.partition(".")[2]
+        kind = bpy.types.Operator.bl_rna_get_subclass_py(f"ROUGH_SPECTRA_OT_{name}")
+        shown[call] = getattr(OPS, name).get_rna_type().description
+        if "description" in vars(kind):
+            shown[call] = kind.description(bpy.context, properties)
+    assert {"sigma", "gloss", "rough_spectra.choose_sample"} <= shown.keys()
+    for what, tooltip in shown.items():
+        first = re.split(r"[.:;] ", tooltip)[0]
+        assert not [word for word in JARGON if word in first], (what, tooltip)
+        assert len(first.split()) <= 18, (what, tooltip)
+
+
+@pytest.mark.parametrize("width", range(200, 620, 20))
+def test_neither_verdict_nor_button_is_cut_where_they_stand_beside_each_other(width):
+    """Blender divides a line as it is told to, and cuts what does not fit into its part."""
+    here = types.SimpleNamespace(format=text.Format(width, False, 1.0, 11.0))
+    icon, margins = 20.0, 16.0
+    beside = 0
+    for words in ("looks right", "differs: Eevee lacks roughness", "measured: differs"):
+        for button in (
+            "Renew",
+            "Switch to Cycles",
+            "Set Metallic to 0",
+            "Set Specular IOR Level to 0",
+        ):
+            share = simple._share(here, words, button)
+            if share == 0:
+                continue
+            beside += 1
+            room = width - 40.0  # of tabs and margins, as in `docs/images/window`
+            assert text._width(words, 11.0) + icon <= share * room
+            assert text._width(button, 11.0) + margins <= (1 - share) * room
+    assert beside > 0 or width < 400

@@ -216,6 +216,24 @@ def glossy() -> None:
 
 
 @picture("panel")
+def polished() -> None:
+    """Show a preset as shiny as can be."""
+    _assigned().rough_spectra.gloss = 1.0
+
+
+@picture("panel")
+def several() -> None:
+    """Show three selected objects with a material of their own each."""
+    material = _assigned()
+    for _ in range(2):
+        thing = bpy.context.view_layer.objects.active.copy()
+        thing.data = thing.data.copy()
+        bpy.context.scene.collection.objects.link(thing)
+        thing.active_material = material.copy()
+        thing.select_set(True)
+
+
+@picture("panel")
 def smooth() -> None:
     """Show a preset as it is assigned first, at 0°."""
     _assigned(degrees=0.0)
@@ -405,6 +423,14 @@ def measuring() -> None:
 
 
 @picture("panel", ready=_is_measured)
+def metal_measured() -> None:
+    """Show what a measurement found of metal, of which nothing is predicted."""
+    metallic()
+    close_details()
+    _press("rough_spectra.measure", scope="ACTIVE")
+
+
+@picture("panel", ready=_is_measured)
 def measured() -> None:
     """Show a measurement beside the prediction."""
     _assigned()
@@ -449,6 +475,21 @@ def measure_here() -> None:
 
 
 # Dialogs, menus and messages ---------------------------------------------------------------------
+
+
+@picture("dialog")
+def choose_own() -> None:
+    """Show that the list begins with what the file has."""
+    _assigned().rough_spectra.gloss = 0.5
+    choosing = bpy.context.view_layer.objects.active
+    other = choosing.copy()
+    other.data = choosing.data.copy()
+    other.data.materials.clear()
+    bpy.context.scene.collection.objects.link(other)
+    choosing.select_set(False)
+    other.select_set(True)
+    bpy.context.view_layer.objects.active = other
+    _invoke(bpy.ops.rough_spectra.choose_sample)
 
 
 @picture("dialog")

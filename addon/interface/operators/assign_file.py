@@ -29,7 +29,7 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
 class ROUGHSPECTRA_OT_assign_file(
     looking.LooksFirst, common.WhiteOptions, common.AssignOptions, bpy.types.Operator
 ):
-    """Make the material read like a sample of a measurement file, and store its spectrum"""
+    """Take the color from a file that an instrument wrote; its spectrum is kept in the material"""
 
     bl_idname = "rough_spectra.assign_file"
     bl_label = "Assign from File"  # the file browser's button holds no more

@@ -103,7 +103,7 @@ def _about(entry: Any) -> str:
 
 
 class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
-    """Choose a measured sample for the materials of the selected objects; what you set stays"""
+    """Choose what it looks like: brick, paper. For all selected objects; what you set stays"""
 
     bl_idname = "rough_spectra.choose_sample"
     bl_label = "Choose Sample"

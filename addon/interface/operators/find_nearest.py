@@ -239,7 +239,7 @@ _MOST_LIGHTS = 3
 
 
 class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
-    """Find the measured samples nearest to a color, and assign one to the material"""
+    """Find the samples nearest to a color, this material's or one that you pick, and take one"""
 
     bl_idname = "rough_spectra.find_nearest"
     bl_label = "Find Sample by Color"

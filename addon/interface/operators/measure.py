@@ -38,13 +38,13 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
     def description(cls, _context: Any, properties: Any) -> str:
         """Say what the button at hand measures."""
         what = {
-            "ACTIVE": "Render the material",
-            "SELECTED": "Render the materials of the selected objects",
-            "ALL": "Render every material that stores a spectrum",
+            "ACTIVE": "the material looks",
+            "SELECTED": "the materials of the selected objects look",
+            "ALL": "every material that stores a spectrum looks",
         }[properties.scope]
         return (
-            f"{what} with a virtual spectrophotometer, in a second Blender in the background, and "
-            "compare with the spectrum; ESC stops"
+            f"Check whether {what} as measured. Renders with a virtual spectrophotometer, in a "
+            "second Blender in the background, and compares with the spectrum; ESC stops"
         )
 
     @classmethod

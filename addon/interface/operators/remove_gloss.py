@@ -15,7 +15,7 @@ from . import common
 
 
 class ROUGHSPECTRA_OT_remove_gloss(bpy.types.Operator):
-    """Set specular level and coat to 0, and derive the color without them"""
+    """Make it matte. Sets specular level and coat to 0, and derives the color without them"""
 
     bl_idname = "rough_spectra.remove_gloss"
     bl_label = "Remove Gloss"

@@ -19,7 +19,7 @@ _NAMED = 3
 
 
 class ROUGHSPECTRA_OT_renew(looking.LooksFirst, bpy.types.Operator):
-    """Derive color and roughness again from the stored spectrum and the settings shown"""
+    """Make it look like its sample again. Color and roughness follow from spectrum and settings"""
 
     bl_idname = "rough_spectra.renew"
     bl_label = "Renew"

@@ -30,9 +30,7 @@ class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
 
         found = round(degrees(properties.sigma), 1)
         word = tip_(roughness_words.word(found))
-        return tip_("Make it {word}: a roughness, σ, of {degrees}°").format(
-            degrees=f"{found:g}", word=word
-        )
+        return tip_("Make it {word}: roughness {degrees}°").format(degrees=f"{found:g}", word=word)
 
     @classmethod
     def poll(cls, context: Any) -> bool:

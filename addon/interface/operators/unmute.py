@@ -12,7 +12,7 @@ from . import common
 
 
 class ROUGHSPECTRA_OT_unmute(bpy.types.Operator):
-    """Unmute the shader node that the material's surface comes from"""
+    """Switch the surface's shader node on again, which is muted"""
 
     bl_idname = "rough_spectra.unmute"
     bl_label = "Unmute"

@@ -81,7 +81,6 @@ def of(text: str, icon: str, how: Style) -> tuple[Sentence, ...]:
     return (how.format.sentence(iface_(text), icon),)
 
 
-@memoized(maxsize=64)
 def together(count: int, is_exact: bool, how: Style) -> tuple[Sentence, ...]:
     """Say how many selected objects balls and sliders act on."""
     of_all = iface_("{count} selected objects") if is_exact else iface_("up to {count} objects")

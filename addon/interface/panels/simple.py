@@ -38,6 +38,10 @@ _VALUE = 34.0
 """Pixels that a slider keeps free for its number."""
 _PADDING = 60.0
 """Pixels of a button that its text cannot have, less the margins that a line has anyway."""
+_SHARES = (0.5, 0.6, 0.7)
+"""Of a line, for the words beside a button: Blender cuts what has less than it needs."""
+_GAP = 8.0
+"""Pixels between these two, and some to spare."""
 _FOLD = 6.0
 """Pixels of the arrow that folds a panel, and of its distances, less an icon's."""
 _BELOW = 0.05
@@ -65,15 +69,18 @@ _REMEDIES: dict[verdict.Remedy, tuple[str, tuple[str, ...]]] = {
 
 
 def draw_details_header(layout: Any, context: Any) -> None:
-    """Name the panel Details, in the Material tab with whose they are."""
+    """Name the panel Details."""
     form = redraw.current(context).format
-    names = (iface_("Rough Spectra Details"), iface_("Details"))
-    layout.label(text=form.fitting(names[form.sidebar :], _FOLD), translate=False)
+    layout.label(text=form.fitting((iface_("Details"),), _FOLD), translate=False)
 
 
 def draw(layout: Any, context: Any) -> None:
     """Draw what there is to see, and to do, without a second thought."""
     here = redraw.begin(context)
+    if not here.format.sidebar:
+        # Blender lets only panels without a header come right below the slots; in sidebars the tab
+        # and the header say whose it is.
+        layout.label(text=iface_("Rough Spectra"), translate=False)
     if here.shown is None:
         _draw_sample(layout, here, None, 0.0)
         told = "Choose a sample, or open a file that an instrument wrote"
@@ -157,7 +164,7 @@ def _draw_sliders(
     shine.prop(group, names[1], slider=True)
     if here.together.objects > 1:
         count, is_exact = here.together.objects, here.together.is_exact
-        text.draw(column, sentences.together(count, is_exact, here.style))
+        text.draw(layout, sentences.together(count, is_exact, here.style))
 
 
 def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
@@ -168,22 +175,35 @@ def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial)
         text.draw(layout, words)
         return
     name, labels = _REMEDIES[found.remedy]
-    texts = tuple(map(iface_, labels))
-    beside = here.format.fits(f"{iface_(found.words)} {texts[0]}", _PADDING)
-    row = layout.row(align=False) if beside else layout.column()
-    text.draw(row.column(), words)
-    row = row.row()
-    told = here.format.fitting(texts)
+    labels = tuple(map(iface_, labels))
+    against = ""
     if found.remedy in {"renew", "measure"}:
         against = renewal.reason_against(shown.uid, shown.facts)
-        if against and obstacle.draw(row, here, shown):
-            return
-        row.enabled = found.remedy == "measure" or against == ""
+    in_the_way = obstacle.texts(shown) if against else []
+    share = _share(here, iface_(found.words), [*in_the_way, *labels][0])
+    row = layout.split(factor=share) if share else layout.column()
+    text.draw(row.column(), words)
+    row = row.row()
+    if in_the_way and obstacle.draw(row, here, shown):
+        return
+    row.enabled = found.remedy == "measure" or against == ""
+    told = here.format.fitting(labels)
     button = row.operator(name, text=told, translate=False)
     if found.remedy in {"renew", "matte", "measure"}:
         button.scope = "ACTIVE"
     elif found.remedy == "smoother":
         button.sigma = math.radians(_largest(shown))
+
+
+def _share(here: redraw.Redraw, words: str, button: str) -> float:
+    """Give the words' share of a line with a button; 0 where they are not to stand in one."""
+    room = here.format.room()
+    for share in _SHARES:
+        if here.format.fits(words, room * (1 - share) + _GAP) and here.format.fits(
+            button, room * share + _PADDING
+        ):
+            return share
+    return 0.0
 
 
 def _largest(shown: redraw.PanelMaterial) -> float:
