@@ -26,6 +26,7 @@ from ..colorimetry.tristimulus import ILLUMINANTS, OBSERVERS
 from ..matching import shaders
 from ..material import preferences, selection
 from ..samples import library, readers, sets, stated_white
+from ..samples.readers.parts.document import quote
 from ..samples.sample import COLORED, Kind, Sample, in_units_of
 from ..samples.stated_sigma import Names, StatedSigma
 from ..support import user_files
@@ -133,8 +134,8 @@ def pair(chosen: list[Row], options: argparse.Namespace) -> list[Assignment]:
     if missing and not options.create:
         others = f" nor {len(missing) - 1} others" if len(missing) > 1 else ""
         msg = (
-            f"{_place(missing[0])}there is no material {missing[0].material!r}{others}; correct "
-            "the names, or add --create to make them."
+            f"{_place(missing[0])}there is no material {quote(missing[0].material)}{others}; "
+            "correct the names, or add --create to make them."
         )
         raise MaterialError(msg[0].upper() + msg[1:])
     for name in dict.fromkeys(row.material for row in missing):
@@ -209,8 +210,8 @@ def _meant(chosen: list[Row], known: Mapping[str, Any]) -> list[Row]:
             if name in found and row.where:
                 before = found[name].where.removeprefix(row.where.partition(", ")[0] + ", ")
                 msg = (
-                    f"{row.where}: material {name!r} is named twice, in {before} before; give it "
-                    "one spectrum."
+                    f"{row.where}: material {quote(name)} is named twice, in {before} before; give "
+                    "it one spectrum."
                 )
                 raise InputError(msg)
             found[name] = row
@@ -281,7 +282,7 @@ def check_columns(where: str, record: dict[str, Any], fields: Sequence[str]) -> 
     """
     unknown = [key for key in record if key not in fields]
     if unknown:
-        msg = f"{where}: {unknown[0]!r} is not a column; use {', '.join(fields)}."
+        msg = f"{where}: {quote(unknown[0])} is not a column; use {', '.join(fields)}."
         raise InputError(msg)
     given = {key: record.get(key) for key in fields}
     return {key: "" if cell is None else str(cell).strip() for key, cell in given.items()}
@@ -314,7 +315,7 @@ class Samples:
         found = self._files[source, scale]
         if name not in found:
             names = ", ".join(list(found)[:5])
-            msg = f"{where}: {source} has no sample {name!r}; it has {names}."
+            msg = f"{where}: {source} has no sample {quote(name)}; it has {names}."
             raise InputError(msg)
         return found[name]
 
@@ -354,9 +355,10 @@ def _csv_records(
         msg = f"{path}: a quotation mark is not closed ({error}); close or remove it."
         raise InputError(msg) from error
     if not set(needed) <= set(names):
+        found = quote(", ".join(names)) if names else "nothing"
         msg = (
-            f"{path}, header: found {', '.join(names) or 'nothing'}; the columns are "
-            f"{', '.join(fields)}, of which {' and '.join(needed)} are needed."
+            f"{path}, header: found {found}; the columns are {', '.join(fields)}, of which "
+            f"{' and '.join(needed)} are needed."
         )
         raise InputError(msg)
     records = []
@@ -379,7 +381,7 @@ def _row(path: Path, place: str, record: dict[str, Any], samples: Samples) -> Ro
         raise InputError(msg)
     for name, words in _CHOICES.items():
         if cells[name] and cells[name] not in words:
-            msg = f"{where}: {name} is {cells[name]!r}; make it one of {', '.join(words)}."
+            msg = f"{where}: {name} is {quote(cells[name])}; make it one of {', '.join(words)}."
             raise InputError(msg)
     scale = _number(where, "scale", cells["scale"])
     sample = samples.find(where, cells["sample"], cells["file"], scale or 1.0)
@@ -419,7 +421,7 @@ def _number(where: str, name: str, cell: str) -> float | None:
         number = math.nan
     if not math.isfinite(number) or (name == "scale" and number <= 0):
         what = _NUMBERS.get(name, "a slope as a number")
-        raise InputError(f"{where}: {name} is {cell!r}; give {what}.")
+        raise InputError(f"{where}: {name} is {quote(cell)}; give {what}.")
     return number
 
 

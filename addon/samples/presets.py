@@ -20,6 +20,7 @@ from ...core.errors import InputError
 from ...core.numerics.memoized import memoized
 from . import preset_index, readers
 from .readers.formats import preset as preset_file
+from .readers.parts.document import quote
 from .sample import Sample
 
 
@@ -69,7 +70,7 @@ def path_of(preset: str) -> Path:
     close = difflib.get_close_matches(wanted, reversed(listed.by_slug), n=3, cutoff=0.5)
     near = list(dict.fromkeys(listed.by_slug[slug][0] for slug in close))
     hint = f"the closest are {', '.join(near)}" if near else f"the first is {known[0]}"
-    raise InputError(f"{folder()}: there is no preset {preset!r}; {hint}.")
+    raise InputError(f"{folder()}: there is no preset {quote(preset)}; {hint}.")
 
 
 def load(preset: str | os.PathLike[str]) -> Sample:

@@ -7,6 +7,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from rough_spectra.addon.instrument import bake
 from rough_spectra.addon.readings import json_document, writers
 from rough_spectra.addon.readings.document import CyclesReading, Predicted, Reading, Readings
 from rough_spectra.addon.readings.writers import images
@@ -68,3 +69,26 @@ def test_every_swatch_has_its_place_and_others_are_black(count, tmp_path):
         part = found.entries[place].predicted
         expected = np.broadcast_to((*part.preview, *part.values), swatch.shape)
         np.testing.assert_allclose(swatch, expected, rtol=2**-11)
+
+
+def test_a_bake_in_portions_is_that_of_one_go(make_material, monkeypatch):
+    materials = [make_material(f"Paint {n}", Color=(0.2 * n, 0.5, 0.3, 1)) for n in range(1, 4)]
+    surfaces = [("", material) for material in materials]
+    whole = bake.bake(surfaces)
+    at_once, told, prepare = [], [], bake.prepare
+
+    def counting(part, *rest):
+        at_once.append(len(part))
+        return prepare(part, *rest)
+
+    monkeypatch.setattr(bake, "prepare", counting)
+    monkeypatch.setattr(bake, "AT_ONCE", 2)
+    found = bake.bake(surfaces, True, lambda *numbers: told.append(numbers))
+    assert at_once == [2, 1]
+    assert found == whole
+    assert len({entry.measured.rgb for entry in found.entries}) == 3
+    shares = [done / total for done, total in told if total]
+    assert shares == sorted(shares)
+    assert 0.5 <= shares[-1] <= 1
+    begun = [total for _, total in told].index(max(total for _, total in told))
+    assert (0, 0) not in told[begun:]  # as if it began again

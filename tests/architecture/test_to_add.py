@@ -427,7 +427,7 @@ def test_an_operator_of_one_file_is_found_everywhere(found):
     groups = " ".join(name.removeprefix("rough_spectra.") for name in menu).split(" - ")
     assert groups[1:] == [
         "analyze_scene renew keep estimate_sigma make_local remove_gloss remove_scale "
-        "switch_to_cycles show_rendered use_wide_gamut wave",
+        "switch_to_cycles show_rendered use_wide_gamut use_rec2020 wave",
         "measure bake",
     ]
 

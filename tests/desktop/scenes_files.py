@@ -3,10 +3,13 @@
 """Files that come in: measurements, and materials of other .blend files."""
 
 from pathlib import Path
+from runpy import run_path
 
 import bpy
 from driver import area, over, press, scene, window
-from stage import OPS, empty_file, green_file, ours, state, wall
+from stage import OPS, PACKAGE, empty_file, green_file, ours, state, wall
+
+ROOT = Path(__file__).resolve().parents[2]
 
 BANDS = range(400, 701, 20)
 PLASTER = "\n".join(
@@ -135,3 +138,41 @@ def _bring(path, material, link):
         wanted.materials = [material]
     bpy.data.objects["Wall"].data.materials.append(wanted.materials[0])
     yield 1.0
+
+
+@scene
+def submitting_what_is_not_saved(found):
+    """Submit to Flamenco after an edit, and again once that is saved."""
+    yield from green_file()
+    path = str(Path(bpy.app.tempdir) / "shot.blend")
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+    yield 1.0  # the window takes note of a save with its next events
+    preferences = bpy.context.preferences
+    ours_of = preferences.addons[PACKAGE].preferences
+    before = preferences.system.use_online_access
+    stand_in = run_path(str(ROOT / "tools" / "checks" / "flamenco_stand_in.py"))
+    script = ROOT / "farm" / "flamenco" / "rough_spectra.js"
+    manager = stand_in["Manager"]({"rough-spectra": script})
+    with stand_in["serving"](manager) as address:
+        preferences.system.use_online_access = True
+        ours_of.flamenco_manager = address
+        with over(area("PROPERTIES")):
+            OPS.assign_preset("EXEC_DEFAULT", True, preset="everyday/brick")  # with an undo step
+        yield 0.5
+        found["edited"] = [bpy.data.is_dirty, _submit(), manager.asked[:], len(manager.jobs)]
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.wm.save_mainfile()
+        yield 0.5
+        found["saved"] = [bpy.data.is_dirty, _submit(), len(manager.jobs)]
+        found["file"] = manager.jobs[0]["settings"]["blendfile"] == path
+    ours_of.flamenco_manager = ""
+    preferences.system.use_online_access = before
+
+
+def _submit():
+    try:
+        with over(area("PROPERTIES")):
+            return sorted(OPS.submit_to_flamenco("EXEC_DEFAULT"))
+    except RuntimeError as error:
+        return str(error).strip()

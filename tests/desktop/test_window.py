@@ -104,7 +104,10 @@ BLENDERS_OWN = (
     # calls of all threads in one plain number (`py_call_level`): now and then one gets lost.
     "Python context internal state bug",
 )
-TOLD = (" σ 20°: ", "The texture is scaled so that its mean", "45°a:0° is assumed.")
+TOLD = (
+    *(" σ 20°: ", "The texture is scaled so that its mean", "45°a:0° is assumed."),
+    "Save the file first: the farm reads it from the disk",
+)
 """What a user is told of samples in a library that a scene builds, of a texture, and of files."""
 MEASURE = "ROUGH_SPECTRA_OT_measure"
 
@@ -225,6 +228,14 @@ def test_other_files(scene):
     assert scene["linked"] == scene["overridden"] == "linked"
     assert scene["override"]
     assert scene["local"] == [True, "fresh"]
+
+
+def test_submitting_what_is_not_saved(scene):
+    """The farm reads the disk: it would have measured the file as it was."""
+    sentence = "Error: Save the file first: the farm reads it from the disk"
+    assert scene["edited"] == [True, sentence, [], 0]
+    assert scene["saved"] == [False, ["FINISHED"], 1]
+    assert scene["file"]
 
 
 def test_nothing_unwanted_was_printed(session):

@@ -136,6 +136,8 @@ def test_the_fault_of_a_process_is_one_sentence_without_traceback(blend, run, tm
     assert blend.read_bytes() == before
 
 
+LONG, LONGEST = "stretch" * 2000, 1000
+"""A cell, and characters that a sentence about it may have."""
 MAPPINGS = {
     "empty": ("", "header", "material"),
     "header alone": ("material,sample\n", "no rows"),
@@ -174,6 +176,17 @@ MAPPINGS = {
     "deep JSON": ("[" * 100_000, "JSON"),
     "JSON of another form": ('{"paper": "14"}', "list"),
     "JSON without a sample": ('[{"material": "paper"}]', "entry 1", "sample"),
+    **{
+        f"endless {column}": (
+            f"material,sample,{column}\npaper,14,{LONG}\n",
+            *("row 1", column, LONG[:30]),
+        )
+        for column in ("sigma_deg", "scale", "kind", "shader", "instrument", "white")
+    },
+    "endless column": (f"material,sample,{LONG}\npaper,14,1\n", "row 1", LONG[:30]),
+    "endless header": (f"{LONG}\n", "header", LONG[:30]),
+    "endless preset": (f"material,sample\npaper,{LONG}\n", "row 1", LONG[:30]),
+    "endless material": (f"material,sample\n{LONG},14\n", LONG[:30]),
     "unknown key": ('[{"material": "paper", "sample": "14", "gloss": 1}]', "'gloss'"),
 }
 
@@ -184,7 +197,8 @@ def test_mapping_with_a_fault(fault, blend, main, tmp_path):
     mapping = tmp_path / "mapping"
     mapping.write_text(content, encoding="utf-8")
     before = contents(tmp_path)
-    refused(main("assign", "--blend", blend, "--mapping", mapping), *words)
+    sentence = refused(main("assign", "--blend", blend, "--mapping", mapping), *words)
+    assert len(sentence) < LONGEST
     assert contents(tmp_path) == before
 
 

@@ -17,6 +17,9 @@ import numpy as np
 
 from tools.checks.check_farm import make_scene
 
+# The extension is loaded by now.
+from rough_spectra.addon.support import png  # isort: skip
+
 Words = Callable[[Path, int], list[object]]
 """Words of a verb, from the folder that it writes to and which of the two options are meant."""
 
@@ -34,6 +37,10 @@ def of_tables(folder: Path) -> dict[str, Words]:
     rows = f"Tile,smooth,Tile,{table.name},\nTile rough,rough,Tile,{table.name},\n"
     page.write_text("sample,surface,material,file,sigma_deg\n" + rows)
     _stripes(image)
+
+    def texture(to: Path, which: int) -> list[object]:
+        return ["texture", image, "--sigma", 20 + 10 * which, "--output", to / "x.exr"]
+
     return {
         "import": lambda to, which: [
             *("import", table, "--folder", to, "--collection", "b" if which else "a"),
@@ -49,11 +56,9 @@ def of_tables(folder: Path) -> dict[str, Words]:
         "emissivity": lambda to, which: [
             *("emissivity", table, "--sigma", 10 + 10 * which, "--output", to / "x"),
         ],
-        "texture": lambda to, which: [
-            *("texture", image, "--sigma", 20 + 10 * which, "--output", to / "x.exr"),
-        ],
+        "texture": texture,
         "texture --material": lambda to, which: [
-            *("texture", image, "--sigma", 20 + 10 * which, "--output", to / "x.exr"),
+            *texture(to, which),
             *("--material", "Wall", "--save", to / "x.blend"),
         ],
         "lab": lambda to, which: [
@@ -134,12 +139,8 @@ def of_shards(shards: list[Path]) -> dict[str, Words]:
 
 
 def _stripes(path: Path) -> None:
-    image = bpy.data.images.new("Stripes", 128, 128)
-    pixels = np.ones((128, 128, 4), np.float32)
-    pixels[..., :3] = np.linspace(0.1, 0.8, 128)[:, None]
-    image.pixels.foreach_set(pixels.ravel())
-    image.filepath_raw, image.file_format = str(path), "PNG"
-    image.save()
+    stripes = np.linspace(25, 205, 128).astype(np.uint8)[:, np.newaxis]
+    path.write_bytes(png.encode(np.tile(stripes, (128, 1, 3))))
 
 
 def _lit_scene(path: Path, seed: int) -> Path:

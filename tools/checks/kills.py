@@ -151,6 +151,9 @@ class Verb:
         self._look_for_traces(alone)
         journal.finish(to)
         what = _contents(to)
+        backups = {path.name: _materials(path) for path in to.glob("*.blend1")}
+        if any(found != self.before.get(name[:-1]) for name, found in backups.items()):
+            what |= backups
         if self.name in _ONE_BY_ONE and what not in (self.before, self.after):
             mixed = all(what.get(n) in (self.before[n], self.after[n]) for n in self.before)
             if mixed and what.keys() == self.before.keys():
@@ -224,12 +227,15 @@ def _listing(folder: Path) -> set[tuple[str, int, int]]:
 
 
 def _contents(folder: Path) -> dict[str, object]:
-    """Give the files that a user sees; hidden ones are locks and what was not finished."""
+    """Give the files that a user sees; hidden ones are locks and what was not finished.
+
+    Versions that Blender keeps are looked at apart: they come before what follows them.
+    """
     told = {".blend": _materials, ".exr": _picture}
     return {
         path.name: told.get(path.suffix, Path.read_bytes)(path)
         for path in folder.iterdir()
-        if path.is_file() and not path.name.startswith(".")
+        if path.is_file() and not path.name.startswith(".") and path.suffix != ".blend1"
     }
 
 
@@ -248,7 +254,7 @@ def _materials(path: Path) -> object:
         ]
         for material in bpy.data.materials
         if material.node_tree
-    }
+    } | {image.name: Path(image.filepath).name for image in bpy.data.images}
 
 
 def _picture(path: Path) -> object:
