@@ -359,3 +359,31 @@ def test_what_comments_say_of_mode_light_and_name(tmp_path):
     assert told == ("Red brick", "de:8", "D50", 10)
     [sample] = read(tmp_path, "# measurement mode: M1\n" + down("nm,a tile"))
     assert (sample.name, sample.condition) == ("a tile", "M1")
+
+
+def test_units_behind_numbers(tmp_path):
+    rows = [(f"{nm} nm", f"{100 * v:.0f} %") for nm, v in zip(NM, VALUES, strict=True)]
+    for head in ("Wavelength,R", "band,R", "Wavelength (nm),R (%)"):
+        [sample] = read(tmp_path, "\n".join([head, *map(",".join, rows)]))
+        assert is_ramp(sample)
+    [sample] = read(tmp_path, "\n".join(["nm;R", *(f"{a};{b}".replace(" ", "") for a, b in rows)]))
+    assert is_ramp(sample)
+    values = ",".join(value for _, value in rows)
+    [sample] = read(tmp_path, f"name,{','.join(map(str, NM))}\ntile,{values}\n")
+    assert is_ramp(sample)
+
+
+def test_percent_signs_behind_some_numbers_only_or_against_a_comment_are_refused(tmp_path):
+    rows = down("nm,R").replace("0.3000", "30%")
+    assert "others have none" in refusal(tmp_path, rows)
+    text = down("nm,R", times=100, cell="{:.0f}%")
+    assert "fraction" in refusal(tmp_path, "# units: fraction\n" + text)
+
+
+@pytest.mark.parametrize("mark", [",", " "])
+def test_row_names_that_r_writes_without_a_name_above(tmp_path, mark):
+    rows = down("wavelength" + mark + "reflectance", mark).strip().split("\n")
+    numbered = [rows[0], *(f'"{i}"{mark}{row}' for i, row in enumerate(rows[1:], start=1))]
+    text = "\n".join(numbered)
+    [sample] = read(tmp_path, text if mark == "," else text.replace('"', ""))
+    assert is_ramp(sample)

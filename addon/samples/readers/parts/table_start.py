@@ -171,6 +171,7 @@ def _cells(line: str, mark: str, longest: int | None = _LONGEST) -> list[str]:
 def _names_wavelengths(line: str, *, first: bool) -> bool:
     return any(
         len(cells) > 1
+        and not _is_number(cells[0])
         and any(map(label_words.is_wavelength, cells[:3]))
         and (first or not label_words.is_unit_row(cells))  # names stand above their units
         for cells in (_cells(line, mark) for mark in (*DELIMITERS, "|"))

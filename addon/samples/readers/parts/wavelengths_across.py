@@ -90,7 +90,13 @@ def read(
         every = nanometers(document, said, every, stated)
     # Of the other columns' names only the corner's, and a heading, are about the values below.
     values = block.values
-    labels = [*over, *(header[i] for i in sorted({0, *bands}))]
+    signs = ["%"] if block.percent else []
+    if 0 < len(block.percent) < len(bands):
+        raise document.error(
+            f"line {line}",
+            "some bands have percent signs and others have none; give all of them one",
+        )
+    labels = [*over, *signs, *(header[i] for i in sorted({0, *bands}))]
     one = scale(document, said, f"line {line}", labels)
     values /= one
     parts = _parts([header[i] for i in bands], every, values)

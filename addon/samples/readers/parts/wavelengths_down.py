@@ -119,7 +119,8 @@ def read(
         if not label and np.isnan(values[i]).all():
             continue  # an empty column without a name
         place = f"column {quote(label)}" if label else labels[column]
-        percent = scale(document, said, place, [label, units[column]])
+        sign = "%" if i + 1 in block.percent else ""
+        percent = scale(document, said, place, [label, units[column], sign])
         found = series.bands(
             nm,
             values[i] / percent,
