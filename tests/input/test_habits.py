@@ -387,3 +387,19 @@ def test_row_names_that_r_writes_without_a_name_above(tmp_path, mark):
     text = "\n".join(numbered)
     [sample] = read(tmp_path, text if mark == "," else text.replace('"', ""))
     assert is_ramp(sample)
+
+
+@pytest.mark.parametrize("filled", ["-1.23e+34", "-1.23E34", "3.4e38"])
+def test_what_stands_for_no_value_in_remote_sensing(tmp_path, filled):
+    [sample] = read(tmp_path, down("nm,R").replace("0.3000", filled))
+    assert sample.wavelengths.tolist() == [nm for nm in NM if nm != 500]
+    assert "500 nm" in sample.altered[0]
+
+
+def test_a_merged_name_is_that_of_all_its_rows(tmp_path):
+    text = across("Name,Angle", "Car,15", ",45", ",110", "Door,15", ",45", ",110")
+    found = read(tmp_path, text)
+    assert [sample.name for sample in found] == ["Car", "Door"]
+    assert {s.instrument for s in found[0].readings} == {"45as15", "45as45", "45as110"}
+    [tile] = read(tmp_path, across("Name,Mode", "Tile,SCI", ",SCE"))
+    assert [tile.name, *(s.instrument for s in tile.readings)] == ["Tile", "de:8", "di:8"]

@@ -102,8 +102,13 @@ def read(
     parts = _parts([header[i] for i in bands], every, values)
     samples: list[Sample] = []
     left: dict[str, str] = {}
+    above = ""
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
+        if name is not None and keyed:
+            # Spreadsheets merge the name of several readings: its cell is empty in all but one.
+            cells = [cells[0] or above, *cells[1:]]
+            above = cells[0]
         telling_cells = cells[len(texts) - len(telling) :]
         if name is not None and is_percent_reflectance(cells[0]):
             telling_cells = [*telling_cells, "%"]
