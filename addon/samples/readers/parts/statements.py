@@ -51,6 +51,7 @@ _KEYS = {
     **dict.fromkeys(("observer", "standardobserver", "observer1", "observerangle"), "observer"),
     **dict.fromkeys(("illuminantobserver", "illobs", "colorcondition"), "light"),
     **dict.fromkeys(("condition", "measurementcondition", "measurementmode", "mode"), "condition"),
+    **dict.fromkeys(("mcondition", "mmode", "measurementconditions"), "condition"),
     **dict.fromkeys(("measuringmode", "measuremode", "filter", "uvfilter"), "condition"),
     **dict.fromkeys(("specular", "specularcomponent", "specularmode", "scisce"), "specular"),
     **dict.fromkeys(("spex", "sci", "sce", "gloss", "reflectancemode", "viewing"), "specular"),
