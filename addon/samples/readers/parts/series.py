@@ -150,7 +150,7 @@ def bands(
     InputError
         What stays is no spectrum.
     """
-    missing = np.isnan(values) | (np.abs(values) > _FILLED)
+    missing = np.isnan(values) | ((np.abs(values) > _FILLED) & np.isfinite(values))
     altered: tuple[str, ...] = ()
     if missing.any():
         altered = (_left_out(nm[missing]),)
