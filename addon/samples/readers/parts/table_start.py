@@ -32,6 +32,7 @@ _VALUES_KEY = re.compile(
     r"units?\b|einheit|y[ -]?(?:axis|units?|label|data)?$|ordinate|measure\w* (?:type|quantity)",
     re.I,
 )
+_ORDINATE_KEY = re.compile(r"(?:ordinate|photometric|y[ _-])", re.I)
 _KIND_KEY = re.compile(
     r"(?:(?:photometric|measure\w*|data|spectr\w*|scan|display)[ _-]?)?(?:mode|type)$|"
     r"quantity|values?$|title",
@@ -103,6 +104,9 @@ def above(
             _refuse_other(document, number, start, value)
             if said.scale is None and is_percent_reflectance(value):
                 said.scale = 100.0
+        if _ORDINATE_KEY.match(key) and value.strip().upper() in ("A", "ABS", "T"):
+            other = "transmittance" if value.strip() in "tT" else "absorbance"
+            raise document.not_reflectance(f"line {number}", other)
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
             if other == "emissivity":
