@@ -403,3 +403,28 @@ def test_a_merged_name_is_that_of_all_its_rows(tmp_path):
     assert {s.instrument for s in found[0].readings} == {"45as15", "45as45", "45as110"}
     [tile] = read(tmp_path, across("Name,Mode", "Tile,SCI", ",SCE"))
     assert [tile.name, *(s.instrument for s in tile.readings)] == ["Tile", "de:8", "di:8"]
+
+
+@pytest.mark.parametrize("mark", [",", ";", "\t"])
+def test_comments_and_lines_below_with_cells_of_a_spreadsheet(tmp_path, mark):
+    cells = f"Geometry{mark}d/8{mark}{mark}\nSCI/SCE{mark}SCE{mark}\n"
+    table = down(mark.join(["nm", "a tile"]), mark)
+    for text in ("# " + cells.replace("\nSCI", "\n# SCI") + table, table + mark * 3 + "\n" + cells):
+        [sample] = read(tmp_path, text)
+        assert (sample.instrument, sample.geometry, sample.specular) == ("de:8", "d/8", "SCE")
+
+
+@pytest.mark.parametrize("value", ["A", "Abs", "T"])
+def test_an_ordinate_by_its_letter(tmp_path, value):
+    assert "line 1" in refusal(tmp_path, f"Ordinate mode: {value}\n" + down("nm,x"))
+
+
+def test_wavelengths_once_more_in_another_unit_are_no_sample(tmp_path):
+    rows = [f"{1e7 / nm:.3f},{nm},{v}" for nm, v in zip(NM, VALUES, strict=True)]
+    [sample] = read(tmp_path, "\n".join(["wavenumber (cm-1),wavelength (nm),R", *rows]))
+    assert sample.wavelengths == pytest.approx(NM, rel=1e-4)
+    assert any("Columns not read: wavelength (nm)" in note for note in sample.notes)
+    pairs = [f"{nm},{v},{nm + 5},{v}" for nm, v in zip(NM, VALUES, strict=True)]
+    sentence = refusal(tmp_path, "\n".join(["Wavelength,brick,Wavelength,slate", *pairs]))
+    assert "wavelengths once more" in sentence
+    assert "white" not in sentence
