@@ -118,7 +118,8 @@ _JUST_PERCENT = re.compile(
 _TO_A_HUNDRED = re.compile(r"\bscale\b.*?\b0\s*(?:-|–|to|\.\.+)\s*100\b", re.IGNORECASE)
 _OPTICAL = re.compile(r"optical constants|refractive ind", re.IGNORECASE)
 _KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
-_LISTED = re.compile(r"\s*([^\t;,:=]{1,40})[\t;,]\s*([^\t;,]{1,60})[\t;,\s]*")
+# A key with its mark, which texts that quote it keep, and a value.
+_LISTED = re.compile(r"\s*([^\t;,:=]{1,40}[\t;,])\s*([^\t;,]{1,60})[\t;,\s]*")
 
 _UNITS = {
     **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),

@@ -397,7 +397,8 @@ def _of_comments(said: Comments) -> dict[str, Any]:
             found |= stated(key, value)
     if not found.keys() & GEOMETRIES:
         for key, value in said.others:
-            found |= mentioned(f"{key}: {value}") if not field_of(key) else {}
+            mark = " " if key.endswith(("\t", ";", ",")) else ": "
+            found |= mentioned(f"{key}{mark}{value}") if not field_of(key) else {}
     return found
 
 
