@@ -226,6 +226,7 @@ def of_remarks(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
     return {**found, "notes": notes}
 
 
+_UNSAID = instrument_of("")[1]
 _HOW = {*GEOMETRIES, "condition", "device"}
 
 
@@ -357,7 +358,7 @@ def make(
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
     if "instrument" not in known and said.kind == "reading":
-        notes = (instrument_of("")[1], *notes)
+        notes = (_UNSAID, *notes)
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
     texts |= {"device": known["device"]} if "device" in known else {}
     if said.kind == "emissivity":

@@ -100,6 +100,7 @@ def read(
     one = scale(document, said, f"line {line}", labels)
     values /= one
     parts = _parts([header[i] for i in bands], every, values)
+    of_columns = not_read(unread)
     samples: list[Sample] = []
     left: dict[str, str] = {}
     above = ""
@@ -140,7 +141,7 @@ def read(
                     found,
                     name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
                     position=f"line {row}",
-                    notes=not_read(unread),
+                    notes=of_columns,
                 )
             )
     if left and not samples:
