@@ -137,6 +137,10 @@ def small(fields, rows, keys=""):
         ("NM_{}", 1),
         ("R_{}", 1),
         ("{}nm", 1),
+        ("REFL_PCT_{}", 100),
+        ("PCT_{}", 100),
+        ("WL_{}", 1),
+        ("LAMBDA_{}", 1),
     ],
 )
 def test_the_scale_follows_from_the_family_and_never_from_the_values(tmp_path, label, scale):
@@ -154,6 +158,21 @@ def test_columns_may_stand_in_any_order_and_a_condition_in_each(tmp_path):
     first, second = readers.read(write(tmp_path, small(fields, ["7\t.2\t.1\t.3\t.4"])))
     assert (first.name, first.condition, first.values.tolist()) == ("7 (M2)", "M2", [0.1, 0.2])
     assert (second.name, second.condition, second.values.tolist()) == ("7 (M0)", "M0", [0.3, 0.4])
+
+
+@pytest.mark.parametrize("label", ["{}_400 {}_500", "NM400_{} NM500_{}", "R_400:{} R_500:{}"])
+def test_bands_may_say_whether_specular_light_is_included(tmp_path, label):
+    fields = f"SAMPLE_NAME {label.format('SCI', 'SCI')} {label.format('SPEX', 'SPEX')}"
+    (sample,) = readers.read(write(tmp_path, small(fields, ["tile .1 .2 .3 .4"])))
+    told = {s.instrument: (s.specular, s.values.tolist()) for s in sample.readings}
+    assert told == {"di:8": ("SCI", [0.1, 0.2]), "de:8": ("SCE", [0.3, 0.4])}
+    assert sample.name == "tile"
+
+
+@pytest.mark.parametrize("label", ["M_CONDITION", "MEASUREMENT_CONDITION"])
+def test_a_column_of_conditions(tmp_path, label):
+    (sample,) = readers.read(write(tmp_path, small(f"ID {label} nm400 nm500", ["7 M1 .1 .2"])))
+    assert sample.condition == "M1"
 
 
 def test_names_with_spaces_and_empty_cells_between_tabs(tmp_path):

@@ -359,3 +359,72 @@ def test_what_comments_say_of_mode_light_and_name(tmp_path):
     assert told == ("Red brick", "de:8", "D50", 10)
     [sample] = read(tmp_path, "# measurement mode: M1\n" + down("nm,a tile"))
     assert (sample.name, sample.condition) == ("a tile", "M1")
+
+
+def test_units_behind_numbers(tmp_path):
+    rows = [(f"{nm} nm", f"{100 * v:.0f} %") for nm, v in zip(NM, VALUES, strict=True)]
+    for head in ("Wavelength,R", "band,R", "Wavelength (nm),R (%)"):
+        [sample] = read(tmp_path, "\n".join([head, *map(",".join, rows)]))
+        assert is_ramp(sample)
+    [sample] = read(tmp_path, "\n".join(["nm;R", *(f"{a};{b}".replace(" ", "") for a, b in rows)]))
+    assert is_ramp(sample)
+    values = ",".join(value for _, value in rows)
+    [sample] = read(tmp_path, f"name,{','.join(map(str, NM))}\ntile,{values}\n")
+    assert is_ramp(sample)
+
+
+def test_percent_signs_behind_some_numbers_only_or_against_a_comment_are_refused(tmp_path):
+    rows = down("nm,R").replace("0.3000", "30%")
+    assert "others have none" in refusal(tmp_path, rows)
+    text = down("nm,R", times=100, cell="{:.0f}%")
+    assert "fraction" in refusal(tmp_path, "# units: fraction\n" + text)
+
+
+@pytest.mark.parametrize("mark", [",", " "])
+def test_row_names_that_r_writes_without_a_name_above(tmp_path, mark):
+    rows = down("wavelength" + mark + "reflectance", mark).strip().split("\n")
+    numbered = [rows[0], *(f'"{i}"{mark}{row}' for i, row in enumerate(rows[1:], start=1))]
+    text = "\n".join(numbered)
+    [sample] = read(tmp_path, text if mark == "," else text.replace('"', ""))
+    assert is_ramp(sample)
+
+
+@pytest.mark.parametrize("filled", ["-1.23e+34", "-1.23E34", "3.4e38"])
+def test_what_stands_for_no_value_in_remote_sensing(tmp_path, filled):
+    [sample] = read(tmp_path, down("nm,R").replace("0.3000", filled))
+    assert sample.wavelengths.tolist() == [nm for nm in NM if nm != 500]
+    assert "500 nm" in sample.altered[0]
+
+
+def test_a_merged_name_is_that_of_all_its_rows(tmp_path):
+    text = across("Name,Angle", "Car,15", ",45", ",110", "Door,15", ",45", ",110")
+    found = read(tmp_path, text)
+    assert [sample.name for sample in found] == ["Car", "Door"]
+    assert {s.instrument for s in found[0].readings} == {"45as15", "45as45", "45as110"}
+    [tile] = read(tmp_path, across("Name,Mode", "Tile,SCI", ",SCE"))
+    assert [tile.name, *(s.instrument for s in tile.readings)] == ["Tile", "de:8", "di:8"]
+
+
+@pytest.mark.parametrize("mark", [",", ";", "\t"])
+def test_comments_and_lines_below_with_cells_of_a_spreadsheet(tmp_path, mark):
+    cells = f"Geometry{mark}d/8{mark}{mark}\nSCI/SCE{mark}SCE{mark}\n"
+    table = down(mark.join(["nm", "a tile"]), mark)
+    for text in ("# " + cells.replace("\nSCI", "\n# SCI") + table, table + mark * 3 + "\n" + cells):
+        [sample] = read(tmp_path, text)
+        assert (sample.instrument, sample.geometry, sample.specular) == ("de:8", "d/8", "SCE")
+
+
+@pytest.mark.parametrize("value", ["A", "Abs", "T"])
+def test_an_ordinate_by_its_letter(tmp_path, value):
+    assert "line 1" in refusal(tmp_path, f"Ordinate mode: {value}\n" + down("nm,x"))
+
+
+def test_wavelengths_once_more_in_another_unit_are_no_sample(tmp_path):
+    rows = [f"{1e7 / nm:.3f},{nm},{v}" for nm, v in zip(NM, VALUES, strict=True)]
+    [sample] = read(tmp_path, "\n".join(["wavenumber (cm-1),wavelength (nm),R", *rows]))
+    assert sample.wavelengths == pytest.approx(NM, rel=1e-4)
+    assert any("Columns not read: wavelength (nm)" in note for note in sample.notes)
+    pairs = [f"{nm},{v},{nm + 5},{v}" for nm, v in zip(NM, VALUES, strict=True)]
+    sentence = refusal(tmp_path, "\n".join(["Wavelength,brick,Wavelength,slate", *pairs]))
+    assert "wavelengths once more" in sentence
+    assert "white" not in sentence

@@ -74,8 +74,8 @@ def read(
                 raise document.error("", f"this {reader.NAME} holds no sample; export one with it")
             if getattr(reader, "SETS", False):
                 return samples
-            found = joining.joined([unsaid.told(sample) for sample in samples])
-            return unsaid.by_file_name(found, document.path.stem)
+            samples = joining.joined([unsaid.told(sample) for sample in samples])
+            return unsaid.by_file_name(samples, document.path.stem)
     raise _unrecognized(document)
 
 

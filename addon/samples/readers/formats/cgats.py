@@ -172,10 +172,11 @@ def _samples(
         name = from_cell(name) if one.escaped else name
         name = name or (document.path.stem if alone else f"{document.path.stem} {row + 1}")
         own = next(texts) if columns.condition is not None else ""
-        stated = _stated(one, [next(texts) for _ in columns.keyed])
+        cells = [next(texts) for _ in columns.keyed]
         lab = _triple(document, line, texts, one.fields, columns.lab)
         xyz = _triple(document, line, texts, one.fields, columns.xyz)
         for spectrum, nm, values in scaled:
+            stated = _stated(one, cells, spectrum.specular)
             condition = own if _CONDITION.fullmatch(own) else spectrum.condition or words.condition
             yield Sample(
                 name=f"{name} ({condition})" if several and condition else name,
@@ -200,12 +201,17 @@ def _samples(
             )
 
 
-def _stated(one: _Read, cells: list[str]) -> dict[str, Any]:
-    """Return fields of `Sample` from the columns of a record, with its notes on the geometry."""
+def _stated(one: _Read, cells: list[str], specular: str) -> dict[str, Any]:
+    """Return fields of `Sample` from the columns of a record, with its notes on the geometry.
+
+    `specular` is what the names of the bands say.
+    """
     keys = [one.fields[i] for i in one.columns.keyed]
     own: dict[str, Any] = {}
     for key, cell in zip(keys, cells, strict=True):
         own.update(statements.stated(key, cell))
+    if specular:
+        own["specular"] = specular
     if not own:
         return {}
     words = one.words

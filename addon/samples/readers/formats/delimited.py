@@ -99,7 +99,9 @@ def read(document: Document) -> list[Sample]:
         return wavelengths_across.read(document, said, fields, header, top[0].line, table)
     if _plain_number(header[0], comma) is None:
         next(table)
-        if delimiter == SPACES and len(top) > 1 and len(top[1].fields) == 2 != len(header):
+        if _has_row_names(header, top):
+            header = ["", *header]
+        elif delimiter == SPACES and len(top) > 1 and len(top[1].fields) == 2 != len(header):
             header = [header[0], " ".join(header[1:])]  # spaces within the second name
     else:
         if delimiter == "," and len(header) > 2 and not any("." in c for c in top[0].fields):
@@ -111,6 +113,13 @@ def read(document: Document) -> list[Sample]:
         header = ["wavelength", *[""] * (len(header) - 1)]
     header = levels.labels(header)
     return wavelengths_down.read(document, said, fields, header, table, levels.own)
+
+
+def _has_row_names(header: list[str], top: list[Row]) -> bool:
+    """Return whether rows begin with their numbers, 1, 2, 3, without a name above: R writes so."""
+    firsts = [row.fields[0].strip() for row in top[1:] if len(row.fields) == len(header) + 1]
+    counted = [str(i) for i in range(1, len(top))]
+    return len(top) > 2 and firsts == counted and label_words.is_wavelength(header[0])
 
 
 def _plain_number(cell: str, comma: bool) -> float | None:
@@ -157,7 +166,11 @@ def _is_across(
         return _increasing(rest)
     if label_words.bands_of(header, LEAST_BAND):
         return True
-    if down and _plain_number(rows[0].fields[0], comma) is not None and len(header) > 1:
+    first = rows[0].fields[0] if rows else ""
+    is_number = _plain_number(first, comma) is not None or first.strip().lower().endswith("nm")
+    if column_fits and is_number and len(header) > 1:
+        return False
+    if down and _plain_number(first, comma) is not None and len(header) > 1:
         return False
     raise document.error(
         place,

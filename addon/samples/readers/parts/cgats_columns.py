@@ -20,14 +20,22 @@ from numpy.typing import NDArray
 from . import statements
 from .cgats_tables import Table
 from .document import Document, quote
+from .geometry_words import specular_of
 from .label_words import says_percent
 
-_PERCENT = ("SPEC", "SPECTRAL_PCT")
-_FAMILY = r"SPECTRAL_NM|SPECTRAL_PCT|SPECTRAL_DEC|SPECTRAL|SPECTRUM|SPEC|REFLECTANCE|REFL|NM|R"
-_BAND = re.compile(
-    rf"(?:(M[0-3])[_:])?({_FAMILY})_?(\d{{3,4}}(?:\.\d+)?)(?:_?NM)?(?:[_:](M[0-3]))?", re.IGNORECASE
+_PERCENT = ("SPEC", "SPECTRAL_PCT", "PCT", "REFL_PCT", "R_PCT")
+_FAMILY = (
+    r"SPECTRAL_NM|SPECTRAL_PCT|SPECTRAL_DEC|SPECTRAL|SPECTRUM|SPEC|REFLECTANCE|REFL_PCT|REFL|R_PCT|"
+    r"PCT|NM|WL|LAMBDA|R"
 )
-_BARE = re.compile(r"(\d{3,4}(?:\.\d+)?)(?:_?NM)?", re.IGNORECASE)
+_MARK = r"M[0-3]|SCI|SCE|SPIN|SPEX"
+_BAND = re.compile(
+    rf"(?:({_MARK})[_:])?({_FAMILY})_?(\d{{3,4}}(?:\.\d+)?)(?:_?NM)?(?:[_:]({_MARK}))?",
+    re.IGNORECASE,
+)
+_BARE = re.compile(
+    rf"(?:({_MARK})[_:])?(\d{{3,4}}(?:\.\d+)?)(?:_?NM)?(?:[_:]({_MARK}))?", re.IGNORECASE
+)
 
 # In the order in which they make a name: people's words before places before numbers.
 _NAMES = ("SAMPLENAME", "NAME", "COLORNAME", "PATCHNAME", "SAMPLELOC", "STRING", "SAMPLEID", "ID")
@@ -52,6 +60,8 @@ class Spectrum:
         What to divide the values by.
     condition
         ``"M0"`` to ``"M3"`` where the names of the columns say so.
+    specular
+        ``"SCI"`` or ``"SCE"`` where they say so.
     """
 
     columns: list[int]
@@ -59,6 +69,7 @@ class Spectrum:
     places: list[int]
     scale: float
     condition: str
+    specular: str = ""
 
 
 @dataclass
@@ -92,7 +103,7 @@ def find(document: Document, table: Table) -> Columns:
         if known in plain:
             found.name = plain.index(known)
             break
-    for label in ("MEASUREMENT_CONDITION", "MEASUREMENTCONDITION"):
+    for label in ("MEASUREMENT_CONDITION", "MEASUREMENTCONDITION", "M_CONDITION", "MCONDITION"):
         if label in upper:
             found.condition = upper.index(label)
     found.keyed = [
@@ -109,14 +120,15 @@ def find(document: Document, table: Table) -> Columns:
             key = (match[2], match[1] or match[4] or "")
             groups.setdefault(key, []).append((float(match[3]), column))
         elif bare:
-            groups.setdefault(("NM", ""), []).append((float(bare[1]), column))
+            key = ("NM", bare[1] or bare[3] or "")
+            groups.setdefault(key, []).append((float(bare[2]), column))
     stated = _stated_scale(document, table)
     found.spectra = [
         _spectrum(table, found, bands, stated or _scale(family), condition)
         for (family, condition), bands in groups.items()
         if len(bands) > 1
     ] or _pairs(upper, stated)
-    conditions = [spectrum.condition for spectrum in found.spectra]
+    conditions = [(spectrum.condition, spectrum.specular) for spectrum in found.spectra]
     if len(set(conditions)) < len(conditions):
         families = sorted({family for family, _ in groups})
         raise document.error(
@@ -162,7 +174,9 @@ def _spectrum(
     else:
         nm = exact
     nm.flags.writeable = False
-    return Spectrum([column for _, column in bands], nm, [], scale, condition)
+    specular = specular_of(condition)
+    condition = "" if specular else condition
+    return Spectrum([column for _, column in bands], nm, [], scale, condition, specular)
 
 
 def _stated_wavelengths(table: Table, named: NDArray[np.float64]) -> NDArray[np.float64] | str:

@@ -118,6 +118,8 @@ _JUST_PERCENT = re.compile(
 _TO_A_HUNDRED = re.compile(r"\bscale\b.*?\b0\s*(?:-|–|to|\.\.+)\s*100\b", re.IGNORECASE)
 _OPTICAL = re.compile(r"optical constants|refractive ind", re.IGNORECASE)
 _KEY = re.compile(r"\s*([A-Za-z][\w .-]*?)\s*[:=]\s*(.*?)\s*")
+# A key with its mark, which texts that quote it keep, and a value.
+_LISTED = re.compile(r"\s*([^\t;,:=]{1,40}[\t;,])\s*([^\t;,]{1,60})[\t;,\s]*")
 
 _UNITS = {
     **dict.fromkeys(("fraction", "fractions", "1", "factor"), 1.0),
@@ -360,6 +362,8 @@ def comments(document: Document) -> Comments:
             raise document.not_reflectance(f"line {number}", "refractive indices of a material")
         elif pair and value:
             found.others.append((pair[1], value))
+        elif listed := _LISTED.fullmatch(text[:_LONGEST]):  # of a spreadsheet: "# Geometry,d/8,,"
+            found.others.append((listed[1], listed[2]))
         elif text.strip() and (any(in_text(text)) or device_in_text(text)):
             found.others.append(("", text))
     said, fault = white_fields(white.get("white"), white.get("white_factor"))

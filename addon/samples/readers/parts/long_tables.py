@@ -79,7 +79,8 @@ def read(
     block = tables.numbers(document, counted, header, [axis, value], decimal_comma=True, gaps=1)
     tables.check_count(document, len(groups))
     nm = nanometers(document, said, block.values[:, 0], [header[axis]])
-    one = scale(document, said, f"line {line}", [header[value]])
+    sign = "%" if block.percent else ""
+    one = scale(document, said, f"line {line}", [header[value], sign])
     values = block.values[:, 1] / one
     unread = [label for i, label in enumerate(header) if label and i not in (axis, value, *keyed)]
     samples = []

@@ -113,6 +113,8 @@ _REFLECTANCE = re.compile(
     re.IGNORECASE,
 )
 
+# Software of remote sensing fills with -1.23e34 and the largest floats where it has no value.
+_FILLED = 1e30
 # U+FFFD is what Java's number format makes of NaN.
 _NO_VALUE = {"∞", "-∞", "\ufffd", "Infinity", "-Infinity", "-"}
 
@@ -148,7 +150,7 @@ def bands(
     InputError
         What stays is no spectrum.
     """
-    missing = np.isnan(values)
+    missing = np.isnan(values) | ((np.abs(values) > _FILLED) & np.isfinite(values))
     altered: tuple[str, ...] = ()
     if missing.any():
         altered = (_left_out(nm[missing]),)

@@ -51,6 +51,7 @@ _KEYS = {
     **dict.fromkeys(("observer", "standardobserver", "observer1", "observerangle"), "observer"),
     **dict.fromkeys(("illuminantobserver", "illobs", "colorcondition"), "light"),
     **dict.fromkeys(("condition", "measurementcondition", "measurementmode", "mode"), "condition"),
+    **dict.fromkeys(("mcondition", "mmode", "measurementconditions"), "condition"),
     **dict.fromkeys(("measuringmode", "measuremode", "filter", "uvfilter"), "condition"),
     **dict.fromkeys(("specular", "specularcomponent", "specularmode", "scisce"), "specular"),
     **dict.fromkeys(("spex", "sci", "sce", "gloss", "reflectancemode", "viewing"), "specular"),
@@ -225,6 +226,7 @@ def of_remarks(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
     return {**found, "notes": notes}
 
 
+_UNSAID = instrument_of("")[1]
 _HOW = {*GEOMETRIES, "condition", "device"}
 
 
@@ -356,7 +358,7 @@ def make(
     known.pop("name", None)
     notes = notes + known.pop("notes", ())
     if "instrument" not in known and said.kind == "reading":
-        notes = (instrument_of("")[1], *notes)
+        notes = (_UNSAID, *notes)
     texts: dict[str, Any] = {"source": str(document.path), **known, **said.texts}
     texts |= {"device": known["device"]} if "device" in known else {}
     if said.kind == "emissivity":
@@ -396,7 +398,8 @@ def _of_comments(said: Comments) -> dict[str, Any]:
             found |= stated(key, value)
     if not found.keys() & GEOMETRIES:
         for key, value in said.others:
-            found |= mentioned(f"{key}: {value}") if not field_of(key) else {}
+            mark = " " if key.endswith(("\t", ";", ",")) else ": "
+            found |= mentioned(f"{key}{mark}{value}") if not field_of(key) else {}
     return found
 
 

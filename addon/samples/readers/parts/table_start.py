@@ -32,6 +32,7 @@ _VALUES_KEY = re.compile(
     r"units?\b|einheit|y[ -]?(?:axis|units?|label|data)?$|ordinate|measure\w* (?:type|quantity)",
     re.I,
 )
+_ORDINATE_KEY = re.compile(r"(?:ordinate|photometric|y[ _-])", re.I)
 _KIND_KEY = re.compile(
     r"(?:(?:photometric|measure\w*|data|spectr\w*|scan|display)[ _-]?)?(?:mode|type)$|"
     r"quantity|values?$|title",
@@ -103,6 +104,9 @@ def above(
             _refuse_other(document, number, start, value)
             if said.scale is None and is_percent_reflectance(value):
                 said.scale = 100.0
+        if _ORDINATE_KEY.match(key) and value.strip().upper() in ("A", "ABS", "T"):
+            other = "transmittance" if value.strip() in "tT" else "absorbance"
+            raise document.not_reflectance(f"line {number}", other)
         if _VALUES_KEY.match(key):
             other = series.other_quantity(value)
             if other == "emissivity":
@@ -171,6 +175,7 @@ def _cells(line: str, mark: str, longest: int | None = _LONGEST) -> list[str]:
 def _names_wavelengths(line: str, *, first: bool) -> bool:
     return any(
         len(cells) > 1
+        and not _is_number(cells[0])
         and any(map(label_words.is_wavelength, cells[:3]))
         and (first or not label_words.is_unit_row(cells))  # names stand above their units
         for cells in (_cells(line, mark) for mark in (*DELIMITERS, "|"))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import csv
 import math
 from array import array
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -53,11 +54,14 @@ class Block:
         The line of each row.
     texts
         Of each row, the fields of the columns that were asked for as text.
+    percent
+        Which columns of `values` have a percent sign behind each number.
     """
 
     values: NDArray[np.float64]
     lines: array[int] = field(default_factory=lambda: array("L"))
     texts: list[list[str]] = field(default_factory=list)
+    percent: set[int] = field(default_factory=set)
 
 
 def lines(document: Document) -> Iterator[str]:
@@ -162,6 +166,7 @@ def numbers(
     InputError
         A record has more or fewer fields than the header, or a field is not a number.
     """
+    signs: Counter[int] = Counter()
     flat = array("d")  # 8 bytes a number, where a list of floats takes 32
     block = Block(np.empty((0, len(columns))))
     width = len(header)
@@ -183,9 +188,16 @@ def numbers(
             found = [
                 math.nan
                 if gaps is not None and i >= gaps and is_missing(fields[column])
-                else _number(document, row.line, header[column], fields[column], decimal_comma)
+                else _number(
+                    document,
+                    row.line,
+                    header[column],
+                    _bare(fields[column], i, gaps),
+                    decimal_comma,
+                )
                 for i, column in enumerate(columns)
             ]
+            signs.update(i for i, c in enumerate(columns) if fields[c].rstrip().endswith("%"))
         flat.extend(found)
         block.lines.append(row.line)
         if texts:
@@ -193,7 +205,27 @@ def numbers(
     if flat:
         # Copied out of the array, whose memory must not move while numpy looks at it.
         block.values = np.array(flat, dtype=np.float64).reshape(-1, len(columns))
+    for i, count in signs.items():
+        if count < np.count_nonzero(~np.isnan(block.values[:, i])):
+            raise document.error(
+                f"column {quote(header[columns[i]])}",
+                "some of its values have a percent sign and others have none; give all of them one",
+            )
+    block.percent = set(signs)
     return block
+
+
+def _bare(cell: str, place: int, gaps: int | None) -> str:
+    """Return a number without the unit behind it: ``45.1 %``, and ``400 nm`` of wavelengths.
+
+    Only of tables, whose values may be missing: there `gaps` is where those begin.
+    """
+    if gaps is None:
+        return cell
+    text = cell.strip()
+    if place >= gaps and text.endswith("%"):
+        return text[:-1]
+    return text[:-2] if place < gaps and text[-2:].lower() == "nm" else cell
 
 
 def check_columns(document: Document, line: int, columns: int) -> None:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from ...sample import Sample
@@ -48,7 +47,7 @@ def told(sample: Sample) -> Sample:
     )
 
 
-def by_file_name(samples: Sequence[Sample], stem: str) -> list[Sample]:
+def by_file_name(samples: list[Sample], stem: str) -> list[Sample]:
     """Return samples for which 45°/0° is assumed as measured so as their file's name says.
 
     Parameters
@@ -60,7 +59,7 @@ def by_file_name(samples: Sequence[Sample], stem: str) -> list[Sample]:
     """
     geometry, specular, device = _of_name(stem)
     if not (geometry or specular or device):
-        return list(samples)
+        return samples
     instrument, why = instrument_of(geometry or "d/8", specular)
     note = (
         f"The geometry {geometry or 'd/8'}{f', {specular},' if specular else ''} follows from the "

@@ -90,14 +90,26 @@ def read(
         every = nanometers(document, said, every, stated)
     # Of the other columns' names only the corner's, and a heading, are about the values below.
     values = block.values
-    labels = [*over, *(header[i] for i in sorted({0, *bands}))]
+    signs = ["%"] if block.percent else []
+    if 0 < len(block.percent) < len(bands):
+        raise document.error(
+            f"line {line}",
+            "some bands have percent signs and others have none; give all of them one",
+        )
+    labels = [*over, *signs, *(header[i] for i in sorted({0, *bands}))]
     one = scale(document, said, f"line {line}", labels)
     values /= one
     parts = _parts([header[i] for i in bands], every, values)
+    of_columns = not_read(unread)
     samples: list[Sample] = []
     left: dict[str, str] = {}
+    above = ""
     for i, row in enumerate(block.lines):
         cells = block.texts[i] if texts else []
+        if name is not None and keyed:
+            # Spreadsheets merge the name of several readings: its cell is empty in all but one.
+            cells = [cells[0] or above, *cells[1:]]
+            above = cells[0]
         telling_cells = cells[len(texts) - len(telling) :]
         if name is not None and is_percent_reflectance(cells[0]):
             telling_cells = [*telling_cells, "%"]
@@ -129,7 +141,7 @@ def read(
                     found,
                     name=_name(cells[0], said.escaped) if name is not None and cells[0] else alone,
                     position=f"line {row}",
-                    notes=not_read(unread),
+                    notes=of_columns,
                 )
             )
     if left and not samples:

@@ -11,9 +11,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....support.shown_text import from_cell
-from ...sample import Sample
+from ...sample import BRIGHTEST, Sample
 from . import (
     beside,
     label_words,
@@ -103,6 +104,12 @@ def read(
     seen = said.kind != "emissivity" and not emitting
     nm = nanometers(document, said, block.values[:, 0], [header[axis], units[axis]], seen)
     values = block.values[:, 1:].T
+    columns_read = columns
+    again = _axes_again(document, labels, columns, nm, values)
+    if again:
+        unread = [*unread, *(labels[columns[i]] for i in again)]
+        values = np.delete(values, again, axis=0)
+        columns = [column for i, column in enumerate(columns) if i not in again]
     if len(columns) == 3 and shapes.are_of_the_eye(nm, values):
         raise document.not_reflectance("", "color matching functions or sensitivities of the eye")
     if {header[i].lower() for i in columns} == _PRIMARIES and shapes.all_vanish(values):
@@ -119,7 +126,8 @@ def read(
         if not label and np.isnan(values[i]).all():
             continue  # an empty column without a name
         place = f"column {quote(label)}" if label else labels[column]
-        percent = scale(document, said, place, [label, units[column]])
+        sign = "%" if columns_read.index(column) + 1 in block.percent else ""
+        percent = scale(document, said, place, [label, units[column], sign])
         found = series.bands(
             nm,
             values[i] / percent,
@@ -142,6 +150,36 @@ def read(
             )
         )
     return samples
+
+
+def _axes_again(
+    document: Document,
+    labels: list[str],
+    columns: list[int],
+    nm: NDArray[np.float64],
+    values: NDArray[np.float64],
+) -> list[int]:
+    """Return which columns give the wavelengths once more, in another unit.
+
+    Raises
+    ------
+    InputError
+        One has wavelengths of its own, as where each spectrum has.
+    """
+    found = []
+    for i, column in enumerate(columns):
+        unit = label_words.unit_of_wavelengths(labels[column])
+        if not label_words.is_wavelength(labels[column]) or not nm.size:
+            continue
+        if unit and np.allclose(label_words.to_nanometers(values[i], unit), nm, rtol=2e-3):
+            found.append(i)
+        elif (values[i] > BRIGHTEST).any():
+            raise document.error(
+                f"column {quote(labels[column])}",
+                "it has wavelengths once more; save each spectrum with its wavelengths as a file, "
+                "or leave that column out",
+            )
+    return found if len(found) < len(columns) else []
 
 
 def names_quantity(label: str) -> bool:
