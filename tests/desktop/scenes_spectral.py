@@ -192,7 +192,7 @@ def asking_whether_rgb_is_enough(found):
     found["sentence"], found["advised"] = judged.sentence, judged.advised.kind
     found["same"] = _state() == before
     _grab("verdict")
-    scene.cycles.samples = 96  # so that Cycles says how far it is within a render
+    scene.cycles.samples = 32  # so that Cycles says how far it is within a render
     yield 2.0
     yield from _start()
     shares = found["shares"] = []
