@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterator
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
@@ -120,6 +121,11 @@ def pictures(
     ):
         for frame, picture in made:
             progress.close()
-            files = write(picture, lambda path, at=frame: frames.path_of(path, at))
-            yield Made(frame, picture, files)
+            yield Made(frame, picture, write(picture, partial(_numbered, frame)))
             del picture
+
+
+def _numbered(frame: int, path: Path) -> Path:
+    from ..picture import frames
+
+    return frames.path_of(path, frame)

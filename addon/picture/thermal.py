@@ -28,10 +28,11 @@ from ..matching import emission
 from ..material import snapshot, storage
 from ..samples.sample import Sample
 from . import cameras, scene_copy
-from .cameras import AMBIENT, EMISSIVITY, HOTTEST
+from .cameras import HOTTEST
 
 PROPERTY = cameras.TEMPERATURE
 BAND = cameras.THERMAL
+AMBIENT, EMISSIVITY = cameras.AMBIENT, cameras.EMISSIVITY
 
 _SHORTEST = 700.0
 """Nanometers from which a band may begin."""

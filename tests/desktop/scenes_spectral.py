@@ -93,14 +93,10 @@ def _state():
     ]
 
 
-def _start(tries=1):
-    """Press the first button that renders; a slow machine may lose a click while a report fades."""
+def _start():
+    """Press the first button that renders."""
     panel = area("PROPERTIES")
-    for _ in range(tries):
-        yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
-        yield 3.0 if tries > 1 else 0.1
-        if jobs():
-            break
+    yield from click(*(yield from find(panel, "rough_spectra.render_spectral", 0.5)))
     yield lambda: bool(jobs())
 
 
@@ -193,19 +189,12 @@ def asking_whether_rgb_is_enough(found):
     yield _ended
     yield 0.5
     judged = ours("addon.picture.last_verdict").of(scene)
-    found["sentence"], found["kind"] = judged.sentence, judged.advised.kind
+    found["sentence"], found["advised"] = judged.sentence, judged.advised.kind
     found["same"] = _state() == before
     _grab("verdict")
-    advised = {
-        "passes": "rough_spectra.render_spectral",
-        "lights": "rough_spectra.analyze_scene",
-        "space": "rough_spectra.use_rec2020",
-    }
-    first = advised[judged.advised.kind.split()[0]]
-    found["advised"] = first
-    yield from find(panel, first, 0.5)
-    scene.cycles.samples = 96  # so that Cycles says how far it is within a render
-    yield from _start(2)
+    scene.cycles.samples = 32  # so that Cycles says how far it is within a render
+    yield 2.0
+    yield from _start()
     shares = found["shares"] = []
 
     def ended():

@@ -352,6 +352,7 @@ def test_rendering_a_spectral_picture(scene):
 
 def test_asking_whether_rgb_is_enough(scene):
     assert scene["sentence"].startswith("RGB is not enough")
+    assert scene["advised"] == "passes"
     assert scene["same"]
     assert any(float(share) % 1 for share in scene["shares"])  # within a render
     # No editor was open, so a window is, and closing it is the user's.

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -20,6 +20,11 @@ class Picturing(background.InBackground):
     """What is rendered, for the status bar."""
     needs_cycles: ClassVar[bool] = True
     """Whether the scene itself has to be rendered with Cycles."""
+
+    if TYPE_CHECKING:  # of bpy.types.Operator, which every such class is as well
+
+        @classmethod
+        def poll_message_set(cls, message: str) -> None: ...  # noqa: D102
 
     @classmethod
     def poll(cls, context: Any) -> bool:
