@@ -142,7 +142,6 @@ def asks_place(tree: Any, seen: set[Any]) -> bool:
 _PARENT = os.getppid()
 _LOOKS_SECONDS = 0.5
 _is_ending = threading.Event()
-_watched: dict[Path, threading.Thread] = {}
 
 
 def end_if_orphaned(asked_by: int, folder: Path) -> None:
@@ -155,13 +154,13 @@ def end_if_orphaned(asked_by: int, folder: Path) -> None:
     if is_gone(asked_by):
         shutil.rmtree(folder, ignore_errors=True)
         sys.exit("the Blender that asked for this measurement is gone")
-    if folder not in _watched:
+    if str(folder) not in {thread.name for thread in threading.enumerate()}:
         own = [folder]
         session = Path(bpy.app.tempdir)
         if session.name.startswith("blender_"):
             own.append(session)
-        watch = threading.Thread(target=_watch, args=(asked_by, own), daemon=True)
-        _watched[folder] = watch
+        watch = threading.Thread(target=_watch, args=(asked_by, own), name=str(folder), daemon=True)
+        atexit.register(_end, watch)
         watch.start()
 
 
@@ -185,11 +184,9 @@ def _watch(asked_by: int, own: list[Path]) -> None:
             os._exit(1)
 
 
-@atexit.register
-def _end_watching() -> None:
+def _end(watch: threading.Thread) -> None:
     _is_ending.set()
-    for watch in _watched.values():
-        watch.join(_LOOKS_SECONDS)
+    watch.join(_LOOKS_SECONDS)
 
 
 def find(name: str, library: str | None) -> Any:

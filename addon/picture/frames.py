@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Rough Spectra authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of a range of frames, one after the other: each has a second Blender."""
+"""Pictures of a range of frames, one after the other."""
 
 from __future__ import annotations
 

@@ -14,7 +14,6 @@ import numpy as np
 from ...core.errors import DomainError, InputError
 from ...core.numerics import wavelength_grid
 from ...core.numerics.arrays import Array
-from ...core.numerics.memoized import memoized
 from ..colorimetry import cie_tables, illuminant_spectra
 from ..samples import light_source
 from ..samples.light_source import LightSource
@@ -68,17 +67,11 @@ def measured(source: LightSource) -> KnownLight:
     grid, step = illuminant_spectra.GRID, illuminant_spectra.GRID[1] - illuminant_spectra.GRID[0]
     fine = np.arange(grid[0], grid[-1] + _FINE / 2, _FINE)
     power = np.interp(fine, source.wavelengths, source.power, 0, 0)
-    spectrum = _to_fine() @ power * _FINE / step
+    unit = np.eye(grid.size)
+    to_fine = wavelength_grid.resample(unit, grid, fine, method="cubic", ends="hold")
+    spectrum = to_fine @ power * _FINE / step
     luminance = illuminant_spectra.to_xyz(spectrum)[1]
     if not luminance > 0:
         msg = f"{source.name}: nothing of this light is seen; give wavelengths in nanometers."
         raise InputError(msg)
     return spectrum / luminance, f"measured: {source.name}"
-
-
-@memoized(maxsize=1)
-def _to_fine() -> Array:
-    """From `GRID` to every `_FINE` nanometers, shape (nodes, fine)."""
-    grid = illuminant_spectra.GRID
-    fine = np.arange(grid[0], grid[-1] + _FINE / 2, _FINE)
-    return wavelength_grid.resample(np.eye(grid.size), grid, fine, method="cubic", ends="hold")
