@@ -18,6 +18,7 @@ from .readers.parts.delimiter import find_delimiter
 from .sample import SHORTEST_NM
 
 _COLUMNS = ("wavelength", "response")
+_EMPTY = "no rows of numbers follow; export the table with its values"
 
 
 def read(path: str | os.PathLike[str]) -> Filter:
@@ -51,7 +52,9 @@ def table(path: str | os.PathLike[str]) -> tuple[Array, Array]:
     start = table_start.find_start(document)
     delimiter, skip = find_delimiter(document, start)
     rows = tables.rows(document, delimiter, skip)
-    first = next(rows)
+    first = next(rows, None)
+    if first is None:  # lines of nothing but delimiters
+        raise document.error("", _EMPTY)
     label = first.fields[0]
     try:
         float(label.replace(",", "."))
@@ -61,7 +64,7 @@ def table(path: str | os.PathLike[str]) -> tuple[Array, Array]:
         rows, label = itertools.chain([first], rows), ""
     block = tables.numbers(document, rows, _COLUMNS, (0, 1), decimal_comma=delimiter != ",")
     if not block.lines:
-        raise document.error("", "no rows of numbers follow; export the table with its values")
+        raise document.error("", _EMPTY)
     nm = scale.nanometers(document, said, block.values[:, 0], [label], is_seen=False)
     order, _ = band_order.in_order(nm)
     nm = nm[order]

@@ -174,6 +174,7 @@ def test_a_response_is_a_table_of_two_columns(tmp_path, text):
         ("7500,1,2\n10000,1,2\n", "columns"),
         ("7500,1\n", "at least two"),
         ("nm,r\n", "."),
+        (";\n;;\n", "no rows of numbers"),
     ],
 )
 def test_what_is_no_response_is_refused(tmp_path, text, fault):

@@ -9,16 +9,21 @@ writings.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import bpy
 import numpy as np
 
-from tools.checks.check_farm import make_scene
+from tools.run.run_command_line import load_extension
 
-# The extension is loaded by now.
-from rough_spectra.addon.support import png  # isort: skip
+if "rough_spectra" not in sys.modules:
+    load_extension().register()
+
+from rough_spectra.addon.support import png
+
+from tools.checks.check_farm import make_scene
 
 Words = Callable[[Path, int], list[object]]
 """Words of a verb, from the folder that it writes to and which of the two options are meant."""
