@@ -65,7 +65,7 @@ def _may_be(material: Any) -> bool:
 def _values(node: Any) -> dict[str, tuple[float, ...]]:
     found = {}
     for socket in node.inputs:
-        value = getattr(socket, "default_value", 0.0)
+        value: Any = getattr(socket, "default_value", 0.0)
         found[socket.identifier] = tuple(value) if hasattr(value, "__len__") else (float(value),)
     return found
 

@@ -176,7 +176,7 @@ def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial)
         return
     name, labels = _REMEDIES[found.remedy]
     labels = tuple(map(iface_, labels))
-    against = ""
+    against: str | None = ""
     if found.remedy in {"renew", "measure"}:
         against = renewal.reason_against(shown.uid, shown.facts)
     in_the_way = obstacle.texts(shown) if against else []
