@@ -22,7 +22,7 @@ ROWS = (
     ("addon/material",),
     ("addon/scene", "addon/instrument", "addon/preview"),
     ("addon/laboratory", "addon/textures", "addon/export", "addon/picture"),
-    ("addon/assets", "addon/api.py"),
+    ("addon/assets", "addon/api"),
     ("addon/commands",),
     ("addon/interface",),
 )

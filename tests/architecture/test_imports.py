@@ -42,8 +42,8 @@ def test_no_private_name_is_taken_from_another_wing():
 
 
 def test_a_private_name_is_found(broken):
-    line = "from ..core import reading\nreading._evaluate"
-    [fault] = house.private(broken("addon/api.py", line))
+    line = "from ...core import reading\nreading._evaluate"
+    [fault] = house.private(broken("addon/api/upkeep.py", line))
     assert "(_evaluate)" in fault
 
 

@@ -404,14 +404,13 @@ def noise():
 
 def rough():
     figure, axes = plt.subplots()
-    sigma = np.linspace(0, 90, 181)
-    spread = np.radians(sigma)
-    for model, color, dashes, name in (
-        ("two-bounce", TEXTBOOK, "-", "published model"),
-        ("closure", THIRD, "--", "closure"),
-        ("reference", OURS, "-", "reference (V-cavity)"),
+    for model, last, color, dashes, name in (
+        ("two-bounce", 90, TEXTBOOK, "-", "published model"),
+        ("surface", 65, OURS, "-", "surface"),
+        ("reference", 80, THIRD, "--", "reference (V-cavity)"),
     ):
-        value = 100 * reading.white_reading(spread, model)
+        sigma = np.linspace(0, last, 2 * last + 1)
+        value = 100 * reading.white_reading(np.radians(sigma), model)
         axes.plot(sigma, value, dashes, color=color, label=name)
     axes.axvspan(50, 90, color="#f0f0f0", zorder=0)
     axes.text(70, 84, "beyond 50°", color=GRAY, ha="center")
