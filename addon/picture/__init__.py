@@ -21,6 +21,8 @@ files          the picture as a file and as Blender's image
 verdict        whether RGB is enough, by small pictures, and if not, what is
 groups         each lamp's light apart
 relight        other lamps in a picture of which that was rendered
+relit          other lamps while the user watches: an image of the open file
+lamp_sliders   what sets them in the interface
 frames         pictures of a range of frames
 infrared       what a camera sees of lamps in the infrared, with infrared_wanted, infrared_light,
                infrared_scene and infrared_file

@@ -102,7 +102,7 @@ def find(name: str) -> Any | None:
 def of(image: Any) -> SpectralPicture | None:
     """Give the picture that an image shows, or that its map is of; None of any other image."""
     shown = last()
-    if image is None or shown is None or not image.get(_MARK):
+    if image is None or shown is None or image.get(_MARK) not in (PICTURE, MAP):
         return None
     picture = shown.picture
     rows, columns = picture.xyz.shape[:2]
