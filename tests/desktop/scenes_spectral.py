@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import bpy
+import numpy as np
 from driver import area, click, find, middle, move, over, press, scene, window
 from scenes_background import children, jobs
 from stage import OPS, empty_file, ours, undo_step
@@ -75,7 +76,8 @@ def _room(beside="IMAGE_EDITOR"):
     panels = ours("addon.interface.panels.pictures")
     area("PROPERTIES").spaces.active.context = "RENDER"
     cameras = ours("addon.interface.panels.cameras")
-    _panels("render", *panels.classes[:2], *cameras.classes)
+    lamps = ours("addon.interface.panels.lamps")
+    _panels("render", *panels.classes[:2], *lamps.classes, *cameras.classes)
     yield 0.5
 
 
@@ -269,3 +271,72 @@ def choosing_a_light_spectrum(found):
     yield from press("Z", ctrl=True)
     yield 0.5
     found["undone"] = bpy.data.lights["Tube"].rough_spectra.spectrum
+
+
+def _pixels(image):
+    held = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(held)
+    return held.reshape(image.size[1], image.size[0], 4)
+
+
+@scene
+def dragging_a_lamp(found):
+    """Render lamps apart, drag the slider of one, give it another spectrum, and reset."""
+    yield from _room()
+    light = bpy.data.lights.new("Lamp", "POINT")
+    light.energy, light.use_temperature, light.temperature = 10, True, 2700
+    lamp = bpy.data.objects.new("Lamp", light)
+    lamp.location = (0.6, -0.6, 0.5)
+    bpy.context.scene.collection.objects.link(lamp)
+    undo_step("Lamp")
+    before, panel = _state(), area("PROPERTIES")
+    yield from click(*(yield from find(panel, "rough_spectra.render_lamps", 0.5)))
+    yield lambda: bool(jobs())
+    yield _ended
+    yield 0.5
+    relit = ours("addon.picture.relit")
+    editor = area("IMAGE_EDITOR")
+    found["shown"], found["names"] = editor.spaces.active.image.name, relit.last().lights.names
+    found["same"] = _state() == before
+    with over(editor):
+        bpy.ops.image.view_all(fit_view=True)
+    first = _pixels(editor.spaces.active.image)
+    _grab("lamps-rendered")
+    row = relit.last().lights.names.index("Lamp")
+    x, y = yield from find(panel, f"intensity_{row}", 0.4)
+    step, taken, seen = relit._step, [], []
+
+    def timed():
+        step()
+        taken.append(relit.last().step_seconds)
+        seen.append(relit.last().intensities[row])
+
+    relit._step = timed
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield 0.05
+    for _ in range(20):
+        x += 4
+        yield from move(x, y)
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+    yield 0.5
+    relit._step = step
+    found["steps"], found["seconds"] = seen, taken
+    dragged = _pixels(editor.spaces.active.image)
+    found["intensity"] = relit.last().intensities[row]
+    api = ours("addon.api")
+    truth = api.relight(relit.last().lights, intensities={"Lamp": found["intensity"]}).rgb
+    found["off"] = float(abs(dragged - truth).max() / truth.max())
+    found["changed"] = float(abs(dragged - first).max() / first.max())
+    _grab("lamps-dragged")
+    with over(panel):
+        OPS.change_lamp(lamp=row, spectrum="sodium")
+    yield 0.5
+    _grab("lamps-sodium")
+    found["chosen"] = relit.last().chosen[row]
+    yield from click(*(yield from find(panel, "rough_spectra.reset_lamps", 0.8)))
+    yield 0.5
+    found["reset"] = bool((_pixels(editor.spaces.active.image) == first).all())
+    yield from move(*middle(editor))
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = _images()
