@@ -3,6 +3,7 @@
 """A spectral picture from the Render tab: rendered, stopped, and read where the mouse clicks."""
 
 import contextlib
+import dataclasses
 import os
 import subprocess
 from pathlib import Path
@@ -279,6 +280,36 @@ def _pixels(image):
     return held.reshape(image.size[1], image.size[0], 4)
 
 
+def _drag(panel, relit, row):
+    """Drag a lamp's slider; gives the intensity at each step, and its seconds."""
+    x, y = yield from find(panel, f"intensity_{row}", 0.4)
+    step, taken, seen = relit._step, [], []
+
+    def timed():
+        step()
+        taken.append(relit.last().step_seconds)
+        seen.append(relit.last().intensities[row])
+
+    relit._step = timed
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield 0.05
+    for _ in range(20):
+        x += 4
+        yield from move(x, y)
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+    yield 0.5
+    relit._step = step
+    return seen, taken
+
+
+def _of_1080_rows(lights):
+    """The same picture beside and above itself."""
+    rows, columns = 1080 // ROWS, 1920 // COLUMNS
+    parts = np.tile(lights.parts, (1, 1, rows, columns))
+    alpha = np.tile(lights.alpha, (rows, columns))
+    return dataclasses.replace(lights, parts=parts, alpha=alpha)
+
+
 @scene
 def dragging_a_lamp(found):
     """Render lamps apart, drag the slider of one, give it another spectrum, and reset."""
@@ -303,24 +334,7 @@ def dragging_a_lamp(found):
     first = _pixels(editor.spaces.active.image)
     _grab("lamps-rendered")
     row = relit.last().lights.names.index("Lamp")
-    x, y = yield from find(panel, f"intensity_{row}", 0.4)
-    step, taken, seen = relit._step, [], []
-
-    def timed():
-        step()
-        taken.append(relit.last().step_seconds)
-        seen.append(relit.last().intensities[row])
-
-    relit._step = timed
-    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
-    yield 0.05
-    for _ in range(20):
-        x += 4
-        yield from move(x, y)
-    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
-    yield 0.5
-    relit._step = step
-    found["steps"], found["seconds"] = seen, taken
+    found["steps"], found["seconds"] = yield from _drag(panel, relit, row)
     dragged = _pixels(editor.spaces.active.image)
     found["intensity"] = relit.last().intensities[row]
     api = ours("addon.api")
@@ -336,6 +350,15 @@ def dragging_a_lamp(found):
     yield from click(*(yield from find(panel, "rough_spectra.reset_lamps", 0.8)))
     yield 0.5
     found["reset"] = bool((_pixels(editor.spaces.active.image) == first).all())
+    lights = relit.last().lights
+    relit.put(relit.Relit(_of_1080_rows(lights), relit.last()._from_xyz))
+    yield 1.0
+    found["large_steps"], found["large"] = yield from _drag(panel, relit, row)
+    with over(panel):
+        OPS.change_lamp(lamp=row, spectrum="F11")
+    yield 0.5
+    found["large_spectrum"] = relit.last().step_seconds
+    found["size"] = list(editor.spaces.active.image.size)
     yield from move(*middle(editor))
     yield from press("Z", ctrl=True)
     yield 0.5

@@ -126,14 +126,14 @@ def test_a_spectrum_changes_the_image(room, name):
 def test_a_file_gives_a_spectrum(room):
     assert OPS.change_lamp(lamp=1, spectrum="FILE", filepath=str(FILE)) == {"FINISHED"}
     _is(api.relight(room.lights, {"Cold": str(FILE)}))
-    assert f"rough_spectra.change_lamp: measured: {FILE.name}" in _drawn()
+    assert f"rough_spectra.change_lamp: {FILE.name}" in _drawn()
     first = _shown()
     with pytest.raises(RuntimeError, match="holds no spectrum of light"):
         OPS.change_lamp(lamp=1, spectrum="FILE", filepath=str(FILE.with_name("tile.spdx")))
     with pytest.raises(RuntimeError, match="no such lamp; render the lamps apart again"):
         OPS.change_lamp(lamp=3, spectrum="A")
     assert np.array_equal(_shown(), first)
-    assert room.chosen == [None, f"measured: {FILE.name}", None]
+    assert room.chosen == [None, FILE.name, None]
 
 
 def test_the_panel_has_a_row_for_each(room):
@@ -145,13 +145,13 @@ def test_the_panel_has_a_row_for_each(room):
         "rough_spectra.reset_lamps",
     ]
     menu = "rough_spectra.change_lamp: "
-    rows = [f"{menu}CIE F11", f"{menu}As Rendered", f"{menu}As Rendered"]
+    rows = [f"{menu}F11", f"{menu}Its Own", f"{menu}Its Own"]
     assert page[3:10] == [
         *(each for number in range(3) for each in (f"intensity_{number}", rows[number])),
         "observer",
     ]
     _, error = room.lights.weights(room.lights.spectra[1])
-    off = max(error.usual, *(room._off[n] for n in (0, 2)))
+    off = max(error.usual, *(room._weights[n][1] for n in (0, 2)))
     assert f"6 bands; predicted: 95 % within ΔE00 {off:.2f}" in " ".join(page)
 
 
@@ -167,7 +167,7 @@ def test_more_lamps_than_rows_are_told_of(room):
     relit.put(relit.Relit(many, room._from_xyz))
     try:
         page = _drawn()
-        assert page.count("rough_spectra.change_lamp: As Rendered") == lamp_sliders.MOST
+        assert page.count("rough_spectra.change_lamp: Its Own") == lamp_sliders.MOST
         assert "2 more lamps have no slider: the verb relight sets them" in " ".join(page)
         _sliders().intensity_15 = 4.0
         _is(api.relight(many, intensities={"Lamp 15": 4.0}))
@@ -216,7 +216,7 @@ def test_lights_that_memory_does_not_hold_are_refused(room):
     wanted = settings.lamps(bpy.context.scene)
     bands = groups.bands.IN_A_PASS * 2
     needed = 3 * bands * COLUMNS * ROWS * 4
-    with pytest.raises(api.DomainError, match="3 lamps in 6 bands .* smaller size, or fewer"):
+    with pytest.raises(api.DomainError, match=r"3 lamps in 6 bands .* smaller size, or fewer"):
         groups.Gathering(bpy.context.scene, wanted, needed - 1)
 
 

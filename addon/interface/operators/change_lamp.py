@@ -17,7 +17,7 @@ from .open_light import LIGHT_FILES
 
 _RENDERED, _FILE = "RENDERED", "FILE"
 SPECTRUM_ITEMS = (
-    (_RENDERED, "As Rendered", "What it was rendered with", 100),
+    (_RENDERED, "Its Own", "What it was rendered with", 100),
     *ILLUMINANT_ITEMS,
     ("HP1", "HP1", "CIE illuminant HP1: sodium at high pressure, 1960 K", 101),
     ("sodium", "Sodium", "Sodium at low pressure: its two lines alone", 102),
@@ -73,6 +73,7 @@ class ROUGHSPECTRA_OT_change_lamp(bpy.types.Operator):
     def execute(self, _context: Any) -> set[str]:
         """Set it; the picture follows."""
         from ...picture import relit
+        from ...preview import icons
 
         last = relit.last()
         if last is None or self.lamp >= len(last.intensities):  # the browser was open for long
@@ -85,6 +86,7 @@ class ROUGHSPECTRA_OT_change_lamp(bpy.types.Operator):
             common.report_error(self, error)
             return {"CANCELLED"}
         relit.changed()
+        icons.redraw()
         return {"FINISHED"}
 
 
@@ -103,11 +105,13 @@ class ROUGHSPECTRA_OT_reset_lamps(bpy.types.Operator):
     def execute(self, _context: Any) -> set[str]:
         """Reset them; the picture follows."""
         from ...picture import relit
+        from ...preview import icons
 
         last = relit.last()
         assert last is not None
         last.reset()
         relit.changed()
+        icons.redraw()
         return {"FINISHED"}
 
 

@@ -15,7 +15,7 @@ from . import pictures, text
 if TYPE_CHECKING:
     from ...picture.relit import Relit
 
-_SHARE = 0.68
+_SHARE = 0.62
 """Of a row, that the slider has; the rest is the spectrum's."""
 
 
@@ -58,7 +58,7 @@ def _draw_lamps(column: Any, group: Any, last: Relit) -> None:
     for number, name in enumerate(last.lights.names[: lamp_sliders.MOST]):
         row = column.split(factor=_SHARE, align=True)
         row.prop(group, lamp_sliders.name(number), text=name, slider=True, translate=False)
-        words = last.chosen[number] or iface_("As Rendered")
+        words = last.chosen[number] or iface_("Its Own")
         menu = row.operator_menu_enum(
             "rough_spectra.change_lamp", "spectrum", text=words, translate=False
         )
