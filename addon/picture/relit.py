@@ -56,7 +56,16 @@ class Relit:
         self._from_xyz, self._first_observer = from_xyz, observer
         self._base = np.zeros((lights.alpha.size, 4), np.float32)
         self._base[:, 3] = lights.alpha.ravel()
-        self.reset()
+        self._moved = 0
+        self._rest: Array | None = None
+        """What all lamps but the one that moved last make."""
+        self._shown = np.empty_like(self._base)
+        count = len(lights.names)
+        self.intensities = [1.0] * count
+        self.chosen: list[str | None] = [None] * count
+        """What each lamp is, in few letters; None as it was rendered."""
+        self._spectra = list(lights.spectra)
+        self._forget_pictures()
 
     @property
     def size(self) -> tuple[int, int]:
@@ -72,13 +81,12 @@ class Relit:
 
     def reset(self) -> None:
         """Let all lamps be as they were rendered."""
-        count = len(self.lights.names)
-        self.observer = self._first_observer
-        self.intensities = [1.0] * count
-        self.chosen: list[str | None] = [None] * count
-        """What each lamp is, in few letters; None as it was rendered."""
-        self._spectra = list(self.lights.spectra)
-        self._forget_pictures()
+        self.set_observer(self._first_observer)
+        for number, words in enumerate(self.chosen):
+            if words is not None:
+                self.set_light(number, None)
+        self.intensities = [1.0] * len(self.intensities)
+        self._moved, self._rest = 0, None
 
     def set_intensity(self, number: int, times: float) -> None:
         """Let a lamp shine so many times as it did, 0 or more."""
@@ -138,9 +146,7 @@ class Relit:
         count = len(self.lights.names)
         self._pictures: list[Array | None] = [None] * count
         self._weights: list[tuple[Array, float] | None] = [None] * count
-        self._moved = 0
-        self._rest: Array | None = None
-        self._shown = np.empty_like(self._base)
+        self._moved, self._rest = 0, None
 
     def _picture(self, number: int) -> Array:
         """Give what a lamp makes at its rendered intensity, alpha 0, shape (pixels, 4)."""

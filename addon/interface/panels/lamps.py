@@ -50,7 +50,8 @@ class ROUGHSPECTRA_PT_lamps(pictures.RenderTab, bpy.types.Panel):
         row.use_property_decorate = False
         row.prop(group, "observer")
         form = pictures.format_of(context)
-        told = [form.sentence(words, icon) for words, icon in _told(last)]
+        tolerance = context.scene.rough_spectra.tolerance
+        told = [form.sentence(words, icon) for words, icon in _told(last, tolerance)]
         text.draw(layout.column(align=True), told)
 
 
@@ -65,7 +66,7 @@ def _draw_lamps(column: Any, group: Any, last: Relit) -> None:
         menu.lamp = number
 
 
-def _told(last: Relit) -> list[tuple[str, str]]:
+def _told(last: Relit, tolerance: float) -> list[tuple[str, str]]:
     """Say what is not in the rows, and how far the picture may be off."""
     more = len(last.lights.names) - lamp_sliders.MOST
     told = []
@@ -73,7 +74,8 @@ def _told(last: Relit) -> list[tuple[str, str]]:
         words = iface_("{count} more lamps have no slider: the verb relight sets them")
         told.append((words.format(count=more), "INFO"))
     words = iface_("{count} bands; predicted: 95 % within ΔE00 {off:.2f}")
-    told.append((words.format(count=len(last.lights.wavelengths), off=last.off), "INFO"))
+    icon = "INFO" if last.off <= tolerance else "ERROR"
+    told.append((words.format(count=len(last.lights.wavelengths), off=last.off), icon))
     return told
 
 
