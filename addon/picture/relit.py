@@ -32,8 +32,10 @@ MOST_BYTES = 4_000_000_000
 """Memory that the lights of a picture may take."""
 
 _AT_ONCE = 16384
-"""Pixels at once: so few are added up within a core's cache, and no threads wait for each other;
-that takes an eighth of the time."""
+"""Pixels that are added up at once: so few stay in a core's cache."""
+_PRODUCTS = 4 * 65536
+"""Products of a multiplication up to which OpenBLAS leaves it to one thread. Those of larger ones
+wait for each other: where another program had the cores, a lamp took fifty times as long."""
 
 
 class Relit:
@@ -128,14 +130,14 @@ class Relit:
         """Add up lamps, and alpha."""
         lit = [(self._picture(n), np.float32(self.intensities[n])) for n in numbers]
         total = self._base.copy()
-        for here in self._blocks():
+        for here in self._blocks(_AT_ONCE):
             for picture, times in lit:
                 total[here] += picture[here] * times
         return total
 
-    def _blocks(self) -> Iterator[slice]:
-        for begin in range(0, len(self._base), _AT_ONCE):
-            yield slice(begin, begin + _AT_ONCE)
+    def _blocks(self, count: int) -> Iterator[slice]:
+        for begin in range(0, len(self._base), count):
+            yield slice(begin, begin + count)
 
     def _move(self, number: int) -> None:
         """Keep what all other lamps make, if it is another than the last one that moved."""
@@ -158,7 +160,7 @@ class Relit:
             weights, _ = fitted
             part = self.lights.parts[number].reshape(len(weights), -1)
             found = self._pictures[number] = np.empty_like(self._base)
-            for here in self._blocks():
+            for here in self._blocks(_PRODUCTS // weights.size):
                 np.matmul(part[:, here].T, weights, out=found[here])
         return found
 

@@ -342,10 +342,15 @@ def dragging_a_lamp(found):
     found["off"] = float(abs(dragged - truth).max() / truth.max())
     found["changed"] = float(abs(dragged - first).max() / first.max())
     _grab("lamps-dragged")
-    with over(panel):
-        OPS.change_lamp(lamp=row, spectrum="sodium")
+    _, y = yield from find(panel, f"intensity_{row}", 0.4)
+    yield from click(panel.x + int(0.85 * panel.width), y)
     yield 0.5
-    _grab("lamps-sodium")
+    _grab("lamps-menu")
+    yield from press("DOWN_ARROW")
+    yield from press("DOWN_ARROW")
+    yield from press("RET")
+    yield 0.5
+    _grab("lamps-chosen")
     found["chosen"] = relit.last().chosen[row]
     yield from click(*(yield from find(panel, "rough_spectra.reset_lamps", 0.8)))
     yield 0.5

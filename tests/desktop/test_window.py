@@ -380,7 +380,7 @@ def test_dragging_a_lamp(scene):
     assert min(scene["large"]) < 0.1  # whatever else the machine does
     assert scene["off"] < 1e-5
     assert scene["changed"] > 0.02
-    assert scene["chosen"] == "sodium"
+    assert scene["chosen"] == "D65"
     assert scene["reset"]
     assert scene["undone"] == []
 
