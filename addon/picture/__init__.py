@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A spectral picture of the scene by ordinary renders of three bands each, in a second Blender.
 
-colors         where colors stand in materials, lamps and world, and what spectra they stand for
+find_colors    where colors stand in materials, lamps and world
+color_spectra  what spectra they stand for
+colors         what was found of both
+places         where a color stands, and names of datablocks
 scene_copy     a copy of the open file for the second Blender
 passes         the renders: which bands, and what each color is in them
 direct_light   whether direct light has renders of its own

@@ -16,9 +16,10 @@ from ...core.numerics.arrays import Array
 from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra
 from . import passes, scene_copy
-from .colors import Shining, key
+from .colors import Shining
 from .direct_light import Choice
 from .passes import Lamps, Pass
+from .places import key
 from .relight import ILLUMINANTS, Lights
 from .render import Rendering, Wanted
 
