@@ -220,13 +220,27 @@ def test_lights_that_memory_does_not_hold_are_refused(room):
         groups.Gathering(bpy.context.scene, wanted, needed - 1)
 
 
+def test_disabling_forgets(room, extension):
+    _sliders().intensity_0 = 2.0
+    handlers = bpy.app.handlers.save_pre
+    assert relit._pack in handlers
+    extension.unregister()
+    try:
+        assert relit.last() is None
+        assert relit._pack not in handlers
+        assert not hasattr(bpy.types.WindowManager, "rough_spectra")
+    finally:
+        extension.register()
+        relit.put(room)
+
+
 def test_another_file_forgets(room, home):
     bpy.ops.wm.read_homefile(filepath=str(home))
     try:
         assert relit.last() is None
         assert _drawn() == ["rough_spectra.render_lamps"]
         with pytest.raises(RuntimeError, match="Render the lamps apart first"):
-            OPS.reset_lamps.__call__("EXEC_DEFAULT")
+            OPS.reset_lamps()
         _sliders().intensity_0 = 5.0
         _sliders().observer = "10"
         assert (_sliders().intensity_0, _sliders().observer) == (1.0, "2")
