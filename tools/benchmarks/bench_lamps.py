@@ -58,9 +58,11 @@ def pictures(scene: Any, samples: int) -> tuple[float, float, float]:
         found.append(api.spectral_picture(scene, bands=_BANDS, samples=samples))
     blocks = [room.blocks(each.xyz) for each in found]
     seen = blocks[0][..., 1] < 2 * np.median(blocks[0][..., 1])
-    labs = (color_difference.xyz_to_lab(each, found[0].white) for each in blocks)
+    white = found[0].white
+    assert white is not None, "a scene with lamps has a white"
+    labs = (color_difference.xyz_to_lab(each, white) for each in blocks)
     noise = color_difference.delta_e(*labs)[seen].mean() / np.sqrt(2)
-    off = np.mean([each.comparison.delta_e.mean() for each in found])
+    off = np.mean([each.comparison.delta_e.mean() for each in found if each.comparison])
     seconds = np.mean([each.processor_seconds[1:] for each in found])
     return float(noise), float(off), float(seconds)
 
