@@ -52,7 +52,7 @@ def furnish(count: int) -> Any:
 
 def pictures(scene: Any, samples: int) -> tuple[float, float, float]:
     """Noise, how far RGB is off, and seconds of a render."""
-    found = []
+    found: list[Any] = []
     for seed in (1, 2):
         scene.cycles.seed = seed
         found.append(api.spectral_picture(scene, bands=_BANDS, samples=samples))
