@@ -31,7 +31,7 @@ STEPS = (
     "addon.blender.shader_nodes",
     "core.cycles.least_mean_fit",
     "core.cycles.gloss_reading",
-    "addon.samples.readers.parts.geometry_words",
+    "addon.samples.sets",
     "addon.samples.readers.formats",
     "addon.matching.scene_match",
     "addon.material.settled",
