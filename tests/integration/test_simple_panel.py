@@ -427,7 +427,7 @@ def test_each_ball_sets_its_roughness_and_has_the_samples_color():
 
 def ball_pixels(number):
     """The rows of a ball's icon, lowest first, of its four bytes each."""
-    preview = list(balls._previews().values())[number]
+    preview = list(balls._kept._collection.values())[number]
     width, height = preview.icon_size
     flat = preview.icon_pixels_float[:]
     values = [round(255 * value) for value in flat]
