@@ -156,6 +156,8 @@ class Job:
                 if progress is not None:
                     progress(self.done, self.total)
                 time.sleep(_POLL_SECONDS)
+            if progress is not None:
+                progress(self.done, self.total)  # what was done since, or nobody hears of the end
         except KeyboardInterrupt as error:
             raise CancelledError(self.interrupted) from error
 

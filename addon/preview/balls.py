@@ -14,15 +14,14 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
 from ...core.limits import TOLERANCE
 from ...core.numerics import memoized
 from ..material.roughness_words import STEPS
 from ..material.snapshot import Inputs, Snapshot
-from ..support import events
 from . import icons
+from .kept import Kept
 
 _SIDE = 16
 """Pixels of an icon in a button, at interface scale 1."""
@@ -38,7 +37,6 @@ class _Key(NamedTuple):
     side: int
 
 
-_collection: Any = None
 _pending: dict[_Key, int] = {}
 _rows: OrderedDict[_Key, tuple[int, ...]] = OrderedDict()
 
@@ -82,9 +80,7 @@ def _work() -> None:
     while len(_rows) > _BOUND:
         oldest, _ = _rows.popitem(last=False)
         for step in STEPS:
-            name = _name(oldest, step)
-            if name in _previews():
-                del _previews()[name]
+            _kept.forget(_name(oldest, step))
     icons.redraw()
 
 
@@ -103,8 +99,7 @@ def _make(material: Any, key: _Key) -> tuple[int, ...]:
         return ()  # the panel says what is wrong with the material
     found = []
     for step, solution in zip(STEPS, solved, strict=True):
-        name = _name(key, step)
-        preview = _previews().get(name) or _previews().new(name)
+        preview = _kept.get(_name(key, step))
         to_screen = data.to_screen(space.key)
         canvas = figures.ball(key.side, solution.color, solution.roughness, to_screen)
         icons.upload(preview, canvas, small=True)
@@ -118,23 +113,12 @@ def _name(key: _Key, step: float) -> str:
 
 def clear() -> None:
     """Forget all balls."""
-    global _collection
     if bpy.app.timers.is_registered(_work):
         bpy.app.timers.unregister(_work)
     _pending.clear()
     _rows.clear()
-    if _collection is not None:
-        previews.remove(_collection)
-        _collection = None
-        events.unregistering.unsubscribe(clear)
+    _kept.close()
 
 
+_kept = Kept(clear)
 memoized.enlist(__name__, "_rows", _rows.__len__, clear)
-
-
-def _previews() -> Any:
-    global _collection
-    if _collection is None:
-        _collection = previews.new()
-        events.unregistering.subscribe(clear)
-    return _collection

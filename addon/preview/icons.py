@@ -24,15 +24,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.utils import previews
 
 from ...core.errors import RoughSpectraError
 from ...core.numerics import memoized
 from ..material import changes, snapshot
 from ..material.snapshot import Snapshot
-from ..support import events
 from . import theme
 from .drawing import looks
+from .kept import Kept
 
 _BOUND = 64
 """Pictures kept; a sheet has about 0.3 MB at scale 1."""
@@ -69,7 +68,6 @@ class _Wish(NamedTuple):
     side: int
 
 
-_collection: Any = None
 _pictures: OrderedDict[_Wish, _Picture] = OrderedDict()
 _pending: dict[_Wish, Basis] = {}
 _differences: dict[int, tuple[Basis, tuple[float, float, float]]] = {}
@@ -175,30 +173,17 @@ def _visible(material: Any) -> list[_Wish]:
 
 def clear() -> None:
     """Forget all pictures."""
-    global _collection
     if bpy.app.timers.is_registered(_work):
         bpy.app.timers.unregister(_work)
     _pending.clear()
     _differences.clear()
     _pictures.clear()
-    if _collection is not None:
-        previews.remove(_collection)
-        _collection = None
-        changes.derived.unsubscribe(_on_derived)
-        events.unregistering.unsubscribe(clear)
+    changes.derived.unsubscribe(_on_derived)
+    _kept.close()
 
 
+_kept = Kept(clear)
 memoized.enlist(__name__, "_pictures", _pictures.__len__, clear)
-
-
-def _previews() -> Any:
-    global _collection
-    if _collection is None:
-        _collection = previews.new()
-        # From the first picture on: before, there is nothing to draw anew, nor to forget.
-        changes.derived.subscribe(_on_derived)
-        events.unregistering.subscribe(clear)
-    return _collection
 
 
 def _work() -> float | None:
@@ -255,13 +240,14 @@ def _store(wish: _Wish, basis: Basis, canvas: Any) -> None:
     if canvas is None:
         picture.icon = 0
         return
-    preview = _previews().get(picture.name) or _previews().new(picture.name)
+    if not _kept:  # from the first picture on: before, there is nothing to draw anew
+        changes.derived.subscribe(_on_derived)
+    preview = _kept.get(picture.name)
     upload(preview, canvas)
     picture.icon = preview.icon_id
     while len(_pictures) > _BOUND:
         _, oldest = _pictures.popitem(last=False)
-        if oldest.name in _previews():
-            del _previews()[oldest.name]
+        _kept.forget(oldest.name)
 
 
 def upload(preview: Any, canvas: Any, *, small: bool = False) -> None:

@@ -10,14 +10,13 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
-from bpy.utils import previews
 
 from ...core.numerics import memoized
-from ..support import events
 from . import icons, theme
+from .kept import Kept
 
 if TYPE_CHECKING:
     from ...core.gloss import Gloss
@@ -63,7 +62,6 @@ class _Key(NamedTuple):
     side: int
 
 
-_collection: Any = None
 _balls: OrderedDict[_Key, str] = OrderedDict()
 
 
@@ -82,8 +80,8 @@ def icon_ids(pictured: Sequence[Pictured]) -> list[int]:
         _balls.move_to_end(key)
     while len(_balls) > max(_BOUND, len(set(keys))):
         _, name = _balls.popitem(last=False)
-        del _previews()[name]
-    return [_previews()[_balls[key]].icon_id for key in keys]
+        _kept.forget(name)
+    return [_kept.icon_id(_balls[key]) for key in keys]
 
 
 def _key(pictured: Pictured, side: int) -> _Key:
@@ -99,7 +97,7 @@ def _make(keys: Sequence[_Key]) -> None:
     canvases = drawn(np.array([key.color for key in keys]) / 255, sigma, gloss, side)
     for key, canvas in zip(keys, canvases, strict=True):
         name = _balls[key] = f"sample-{hash(key)}"
-        icons.upload(_previews().get(name) or _previews().new(name), canvas, small=True)
+        icons.upload(_kept.get(name), canvas, small=True)
 
 
 def drawn(colors: Array, sigma_degrees: float, gloss: Gloss | None, side: int) -> Array:
@@ -127,20 +125,9 @@ def drawn(colors: Array, sigma_degrees: float, gloss: Gloss | None, side: int) -
 
 def clear() -> None:
     """Forget all balls."""
-    global _collection
     _balls.clear()
-    if _collection is not None:
-        previews.remove(_collection)
-        _collection = None
-        events.unregistering.unsubscribe(clear)
+    _kept.close()
 
 
+_kept = Kept(clear)
 memoized.enlist(__name__, "_balls", _balls.__len__, clear)
-
-
-def _previews() -> Any:
-    global _collection
-    if _collection is None:
-        _collection = previews.new()
-        events.unregistering.subscribe(clear)
-    return _collection

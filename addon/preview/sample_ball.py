@@ -7,18 +7,13 @@ Made when another sample is highlighted, and not while drawing: there is one, wh
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
-from bpy.utils import previews
 
 from ..samples.sample import Sample
-from ..support import events
 from . import icons, theme
+from .kept import Kept
 
 _NAME = "ball"
-
-_collection: Any = None
 
 
 def icon_id(sample: Sample, sigma: float, units: float) -> int:
@@ -51,23 +46,14 @@ def icon_id(sample: Sample, sigma: float, units: float) -> int:
         data.to_screen(space.key),
         gloss,
     )
-    preview = _previews().get(_NAME) or _previews().new(_NAME)
+    preview = _kept.get(_NAME)
     icons.upload(preview, canvas)
     return int(preview.icon_id)
 
 
 def clear() -> None:
     """Forget the picture."""
-    global _collection
-    if _collection is not None:
-        previews.remove(_collection)
-        _collection = None
-        events.unregistering.unsubscribe(clear)
+    _kept.close()
 
 
-def _previews() -> Any:
-    global _collection
-    if _collection is None:
-        _collection = previews.new()
-        events.unregistering.subscribe(clear)
-    return _collection
+_kept = Kept(clear)

@@ -48,10 +48,10 @@ def test_what_looks_alike_shares_an_icon(monkeypatch):
         list_icons.Pictured(None, 0.0),
     ]
     assert len(list_icons.icon_ids(wanted)) == 5
-    assert len(list_icons._previews()) == 4
+    assert len(list_icons._kept) == 4
     monkeypatch.setattr(list_icons, "_BOUND", 2)
     list_icons.icon_ids(wanted[:1])
-    assert len(list_icons._previews()) == 2
+    assert len(list_icons._kept) == 2
 
 
 def test_a_name_in_the_list_of_colors_ends_with_a_word():

@@ -9,7 +9,7 @@ import bpy
 import pytest
 from rough_spectra.addon import api
 from rough_spectra.addon.blender import shader_nodes
-from rough_spectra.addon.interface.operators import common
+from rough_spectra.addon.interface.operators import giving
 from rough_spectra.addon.material import derivation, snapshot, state
 from rough_spectra.addon.samples import quality
 from rough_spectra.core.errors import MaterialError
@@ -165,7 +165,7 @@ def test_a_sample_that_states_more_is_refused_by_its_name(tmp_path):
         *("Moss", range(400, 710, 10), [0.2] * 31, "reading"), sigma_degrees=75, source="moss.json"
     )
     with pytest.raises(api.InputError, match=r"moss.json, 'Moss': σ is 75°.*up to 60°"):
-        common.new_request(steep, math.radians(75))
+        giving.new_request(steep, math.radians(75))
 
 
 def test_the_end_of_the_slider_is_taken_everywhere():

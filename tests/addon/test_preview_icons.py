@@ -47,7 +47,7 @@ def ask(material, figure="sheet", units=10.0):
 def pixels(figure="sheet"):
     """What was given to Blender, first row on top."""
     [picture] = [p for w, p in icons._pictures.items() if w.figure == figure]
-    preview = icons._previews()[picture.name]
+    preview = icons._kept.get(picture.name)
     width, height = preview.image_size
     return np.array(preview.image_pixels_float[:]).reshape(height, width, 4)[::-1]
 
@@ -191,7 +191,7 @@ def test_old_pictures_go(material, monkeypatch):
         ask(material, "swatches", units)
         icons._work()
     assert len(icons._pictures) == 3
-    assert len(icons._previews()) == 3
+    assert len(icons._kept) == 3
 
 
 def test_both_themes_are_readable():

@@ -7,7 +7,7 @@ import types
 
 import bpy
 import pytest
-from rough_spectra.addon.interface.operators import common
+from rough_spectra.addon.interface.operators import giving
 
 from tests.integration.support import checkered_and_glowing, contents, rgb_material, spectrum_csv
 
@@ -128,13 +128,13 @@ def test_polls_of_renew_and_bake_say_what_is_missing():
 def test_dialogs_begin_with_the_roughness_that_the_user_gave_the_material():
     dialog = types.SimpleNamespace(sigma=0.1)
     mesh_object("Wall", rgb_material("Wall"))
-    common.begin(dialog, bpy.context)
+    giving.begin(dialog, bpy.context)
     assert dialog.sigma == 0.1
     OPS.choose_sample("EXEC_DEFAULT", sample="everyday/brick")
-    common.begin(dialog, bpy.context)
+    giving.begin(dialog, bpy.context)
     assert dialog.sigma == 0.1
     OPS.assign_preset("EXEC_DEFAULT", preset=GREEN, sigma=math.radians(30))
-    common.begin(dialog, bpy.context)
+    giving.begin(dialog, bpy.context)
     assert dialog.sigma == math.radians(30)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 import pytest
 from rough_spectra.addon.blender import shader_nodes
-from rough_spectra.addon.interface.operators import common
+from rough_spectra.addon.interface.operators import common, targets
 from rough_spectra.addon.interface.panels import panels, renewal, sentences, simple, text
 from rough_spectra.addon.matching.request import Request
 from rough_spectra.addon.material import (
@@ -427,7 +427,7 @@ def test_each_ball_sets_its_roughness_and_has_the_samples_color():
 
 def ball_pixels(number):
     """The rows of a ball's icon, lowest first, of its four bytes each."""
-    preview = list(balls._previews().values())[number]
+    preview = list(balls._kept._collection.values())[number]
     width, height = preview.icon_size
     flat = preview.icon_pixels_float[:]
     values = [round(255 * value) for value in flat]
@@ -560,9 +560,9 @@ def test_counts_leave_out_materials_that_nobody_uses_any_more():
     for material in (gone, bpy.data.materials["Wall"]):
         shader(material).inputs[0].default_value = (0.5, 0.1, 0.1, 1)
     where = types.SimpleNamespace()
-    assert len(common.materials_in_scope(where, "ALL")) == 2
+    assert len(targets.materials_in_scope(where, "ALL")) == 2
     other.data.materials.clear()
-    assert [m.name for m in common.materials_in_scope(where, "ALL")] == ["Wall"]
+    assert [m.name for m in targets.materials_in_scope(where, "ALL")] == ["Wall"]
     assert OPS.renew(scope="ALL_STALE", overwrite_edits=True) == {"FINISHED"}
     assert state.state(gone).kind == "stale"
     assert state.state(bpy.data.materials["Wall"]).kind == "fresh"

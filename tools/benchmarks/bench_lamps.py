@@ -52,17 +52,17 @@ def furnish(count: int) -> Any:
 
 def pictures(scene: Any, samples: int) -> tuple[float, float, float]:
     """Noise, how far RGB is off, and seconds of a render."""
-    found = []
+    found: list[Any] = []
     for seed in (1, 2):
         scene.cycles.seed = seed
         found.append(api.spectral_picture(scene, bands=_BANDS, samples=samples))
     blocks = [room.blocks(each.xyz) for each in found]
     seen = blocks[0][..., 1] < 2 * np.median(blocks[0][..., 1])
     white = found[0].white
-    assert white is not None
+    assert white is not None, "a scene with lamps has a white"
     labs = (color_difference.xyz_to_lab(each, white) for each in blocks)
     noise = color_difference.delta_e(*labs)[seen].mean() / np.sqrt(2)
-    off = np.mean([each.comparison.mean for each in found if each.comparison is not None])
+    off = np.mean([each.comparison.delta_e.mean() for each in found if each.comparison])
     seconds = np.mean([each.processor_seconds[1:] for each in found])
     return float(noise), float(off), float(seconds)
 

@@ -56,7 +56,7 @@ def main() -> None:
         shader_nodes.roughness_socket(shader_nodes.shader_node(material)).default_value = sigma / 2
         return collect(material, space)
 
-    preview = icons._previews().new("bench")
+    preview = icons._kept.get("bench")
     seen = theme.current(bpy.context.preferences)
     print(
         f"Blender {bpy.app.version_string}, numpy {np.__version__}, {REPEATS} runs: least (median)"

@@ -71,7 +71,7 @@ def chart() -> None:
         axes.set_xlabel("time, in ordinary renders")
         axes.set_ylabel("mean ΔE00 from 36 bands")
         axes.set_title("A closed room of ColorChecker patches, rendered")
-        axes.legend(loc="upper right", fontsize=7)
+        axes.legend(loc="upper right", fontsize=7, frameon=True, framealpha=1, edgecolor="none")
         figure_style.save(figure, IMAGES / "picture-cost", dpi=120)
         plt.close(figure)
 

@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, giving
 
 _STEEPEST = radians(80)
 
@@ -155,7 +155,7 @@ def _material(sample: str) -> Any | None:
     from ...samples import library
 
     found = readings.facets(library.load(sample, preferences.user_folder()))
-    request = common.new_request(found, 0.0)
+    request = giving.new_request(found, 0.0)
     material = bpy.data.materials.new(found.name)
     try:
         derive.assign([(material, request)], "DIFFUSE")

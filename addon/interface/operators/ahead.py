@@ -32,6 +32,8 @@ STEPS = (
     "core.cycles.least_mean_fit",
     "core.cycles.gloss_reading",
     "addon.samples.readers.formats",
+    "addon.samples.readers.parts.unsaid",
+    "addon.samples.readers.parts.joining",
     "addon.matching.scene_match",
     "addon.material.settled",
     "addon.samples.presets",

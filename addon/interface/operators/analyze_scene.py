@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 _SCOPES = (
     ("VIEW", "All in View", "Every material in view that has a measured spectrum", 0),
@@ -54,7 +54,7 @@ class ROUGHSPECTRA_OT_analyze_scene(bpy.types.Operator):
         try:
             materials = None
             if self.scope == "ACTIVE":
-                materials = common.materials_in_scope(context, "ACTIVE")
+                materials = targets.materials_in_scope(context, "ACTIVE")
             depsgraph = context.evaluated_depsgraph_get()
             report = analysis.analyze(depsgraph, context.scene, self._view(context))
             chosen, left = follow_scene.choose(report, materials, self.overwrite_edits)

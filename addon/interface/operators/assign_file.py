@@ -11,10 +11,10 @@ from bpy.props import EnumProperty, StringProperty
 
 from ....core.errors import InputError, RoughSpectraError
 from ...material.properties import KIND_ITEMS
-from . import common, looking
+from . import common, giving, looking, targets
 
 _KIND_ITEMS = (
-    (common.AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
+    (giving.AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
     *KIND_ITEMS,
 )
 _items: list[tuple[str, str, str]] = []
@@ -27,7 +27,7 @@ def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
 
 
 class ROUGHSPECTRA_OT_assign_file(
-    looking.LooksFirst, common.WhiteOptions, common.AssignOptions, bpy.types.Operator
+    looking.LooksFirst, giving.WhiteOptions, giving.AssignOptions, bpy.types.Operator
 ):
     """Take the color from a file that an instrument wrote; its spectrum is kept in the material"""
 
@@ -41,23 +41,26 @@ class ROUGHSPECTRA_OT_assign_file(
     )
     sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
     kind: EnumProperty(
-        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=common.AS_FILE
+        name="Kind",
+        description="What the spectrum is",
+        items=_KIND_ITEMS,
+        default=giving.AS_FILE,
     )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the file."""
-        common.begin(self, context)
+        giving.begin(self, context)
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files."""
-        common.draw_in_browser(self, ("sample", "kind", "sigma", "shader", "scope"))
+        giving.draw_in_browser(self, ("sample", "kind", "sigma", "shader", "scope"))
 
     def execute(self, context: Any) -> set[str]:
         """Ask which sample if there are several, or go on."""
@@ -77,14 +80,14 @@ class ROUGHSPECTRA_OT_assign_file(
         from ...samples import sets, stated_white
 
         sample = choose(self._samples, self.sample, self.filepath)
-        if self.kind != common.AS_FILE:
+        if self.kind != giving.AS_FILE:
             sample = sample.taken_as(self.kind)
-        sample = stated_white.given(sample, *common.stated_white(self))
+        sample = stated_white.given(sample, *giving.stated_white(self))
 
         def tell(assigned: Any) -> str:
             for note in (*sample.notes, *sets.sentences(sample)):
                 self.report({"WARNING"}, f"{sample.name}: {note}")
-            return common.told_of(self, assigned, sample)
+            return giving.told_of(self, assigned, sample)
 
         return looking.assignment(self, context, sample, tell)
 
@@ -95,7 +98,7 @@ class ROUGHSPECTRA_OT_assign_file(
 
 
 class ROUGHSPECTRA_OT_assign_file_sample(
-    common.WhiteOptions, common.AssignOptions, bpy.types.Operator
+    giving.WhiteOptions, giving.AssignOptions, bpy.types.Operator
 ):
     """Choose one of a measurement file's samples for the material"""
 
@@ -107,7 +110,10 @@ class ROUGHSPECTRA_OT_assign_file_sample(
     filepath: StringProperty(name="File", description="Spectra that an instrument wrote")
     sample: EnumProperty(name="Sample", description="Sample of the file", items=sample_items)
     kind: EnumProperty(
-        name="Kind", description="What the spectrum is", items=_KIND_ITEMS, default=common.AS_FILE
+        name="Kind",
+        description="What the spectrum is",
+        items=_KIND_ITEMS,
+        default=giving.AS_FILE,
     )
 
     def invoke(self, context: Any, _event: Any) -> set[str]:

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from . import common, looking
+from . import giving, looking, targets
 
 _items: list[tuple[str, str, str]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
@@ -27,7 +27,7 @@ def preset_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
     return _items
 
 
-class ROUGHSPECTRA_OT_assign_preset(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_preset(looking.LooksFirst, giving.AssignOptions, bpy.types.Operator):
     """Make the material read like a preset sample, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_preset"
@@ -40,11 +40,11 @@ class ROUGHSPECTRA_OT_assign_preset(looking.LooksFirst, common.AssignOptions, bp
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search the presets by name."""
-        common.begin_scope(self, context)
+        giving.begin_scope(self, context)
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 

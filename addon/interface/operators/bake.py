@@ -11,7 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, StringProperty
 
-from . import background, common
+from . import background, common, targets
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
@@ -34,13 +34,13 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
     scope: EnumProperty(
         name="For",
         description="Materials to measure",
-        items=(*common.SCOPE_ITEMS, common.ALL_WITH_SPECTRUM),
+        items=(*targets.SCOPE_ITEMS, targets.ALL_WITH_SPECTRUM),
     )
 
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need at least one material."""
-        return common.has_materials(cls)
+        return targets.has_materials(cls)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose where to write."""
@@ -53,7 +53,7 @@ class ROUGHSPECTRA_OT_bake(background.Measuring, bpy.types.Operator):
 
         self._base = Path(bpy.path.abspath(self.filepath))
         writers.check(self._base)
-        materials = common.materials_in_scope(context, self.scope)
+        materials = targets.materials_in_scope(context, self.scope)
         surfaces = [("", material) for material in materials]
         self._prepared = bake.as_flat_samples(surfaces, bake.prepare(surfaces))
         return bake.plan(surfaces, self._prepared)

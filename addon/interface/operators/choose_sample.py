@@ -12,7 +12,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.props import EnumProperty
 
-from . import ahead, common, looking, of_this_file
+from . import ahead, giving, looking, of_this_file, targets
 
 if TYPE_CHECKING:
     from ...samples.entry import Entry
@@ -102,7 +102,7 @@ def _about(entry: Any) -> str:
     return f"{entry.collection}: {what}{sigma}. {entry.source}"
 
 
-class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, giving.AssignOptions, bpy.types.Operator):
     """Choose what it looks like: brick, paper. For all selected objects; what you set stays"""
 
     bl_idname = "rough_spectra.choose_sample"
@@ -116,13 +116,13 @@ class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bp
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user search the file's own materials, presets and library by name."""
         ahead.begin()
         _fill()
-        common.begin_scope(self, context)
+        giving.begin_scope(self, context)
         context.window_manager.invoke_search_popup(self)
         return {"FINISHED"}
 
@@ -134,7 +134,7 @@ class ROUGHSPECTRA_OT_choose_sample(looking.LooksFirst, common.AssignOptions, bp
         if of_this_file.is_one(self.sample):
             given = partial(of_this_file.give, context, self.scope, self.sample)
             return looking.Work([], None, lambda _materials, _looked: given())
-        return looking.assignment(self, context, common.of_library(self.sample))
+        return looking.assignment(self, context, giving.of_library(self.sample))
 
 
 classes = (ROUGHSPECTRA_OT_choose_sample,)

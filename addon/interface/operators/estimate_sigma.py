@@ -14,7 +14,7 @@ from bpy.props import EnumProperty, FloatProperty, StringProperty
 
 from ....core.errors import DomainError, RoughSpectraError
 from ....core.limits import REPEATABILITY
-from . import common
+from . import common, targets
 from .assign_file import choose
 from .library import matching_samples
 
@@ -70,7 +70,7 @@ def _estimate(fields: Any, context: Any) -> tuple[Request, Pairs, Estimate]:
     from ...matching import roughness
     from ...material import storage
 
-    request = storage.load(common.active_material(context))
+    request = storage.load(targets.active_material(context))
     stored = request.sample
     pairs: Pairs
     if fields.source == "SET":
@@ -88,7 +88,7 @@ def _has_set(context: Any) -> bool:
     from ...material import storage
 
     try:
-        return roughness.tells(storage.load(common.active_material(context)).sample)
+        return roughness.tells(storage.load(targets.active_material(context)).sample)
     except RoughSpectraError:
         return False
 
@@ -150,11 +150,11 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
         """Need a material of the file that stores a spectrum."""
         from ...material import snapshot
 
-        material = common.active_material(context)
+        material = targets.active_material(context)
         if material is None or not snapshot.has_spectrum(material):
             cls.poll_message_set("The material has no measured spectrum; assign one first")
             return False
-        return common.is_local(cls, material)
+        return targets.is_local(cls, material)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Ask for the second reading, or take the material's own set where it may do."""
@@ -166,7 +166,7 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
     def draw(self, context: Any) -> None:
         """Draw which reading is asked for, and what was found."""
         layout = self.layout
-        group = common.active_material(context).rough_spectra  # type: ignore[union-attr]
+        group = targets.active_material(context).rough_spectra  # type: ignore[union-attr]
         stored, other = ("rough", "smooth") if group.kind == "reading" else ("smooth", "rough")
         words = iface_("The material's own is the {stored} reading; give the {other} one").format(
             stored=iface_(stored), other=iface_(other)
@@ -193,7 +193,7 @@ class ROUGHSPECTRA_OT_estimate_sigma(bpy.types.Operator):
         from ...matching import roughness
         from ...material import derive
 
-        material: Any = common.active_material(context)
+        material: Any = targets.active_material(context)
         try:
             request, pairs, found = _estimate(self, context)
             if not found.is_told:

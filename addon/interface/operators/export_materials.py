@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 _MOST_SENTENCES = 20
 
@@ -47,7 +47,7 @@ class ROUGHSPECTRA_OT_export_materials(bpy.types.Operator):
     scope: EnumProperty(
         name="For",
         description="Materials to export",
-        items=(*common.SCOPE_ITEMS, common.ALL_WITH_SPECTRUM),
+        items=(*targets.SCOPE_ITEMS, targets.ALL_WITH_SPECTRUM),
         default="ALL",
     )
     targets: EnumProperty(
@@ -60,7 +60,7 @@ class ROUGHSPECTRA_OT_export_materials(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need at least one material with a spectrum."""
-        return common.has_spectra(cls)
+        return targets.has_spectra(cls)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose where to write."""
@@ -82,7 +82,7 @@ class ROUGHSPECTRA_OT_export_materials(bpy.types.Operator):
 
         base = Path(bpy.path.abspath(self.filepath))
         try:
-            materials = common.materials_in_scope(context, self.scope)
+            materials = targets.materials_in_scope(context, self.scope)
             chosen = [name for name in write.usable() if name in self.targets]
             found = write.materials(materials, base, chosen or write.usable())
         except RoughSpectraError as error:

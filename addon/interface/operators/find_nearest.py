@@ -22,7 +22,7 @@ from bpy.props import (
 
 from ....core.errors import InputError, RoughSpectraError
 from ...material.properties import ILLUMINANT_ITEMS
-from . import ahead, common, looking
+from . import ahead, common, giving, looking, targets
 from .import_options import waiting
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ def _highlight(operator: Any, context: Any) -> None:
     operator.apart, operator.picture = "", 0
     if operator.index >= len(operator.matches):
         return
-    material = common.active_material(context)
+    material = targets.active_material(context)
     try:
         match = library.load(operator.matches[operator.index].sample, preferences.user_folder())
         if not bpy.app.background:
@@ -167,7 +167,7 @@ def _apart(operator: Any, material: Any, match: Sample) -> str:
     sample = _spectrum(operator, material)
     if sample is None:
         return ""
-    one, other = (common.new_request(each, _own_sigma(each)) for each in (sample, match))
+    one, other = (giving.new_request(each, _own_sigma(each)) for each in (sample, match))
     reference, *others = _lights(material)
     found = metamerism.compare(one, other, others[:_MOST_LIGHTS], reference)
     told = ", ".join(f"{each.light} {each.index:.1f}" for each in found[1:])
@@ -238,7 +238,7 @@ _MOST_LIGHTS = 3
 """Beside the main one; a line holds no more."""
 
 
-class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, giving.AssignOptions, bpy.types.Operator):
     """Find the samples nearest to a color, this material's or one that you pick, and take one"""
 
     bl_idname = "rough_spectra.find_nearest"
@@ -328,15 +328,15 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Show the matches while a color is picked; begin with the material's."""
         if not ahead.is_done():
             ahead.begin(context, "find_nearest")
             return {"CANCELLED"}
-        common.begin(self, context)
-        material = common.active_material(context)
+        giving.begin(self, context)
+        material = targets.active_material(context)
         color = None if material is None else color_of(material)
         if color is not None:
             self.color = color
@@ -397,7 +397,7 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, common.AssignOptions, bpy
             msg = f"There are only {len(self.matches)} matches; choose one of them."
             raise RoughSpectraError(msg)
         match = self.matches[self.index]
-        sample, difference = common.of_library(match.sample), match.difference
+        sample, difference = giving.of_library(match.sample), match.difference
 
         def tell(assigned: Any) -> str:
             common.report_warnings(self, assigned)

@@ -15,7 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common, looking
+from . import giving, looking
 
 if TYPE_CHECKING:
     from ...matching.solution import Solution
@@ -30,7 +30,7 @@ MATERIALS_ITEMS = (
 )
 
 
-class ImportOptions(looking.LooksFirst, common.WhiteOptions, common.AssignOptions):
+class ImportOptions(looking.LooksFirst, giving.WhiteOptions, giving.AssignOptions):
     """What to do with the samples of measurement files."""
 
     add_to_library: BoolProperty(
@@ -56,7 +56,7 @@ class ImportOptions(looking.LooksFirst, common.WhiteOptions, common.AssignOption
         """Add to the library and make or set materials; nothing where looking is stopped."""
         from ...samples import importing
 
-        white = common.stated_white(self)
+        white = giving.stated_white(self)
         active, *chosen = importing.relative_to((self._active, *self._chosen), *white)
         tell = partial(_tell, self, chosen)
         assigning = None
@@ -124,7 +124,7 @@ def _colored(operator: Any, chosen: Sequence[Found]) -> list[Found]:
     """Leave out what no material can be made from, and say so; without anything left, refuse."""
     found = [each for each in chosen if each.sample.has_color]
     if not found:
-        common.new_request(chosen[0].sample, 0.0)  # says why
+        giving.new_request(chosen[0].sample, 0.0)  # says why
     if len(found) < len(chosen):
         text = rpt_("{} samples have no color and made no material; they serve for emissivity")
         operator.report({"WARNING"}, text.format(len(chosen) - len(found)))
@@ -136,7 +136,7 @@ def _create(operator: Any, chosen: Sequence[Found]) -> list[tuple[Any, Solution]
     from ...matching import own_gloss
     from ...material import derive, storage
 
-    requests = [common.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
+    requests = [giving.new_request(e.sample, _sigma(operator, e.sample)) for e in chosen]
     glosses = [own_gloss.of_sample(each.sample) for each in chosen]
     materials = [
         shader_nodes.new_material(each.sample.name, gloss is not None)

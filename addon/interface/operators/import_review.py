@@ -18,7 +18,7 @@ from bpy.props import (
 )
 
 from ...material.properties import title
-from . import common
+from . import common, giving
 from .import_options import ImportOptions
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ class ROUGHSPECTRA_OT_import_review(ImportOptions, bpy.types.Operator):
         layout.separator(type="LINE")
         layout.use_property_split = True
         layout.use_property_decorate = False
-        common.draw_white(layout, self)
+        giving.draw_white(layout, self)
         layout.prop(self, "add_to_library")
         column = layout.column()
         column.enabled = self.add_to_library

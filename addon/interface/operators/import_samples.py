@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from ...samples.endings import endings
-from . import common
+from . import common, giving
 from .import_options import ImportOptions, waiting
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
             "shader",
             "scope",
         )
-        common.draw_in_browser(self, (*names, "keep_going"))
+        giving.draw_in_browser(self, (*names, "keep_going"))
 
     def _paths(self) -> list[Path]:
         folder = bpy.path.abspath(self.directory)

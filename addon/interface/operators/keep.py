@@ -10,7 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
@@ -26,9 +26,9 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
         """Need a material that is not up to date."""
         from ...material import state
 
-        if not common.has_own_spectrum(cls, context):
+        if not targets.has_own_spectrum(cls, context):
             return False
-        known = state.state(common.active_material(context))
+        known = state.state(targets.active_material(context))
         if known.kind in {"fresh", "kept"} or known.stamp is None:
             cls.poll_message_set("There is nothing to keep: the material is up to date")
             return False
@@ -38,7 +38,7 @@ class ROUGHSPECTRA_OT_keep(bpy.types.Operator):
         """Note what is shown as kept."""
         from ...material import storage
 
-        material: Any = common.active_material(context)
+        material: Any = targets.active_material(context)
         try:
             storage.keep(material)
         except RoughSpectraError as error:

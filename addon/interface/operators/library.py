@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common, looking
+from . import common, giving, looking, targets
 
 
 def matching_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str, str]]:
@@ -34,7 +34,7 @@ def own_samples(_operator: Any, _context: Any, text: str) -> Iterator[tuple[str,
             yield entry.id, entry.title
 
 
-class ROUGHSPECTRA_OT_assign_sample(looking.LooksFirst, common.AssignOptions, bpy.types.Operator):
+class ROUGHSPECTRA_OT_assign_sample(looking.LooksFirst, giving.AssignOptions, bpy.types.Operator):
     """Make the material read like a sample of the library or a preset, and store its spectrum"""
 
     bl_idname = "rough_spectra.assign_sample"
@@ -50,7 +50,7 @@ class ROUGHSPECTRA_OT_assign_sample(looking.LooksFirst, common.AssignOptions, bp
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Assign the sample of a button; otherwise ask which."""
@@ -60,7 +60,7 @@ class ROUGHSPECTRA_OT_assign_sample(looking.LooksFirst, common.AssignOptions, bp
 
     def work(self, context: Any) -> looking.Work:
         """Assign to all materials in scope, or to none; σ is the sample's unless it is given."""
-        return looking.assignment(self, context, common.of_library(self.sample))
+        return looking.assignment(self, context, giving.of_library(self.sample))
 
 
 class ROUGHSPECTRA_OT_rename_sample(bpy.types.Operator):

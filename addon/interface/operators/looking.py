@@ -15,7 +15,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ....core.errors import MaterialError, RoughSpectraError
-from . import background, common
+from . import background, common, giving, targets
 
 if TYPE_CHECKING:
     from ...matching.solution import Solution
@@ -61,14 +61,14 @@ def assignment(
     tell
         Says in one sentence what was assigned; None for the usual one.
     sigma
-        Radians, as of `common.assign_sample`.
+        Radians, as of `giving.assign_sample`.
 
     Raises
     ------
     RoughSpectraError
         If there is nothing to assign to.
     """
-    aimed = common.aim(context, operator.scope)
+    aimed = targets.aim(context, operator.scope)
     told = operator.properties.is_property_set("shader")
     # Objects may not outlive an undo either.
     bare = [thing.session_uid for thing in aimed.bare]
@@ -77,8 +77,8 @@ def assignment(
         there = {thing.session_uid: thing for thing in bpy.data.objects}
         still = [there[uid] for uid in bare if uid in there]
         now = aimed._replace(materials=list(materials), bare=still)
-        assigned = common.assign_sample(operator, now, sample, looked, sigma)
-        return common.told_of(operator, assigned, sample) if tell is None else tell(assigned)
+        assigned = giving.assign_sample(operator, now, sample, looked, sigma)
+        return giving.told_of(operator, assigned, sample) if tell is None else tell(assigned)
 
     return Work(aimed.materials, operator.shader if told else None, act)
 

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_make_local(bpy.types.Operator):
@@ -25,7 +25,7 @@ class ROUGHSPECTRA_OT_make_local(bpy.types.Operator):
         """Need a material that belongs elsewhere."""
         from ...material import snapshot
 
-        material = common.active_material(context)
+        material = targets.active_material(context)
         if material is None or not snapshot.elsewhere(material):
             cls.poll_message_set("The material belongs to this file already")
             return False
@@ -33,8 +33,8 @@ class ROUGHSPECTRA_OT_make_local(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         """Make it local; the slot that shows it, too, where that belongs elsewhere."""
-        material: Any = common.active_material(context)
-        name, thing = material.name, common.active_object(context)
+        material: Any = targets.active_material(context)
+        name, thing = material.name, targets.active_object(context)
         shown = thing is not None and thing.active_material == material
         if shown and thing is not None:
             for owner in (thing, thing.data):

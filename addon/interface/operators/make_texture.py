@@ -18,7 +18,7 @@ from bpy.props import EnumProperty, FloatProperty, StringProperty
 from ....core.errors import InputError
 from ...material.properties import ILLUMINANT_ITEMS, INSTRUMENT_ITEMS, SIGMA
 from ...support import events
-from . import common
+from . import targets
 from .background import InBackground
 
 _SECONDS_AT_ONCE = 0.05
@@ -129,7 +129,7 @@ class ROUGHSPECTRA_OT_make_texture(InBackground, bpy.types.Operator):
             holds="color",
             scale=self.scale or None,
         )
-        thing = common.active_object(context)
+        thing = targets.active_object(context)
         self._object = "" if thing is None else thing.name
         return _Steps(convert.Conversion(source, target, wanted, working_space.current()))
 

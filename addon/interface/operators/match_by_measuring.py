@@ -10,7 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from . import background, common
+from . import background, giving, targets
 from .library import matching_samples
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def _places(_operator: Any, context: Any, typed: str) -> list[str]:
     """Give the colors of the material that have what was typed in their names."""
     from ...blender import colors
 
-    material = common.active_material(context)
+    material = targets.active_material(context)
     names = [] if material is None else [place.name for place in colors.places(material)]
     return [name for name in names if typed.casefold() in name.casefold()]
 
@@ -50,18 +50,18 @@ class ROUGHSPECTRA_OT_match_by_measuring(background.InBackground, bpy.types.Oper
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material of this file."""
-        material = common.active_material(context)
+        material = targets.active_material(context)
         if material is None:
             cls.poll_message_set("The active object has no material; give it one first")
             return False
-        return common.is_local(cls, material)
+        return targets.is_local(cls, material)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Ask which sample, and which color may change."""
         from ...blender import colors
 
         if not self.color:
-            known = colors.places(common.active_material(context))
+            known = colors.places(targets.active_material(context))
             self.color = known[0].name if known else ""
         return context.window_manager.invoke_props_dialog(
             self, width=_WIDTH, confirm_text="Measure"
@@ -82,11 +82,11 @@ class ROUGHSPECTRA_OT_match_by_measuring(background.InBackground, bpy.types.Oper
         from ...material import preferences, storage
         from ...samples import library
 
-        material: Any = common.active_material(context)
+        material: Any = targets.active_material(context)
         shader_nodes.refuse_read_only(material)
         if self.sample:
             sample = library.load(self.sample, preferences.user_folder())
-            request, _ = common.replacing_request(material, sample)
+            request, _ = giving.replacing_request(material, sample)
         else:
             request = storage.load(material)
         return Adjustment(material, request, colors.find(material, self.color))

@@ -13,7 +13,7 @@ from bpy.props import EnumProperty
 
 from ....core import instruments
 from ....core.errors import MaterialError
-from . import background, common
+from . import background, targets
 
 if TYPE_CHECKING:
     from ....core.numerics.arrays import Array
@@ -31,7 +31,7 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
     scope: EnumProperty(
         name="For",
         description="Materials to measure",
-        items=(*common.SCOPE_ITEMS, common.ALL_WITH_SPECTRUM),
+        items=(*targets.SCOPE_ITEMS, targets.ALL_WITH_SPECTRUM),
     )
 
     @classmethod
@@ -50,14 +50,14 @@ class ROUGHSPECTRA_OT_measure(background.Measuring, bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need at least one material."""
-        return common.has_materials(cls)
+        return targets.has_materials(cls)
 
     def to_measure(self, context: Any) -> Plan:
         """Take down the predictions, and what each material is like now."""
         from ...instrument import bake, unseen
         from ...material import last_measurement
 
-        materials = common.materials_in_scope(context, self.scope)
+        materials = targets.materials_in_scope(context, self.scope)
         self._unlike = [unseen.on_flat_samples(material) for material in materials]
         for material, sentences in zip(materials, self._unlike, strict=True):
             for sentence in sentences:

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 
 from ....core.errors import MaterialError, RoughSpectraError
 from ....core.limits import SPOT_DIAMETER
-from . import background, common
+from . import background, common, targets
 
 if TYPE_CHECKING:
     from ...instrument.spot_measure import SpotMeasurement
@@ -68,7 +68,7 @@ class ROUGHSPECTRA_OT_measure_here(background.InBackground, bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need a material that can be read."""
-        return common.has_materials(cls)
+        return targets.has_materials(cls)
 
     def draw(self, _context: Any) -> None:
         """Draw what may be changed of the last measurement."""

@@ -17,7 +17,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ....core.errors import MaterialError, RoughSpectraError
-from . import common
+from . import targets
 
 if TYPE_CHECKING:
     from ...preview.list_icons import Pictured
@@ -70,7 +70,7 @@ def is_one(identifier: str) -> bool:
 
 
 def give(context: Any, scope: str, identifier: str) -> str:
-    """Give the objects that a scope of `common.AssignOptions` means a material of the file.
+    """Give the objects that a scope of `giving.AssignOptions` means a material of the file.
 
     Returns
     -------
@@ -86,9 +86,9 @@ def give(context: Any, scope: str, identifier: str) -> str:
     if material is None:
         msg = "The chosen material is no longer in this file; open the list again."
         raise MaterialError(msg)
-    things = common.carriers_in_scope(context, scope)
+    things = targets.carriers_in_scope(context, scope)
     for thing in things:
-        common.refuse_linked(thing)
+        targets.refuse_linked(thing)
     for thing in things:
         if scope == "SELECTED":
             for slot in thing.material_slots:

@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 LIGHT_FILES = "*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr"
 
@@ -74,7 +74,7 @@ def light_of(context: Any) -> Any | None:
         data = getattr(context, name, None)
         if data is not None:
             return data
-    thing = common.active_object(context)
+    thing = targets.active_object(context)
     return thing.data if thing is not None and thing.type == "LIGHT" else None
 
 

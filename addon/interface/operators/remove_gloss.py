@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_remove_gloss(bpy.types.Operator):
@@ -23,20 +23,20 @@ class ROUGHSPECTRA_OT_remove_gloss(bpy.types.Operator):
     menu_place = 2, 5
 
     scope: EnumProperty(
-        name="For", description="Materials that lose their gloss", items=common.SCOPE_ITEMS
+        name="For", description="Materials that lose their gloss", items=targets.SCOPE_ITEMS
     )
 
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need a material with a spectrum."""
-        return common.has_spectra(cls)
+        return targets.has_spectra(cls)
 
     def execute(self, context: Any) -> set[str]:
         """Remove the gloss of all in scope that have one."""
         from ...material import derive
 
         try:
-            materials = _glossy(common.materials_in_scope(context, self.scope))
+            materials = _glossy(targets.materials_in_scope(context, self.scope))
             solutions = derive.remove_gloss(materials)
         except RoughSpectraError as error:
             common.report_error(self, error)

@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty, StringProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 _KINDS = (
     ("UNLINK", "Unlink", "Remove the link of the socket; the other node stays"),
@@ -43,13 +43,13 @@ class ROUGHSPECTRA_OT_remove_obstacle(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material with a spectrum that may be changed."""
-        return common.has_own_spectrum(cls, context)
+        return targets.has_own_spectrum(cls, context)
 
     def execute(self, context: Any) -> set[str]:
         """Remove it; what follows from the spectrum is then derived by *Renew*."""
         from ...blender import obstacles
 
-        material = common.active_material(context)
+        material = targets.active_material(context)
         try:
             obstacles.remove(material, self.kind, self.socket)
         except RoughSpectraError as error:

@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_remove_scale(bpy.types.Operator):
@@ -23,20 +23,20 @@ class ROUGHSPECTRA_OT_remove_scale(bpy.types.Operator):
     menu_place = 2, 6
 
     scope: EnumProperty(
-        name="For", description="Materials whose textures are meant", items=common.SCOPE_ITEMS
+        name="For", description="Materials whose textures are meant", items=targets.SCOPE_ITEMS
     )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need something that can carry a material."""
-        return common.can_have_material(cls, context)
+        return targets.can_have_material(cls, context)
 
     def execute(self, context: Any) -> set[str]:
         """Remove it from all materials in scope that have one."""
         from ...blender import shader_nodes
 
         try:
-            materials = common.materials_in_scope(context, self.scope)
+            materials = targets.materials_in_scope(context, self.scope)
             done = [each.name for each in materials if shader_nodes.unscale(each)]
         except RoughSpectraError as error:
             common.report_error(self, error)

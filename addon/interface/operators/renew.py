@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, EnumProperty
 
 from ....core.errors import RoughSpectraError
-from . import common, looking
+from . import common, looking, targets
 
 _NAMED = 3
 """Materials named in a report; of more only the number is told."""
@@ -30,7 +30,7 @@ class ROUGHSPECTRA_OT_renew(looking.LooksFirst, bpy.types.Operator):
         name="For",
         description="Materials to renew",
         items=(
-            *common.SCOPE_ITEMS,
+            *targets.SCOPE_ITEMS,
             ("ALL_STALE", "All Not Up to Date", "Every material in use that needs it"),
         ),
     )
@@ -44,7 +44,7 @@ class ROUGHSPECTRA_OT_renew(looking.LooksFirst, bpy.types.Operator):
     @classmethod
     def poll(cls, _context: Any) -> bool:
         """Need a material with a spectrum."""
-        return common.has_spectra(cls)
+        return targets.has_spectra(cls)
 
     def work(self, context: Any) -> looking.Work:
         """Renew the active material, or all in scope that can be."""
@@ -73,7 +73,7 @@ class ROUGHSPECTRA_OT_renew(looking.LooksFirst, bpy.types.Operator):
             states = ((m, state.state(m)) for m in selection.in_use(bpy.data.materials))
             found = [m for m, known in states if known.kind in {"stale", "error"}]
             return sorted(found, key=lambda m: m.name)
-        found = common.materials_in_scope(context, self.scope)
+        found = targets.materials_in_scope(context, self.scope)
         materials = [material for material in found if snapshot.has_spectrum(material)]
         if not materials:
             msg = "No material in scope has a measured spectrum; assign one first."

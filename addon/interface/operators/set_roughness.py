@@ -11,7 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_tip as tip_
 
 from ...material.properties import SIGMA
-from . import common
+from . import targets
 
 
 class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
@@ -35,13 +35,13 @@ class ROUGHSPECTRA_OT_set_roughness(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material with a spectrum that may be changed."""
-        return common.has_own_spectrum(cls, context)
+        return targets.has_own_spectrum(cls, context)
 
     def execute(self, context: Any) -> set[str]:
         """Set it for all that are meant; color and roughness follow."""
         from ...material import together
 
-        material: Any = common.active_material(context)
+        material: Any = targets.active_material(context)
         sigma = radians(round(degrees(self.sigma), 3))
         together.set_sigma(material, context.selected_objects, sigma)
         return {"FINISHED"}

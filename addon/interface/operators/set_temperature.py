@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import FloatProperty
 
 from ...picture import cameras
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_set_temperature(bpy.types.Operator):
@@ -59,8 +59,8 @@ class ROUGHSPECTRA_OT_set_temperature(bpy.types.Operator):
 
 def _objects(context: Any) -> list[Any]:
     """Give the active object, and those that are selected."""
-    chosen = dict.fromkeys((common.active_object(context), *context.selected_objects))
-    return [thing for thing in chosen if common.can_carry(thing)]
+    chosen = dict.fromkeys((targets.active_object(context), *context.selected_objects))
+    return [thing for thing in chosen if targets.can_carry(thing)]
 
 
 classes = (ROUGHSPECTRA_OT_set_temperature,)

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from . import common
+from . import targets
 
 
 class ROUGHSPECTRA_OT_show_rendered(bpy.types.Operator):
@@ -22,14 +22,14 @@ class ROUGHSPECTRA_OT_show_rendered(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a viewport that shows Material Preview."""
-        if not common.previews(context):
+        if not targets.previews(context):
             cls.poll_message_set("No viewport shows Material Preview")
             return False
         return True
 
     def execute(self, context: Any) -> set[str]:
         """Switch all of the window that do."""
-        for space in common.previews(context):
+        for space in targets.previews(context):
             space.shading.type = "RENDERED"
         return {"FINISHED"}
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from . import common
+from . import common, targets
 
 
 class ROUGHSPECTRA_OT_unmute(bpy.types.Operator):
@@ -21,13 +21,13 @@ class ROUGHSPECTRA_OT_unmute(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Need a material with a spectrum that may be changed."""
-        return common.has_own_spectrum(cls, context)
+        return targets.has_own_spectrum(cls, context)
 
     def execute(self, context: Any) -> set[str]:
         """Unmute it."""
         from ...blender import shader_nodes
 
-        node = shader_nodes.shader_node(common.active_material(context))
+        node = shader_nodes.shader_node(targets.active_material(context))
         if node is None:
             common.report_error(self, "The surface comes from no shader node of ours to unmute.")
             return {"CANCELLED"}

@@ -10,7 +10,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
 from ...picture import cameras
-from ..operators import common
+from ..operators import targets
 from . import pictures, text
 
 
@@ -68,7 +68,7 @@ def _column(layout: Any, context: Any) -> Any:
 def _draw_temperature(layout: Any, context: Any) -> None:
     """Show the active object's temperature, or offer to give it one."""
     thing = context.view_layer.objects.active
-    if not common.can_carry(thing):
+    if not targets.can_carry(thing):
         return
     if cameras.TEMPERATURE in thing:
         layout.prop(thing, f'["{cameras.TEMPERATURE}"]', text=thing.name)

@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from ....core import limits, white_scale
 from ...material import derivation, settled
-from ..operators import common
+from ..operators import giving, targets
 from . import obstacle, redraw, renewal, sentences, text
 from .icon_values import icon_value
 
@@ -28,7 +28,7 @@ def draw(layout: Any, context: Any) -> None:
         text.draw(layout, sentences.of(told, "INFO", here.style))
         return
     _draw_state(layout, here, here.shown)
-    _draw_settings(layout, common.active_material(context), here, here.shown)
+    _draw_settings(layout, targets.active_material(context), here, here.shown)
 
 
 def _draw_settings(
@@ -43,7 +43,7 @@ def _draw_settings(
     names = ["kind"]
     if inputs.kind == "reading" or inputs.white[0] != white_scale.PERFECT:
         names.append("instrument")
-    _draw_named(column, group, [*names, *common.white_settings(group), "sigma"], here, narrow)
+    _draw_named(column, group, [*names, *giving.white_settings(group), "sigma"], here, narrow)
     _draw_sigma_range(column, settled.derived(shown.facts), narrow)
     names = ["use_scene"] if shown.facts.analyzed else []
     if not inputs.scene_view:

@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from ..operators import common
+from ..operators import targets
 
 _MENUS = (
     "MATERIAL_MT_context_menu",
@@ -47,7 +47,7 @@ def draw_actions(menu: Any, _context: Any) -> None:
 def draw_measure(menu: Any, context: Any) -> None:
     """Offer to measure what was clicked: the selected objects, or the material shown."""
     in_nodes = context.area is not None and context.area.type == "NODE_EDITOR"
-    if in_nodes and not common.is_material_tree(context):
+    if in_nodes and not targets.is_material_tree(context):
         return
     in_material = in_nodes or (context.area is not None and context.area.type == "PROPERTIES")
     menu.layout.separator()

@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-from ..operators import common
+from ..operators import targets
 from .boxes import Box, boxes
 
 _ENGINES = {"CYCLES", "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
@@ -30,10 +30,10 @@ class _Tab:
     @classmethod
     def is_here(cls, context: Any) -> bool:
         """Show wherever a surface material can be."""
-        material, thing = getattr(context, "material", None), common.active_object(context)
+        material, thing = getattr(context, "material", None), targets.active_object(context)
         if material is not None:
             return not material.is_grease_pencil
-        return common.can_carry(thing)
+        return targets.can_carry(thing)
 
 
 class _View:
@@ -46,7 +46,7 @@ class _View:
     @classmethod
     def is_here(cls, context: Any) -> bool:
         """Show where the active object can have a surface material."""
-        return common.can_carry(common.active_object(context))
+        return targets.can_carry(targets.active_object(context))
 
 
 class _Sidebar:
@@ -59,7 +59,7 @@ class _Sidebar:
     @classmethod
     def is_here(cls, context: Any) -> bool:
         """Show where the nodes are those of a surface material."""
-        return common.is_material_tree(context) and not context.space_data.id.is_grease_pencil
+        return targets.is_material_tree(context) and not context.space_data.id.is_grease_pencil
 
 
 class _Main:

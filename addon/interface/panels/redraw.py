@@ -14,7 +14,7 @@ from typing import Any
 from ...material import last_measurement, settled, snapshot, state, together
 from ...preview import icons, theme
 from ...preview.drawing import looks
-from ..operators import common
+from ..operators import targets
 from . import sentences, text
 
 _LONGEST = 0.1
@@ -40,7 +40,7 @@ class Redraw:
         self.width = self.region.width
         form = text.format_of(preferences, look.scale, self.width, context.area.type)
         self.style = sentences.style(form)
-        material: Any = common.active_material(context)
+        material: Any = targets.active_material(context)
         self.has_material = material is not None
         self.scale = look.scale
         self.previewed = False
@@ -55,7 +55,7 @@ class Redraw:
             if self.shown.obstacle is not None:
                 self.measured = last_measurement.get(material, found)
             # Of a scene for Cycles, Material Preview is of another engine than the scene's.
-            self.previewed = not found.flat and bool(common.previews(context))
+            self.previewed = not found.flat and bool(targets.previews(context))
 
     @property
     def format(self) -> text.Format:

@@ -16,7 +16,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ....core.limits import MATCHED_SIGMA_DEGREES
 from ...material import roughness_words, verdict
 from ...preview import balls
-from ..operators import common
+from ..operators import targets
 from . import obstacle, redraw, renewal, sentences, text
 from .icon_values import icon_value
 
@@ -86,7 +86,7 @@ def draw(layout: Any, context: Any) -> None:
         told = "Choose a sample, or open a file that an instrument wrote"
         text.draw(layout, sentences.of(told, "INFO", here.style))
         return
-    material: Any = common.active_material(context)
+    material: Any = targets.active_material(context)
     group, shown = material.rough_spectra, here.shown
     column, inset = _beside_picture(layout, here, shown)
     row_of_balls = balls.icon_ids(shown.uid, shown.facts, here.scale)

@@ -26,7 +26,6 @@ from ....core.numerics.memoized import memoized
 from ...support import discovery
 from ..sample import Sample
 from . import formats
-from .parts import joining, unsaid
 from .parts.document import Document, open_document
 
 __all__ = ["Document", "Reader", "formats", "open_document", "read", "readers"]
@@ -64,6 +63,8 @@ def read(
     InputError
         The file cannot be opened, no format recognizes it, or the one that does finds a fault.
     """
+    from .parts import joining, unsaid  # apart: both and the formats are too much for one step
+
     document = open_document(path, region)
     for reader in readers():
         if reader.sniff(document):

@@ -30,14 +30,14 @@ def poll(context: Any) -> bool:
 
 def draw(layout: Any, context: Any) -> None:
     """Show target and Blender side by side, what the difference means, and what limits it."""
-    from ...operators import common
+    from ...operators import targets
     from .. import redraw, sentences, text
 
     here = redraw.current(context)
     if here.shown is None:
         return
     shown = here.shown
-    material: Any = common.active_material(context)
+    material: Any = targets.active_material(context)
     details = material.rough_spectra.details
     if shown.obstacle is not None:
         text.draw(layout, sentences.obstacle(shown.obstacle, here.style))

@@ -49,10 +49,10 @@ def _draw_measured(
     layout: Any, context: Any, here: redraw.Redraw, shown: redraw.PanelMaterial
 ) -> None:
     from ....material import last_measurement, settled
-    from ...operators import common
+    from ...operators import targets
     from .. import sentences, text
 
-    found = last_measurement.get(common.active_material(context), shown.facts)
+    found = last_measurement.get(targets.active_material(context), shown.facts)
     if found is None or found.delta_e is None:
         return
     predicted = found.predicted

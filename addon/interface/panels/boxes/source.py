@@ -23,10 +23,10 @@ def poll(context: Any) -> bool:
 def draw(layout: Any, context: Any) -> None:
     """Draw source, what the file says of the measurement, and every note."""
     from ....material import snapshot
-    from ...operators import common
+    from ...operators import targets
     from .. import redraw, sentences, text
 
-    material: Any = common.active_material(context)
+    material: Any = targets.active_material(context)
     group, here = material.rough_spectra, redraw.current(context)
     white = snapshot.white(group)
     cited, about, notes = sentences.source(
