@@ -31,5 +31,6 @@ infrared       what a camera sees of lamps in the infrared, with infrared_wanted
                infrared_scene and infrared_file
 cameras        what cameras for the infrared are unless told otherwise
 camera_images  what they saw last, as images of the open file
+through_undo   images stay where undo goes back to a file without them
 thermal        what a thermal camera sees, with thermal_worker and thermal_file
 """

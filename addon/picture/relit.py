@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -216,14 +217,19 @@ def _shown(relit: Relit, pixels: Array) -> Any:
     """Put pixels into the image; into a new one where it is gone, as after an undo."""
     image = images.find(RELIT)
     columns, rows = relit.size
-    space = relit.lights.space
     if image is None or tuple(image.size) != (columns, rows) or not image.is_editable:
-        return images.replace(RELIT, files.image_of(pixels.reshape(rows, columns, 4), RELIT, space))
+        return images.replace(RELIT, partial(_image, relit))
     image.pixels.foreach_set(pixels)
     image.update()
     if _pack not in bpy.app.handlers.save_pre:  # Blender drops it with the file
         bpy.app.handlers.save_pre.append(_pack)
     return image
+
+
+def _image(relit: Relit) -> Any:
+    columns, rows = relit.size
+    pixels = relit.pixels().reshape(rows, columns, 4)
+    return files.image_of(pixels, RELIT, relit.lights.space)
 
 
 def _pack(_path: str) -> None:
