@@ -211,6 +211,23 @@ STATES = {
 }
 
 
+def test_a_roughness_that_nobody_stated_is_called_a_guess():
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    path = Path(bpy.app.tempdir, "chalk.csv")
+    path.write_text("nm,Chalk\n" + "\n".join(f"{nm},0.5" for nm in range(400, 701, 20)))
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(path))
+    page = closed()
+    assert "Roughness is a guess" in page
+    words, numbers = counted(page)
+    assert words <= WORDS
+    assert numbers <= NUMBERS
+    material.rough_spectra.sigma = math.radians(30)
+    assert "Roughness is a guess" not in closed()
+    OPS.choose_sample("EXEC_DEFAULT", sample=BRICK, sigma=math.radians(20))
+    assert "Roughness is a guess" not in closed()
+
+
 @pytest.mark.parametrize("name", STATES)
 def test_one_verdict_in_few_words_and_the_one_thing_to_do(name):
     make, words, remedy = STATES[name]
