@@ -23,6 +23,7 @@ from rough_spectra.addon.material import (
     verdict,
 )
 from rough_spectra.addon.preview import balls, icons, theme
+from rough_spectra.addon.samples import presets
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object
@@ -705,6 +706,15 @@ def test_tooltips_of_the_closed_panel_begin_with_a_plain_sentence(name, monkeypa
         first = re.split(r"[.:;] ", tooltip)[0]
         assert not [word for word in JARGON if word in first], (what, tooltip)
         assert len(first.split()) <= 18, (what, tooltip)
+
+
+def test_the_roughness_that_the_tooltip_names_is_that_of_the_presets():
+    tooltip = bpy.types.Material.bl_rna.properties["rough_spectra"].fixed_type.properties["sigma"]
+    named = dict(re.findall(r"(\d+)° as ([a-z ]+)", tooltip.description.partition("\n")[0]))
+    assert named == {"10": "office paper", "20": "brick", "30": "concrete"}
+    shipped = {"office paper": "paper", "brick": "brick", "concrete": "concrete"}
+    for degrees, what in named.items():
+        assert presets.load(f"everyday/{shipped[what]}").sigma_degrees == float(degrees)
 
 
 @pytest.mark.parametrize("width", range(200, 620, 20))
