@@ -23,7 +23,9 @@ from .snapshot import Snapshot, digest
 from .state import State
 
 Mark = Literal["right", "near", "off", "open"]
-Limit = Literal["nothing", "engine", "lights", "gloss", "white", "gamut", "lambert", "angles"]
+Limit = Literal[
+    "nothing", "engine", "lights", "gloss", "white", "gamut", "scene", "lambert", "angles"
+]
 Remedy = Literal[
     "", "cycles", "rendered", "local", "renew", "wide", "matte", "smoother", "measure", "unmute"
 ]
@@ -35,8 +37,8 @@ _WORKBENCH = "BLENDER_WORKBENCH"
 _WIDE = {WIDE_SPACE, "Linear Rec.2020"}
 _NOTHING = 0.005
 """ΔE00 that is written as 0.00."""
-_GAMUT = 0.05
-"""ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
+_MISSED = 0.05
+"""ΔE00 at the instrument from where on the reading is missed: below, it is rounding."""
 
 Numbers = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
@@ -47,6 +49,7 @@ _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
     "gloss": ("differs: too glossy", "matte"),
     "white": ("differs: beyond white", ""),
     "gamut": ("differs: out of gamut", "wide"),
+    "scene": ("differs: matched to scene", ""),
     "lambert": ("differs: left smooth", ""),
     "angles": ("differs: some angles", ""),
     "nothing": ("differs: unknown", ""),
@@ -142,11 +145,16 @@ def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
         and max(max(lights) - min(lights), last.delta_e_instrument) >= perceptibility.SIDE_BY_SIDE
     ):
         return "lights"
-    if not several and last.delta_e_instrument > _GAMUT:
+    if last.delta_e_instrument > _MISSED:
         # It is the gloss where no color below it reads as the sample.
         if any(IMPOSSIBLE in each for each in last.warnings):
             return "gloss"
-        return "white" if any(map(outside.is_beyond_white, last.warnings)) else "gamut"
+        if any(map(outside.is_beyond_white, last.warnings)):
+            return "white"
+        if any(map(outside.is_of_gamut, last.warnings)):
+            return "gamut"
+        if lights and not several:
+            return "scene"  # the least mean over its directions is not at the instrument
     return "lambert" if last.roughness == 0.0 else "angles"
 
 

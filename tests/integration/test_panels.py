@@ -302,6 +302,21 @@ def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(gr
     assert "Light from the Scene" in sentence_with("Material lambert: this engine leaves")
 
 
+def test_what_the_match_to_the_scene_leaves_open_is_no_matter_of_the_gamut(green):
+    """Brick was said not to be held by a working space that holds it, with a button to widen it."""
+    OPS.assign_preset("EXEC_DEFAULT", preset="everyday/brick", sigma=math.radians(30))
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    missed = json.loads(green.rough_spectra.stamp)["delta_e_instrument"]
+    assert missed > 0.05
+    assert f"so 45°/0° differs by ΔE00 {missed:.2f}" in sentence_with("Matched to the light")
+    assert "rough_spectra.use_wide_gamut" not in drawn()
+    OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/18-cyan", sigma=0.0)
+    assert sentence_with("Limited by the gamut: Linear Rec.709")  # under the same light
+    if hasattr(bpy.data, "colorspace"):
+        assert "rough_spectra.use_wide_gamut" in drawn()
+
+
 def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
     light_and_camera()
     assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}

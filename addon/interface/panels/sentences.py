@@ -40,6 +40,7 @@ _LIMITS: dict[verdict.Limit, str] = {
     "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
     "white": "Limited by white: the sample reads more there than a white material",
     "gamut": "Limited by the gamut: {space} cannot hold this color",
+    "scene": "Matched to the light of the scene, so {place} differs by ΔE00 {apart}",
     "lambert": "Limited by leaving the roughness out, which hardly shows",
     "angles": _ANGLES,
 }
@@ -267,7 +268,11 @@ def _difference(where: str, delta_e: float) -> str:
 
 def _limit(last: derivation.Stamp, apart: verdict.Numbers | None, found: Snapshot) -> str:
     limit = verdict.limit(found, last, apart)
-    return tip_(_LIMITS[limit]).format(space=last.working_space)
+    return tip_(_LIMITS[limit]).format(
+        space=last.working_space,
+        place=_instrument(found.inputs.read_at),
+        apart=f"{last.delta_e_instrument:.2f}",
+    )
 
 
 def _shader(last: derivation.Stamp, found: Snapshot) -> str:
