@@ -29,6 +29,8 @@ OPS = bpy.ops.rough_spectra
 PARAMETERS = bpy.types.UILayout.bl_rna.functions["label"].parameters
 ICONS = {item.identifier: item.value for item in PARAMETERS["icon"].enum_items}
 GREEN = "colorchecker/14-green"
+_ENGINES = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items
+[EEVEE] = [engine.identifier for engine in _ENGINES if "EEVEE" in engine.identifier]
 
 
 class Layout:
@@ -269,7 +271,7 @@ def test_what_was_derived_before_is_not_told_of_a_stale_material(green):
 
 def test_another_engine_is_named_as_what_limits(green):
     in_cycles = float(next(line for line in drawn() if "All angles" in line).split()[-3].strip(","))
-    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    bpy.context.scene.render.engine = EEVEE
     drawn()
     icons._work()
     page = drawn()
@@ -290,7 +292,7 @@ def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(gr
     scene = bpy.context.scene
     assert sentence_with("Model surface")
     assert sentence_with("Material rough")
-    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.render.engine = EEVEE
     assert sentence_with("Target of the model surface")
     assert not sentence_with("Model")
     assert "analyze the scene" in sentence_with("Material lambert: this engine leaves")
@@ -317,6 +319,32 @@ def test_what_the_match_to_the_scene_leaves_open_is_no_matter_of_the_gamut(green
         assert "rough_spectra.use_wide_gamut" in drawn()
 
 
+def test_workbench_is_said_to_show_no_materials(green):
+    bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+    drawn()
+    icons._work()
+    assert sentence_with("Workbench shows no materials")
+    assert "rough_spectra.switch_to_cycles" in drawn()
+
+
+def test_what_was_matched_for_eevee_is_renewed_for_cycles_where_it_says_so(green):
+    light_and_camera()
+    bpy.context.scene.render.engine = EEVEE
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    page = drawn()
+    assert "rough_spectra.renew" not in page
+    bpy.context.scene.render.engine = "CYCLES"
+    assert sentence_with("Matched for Eevee, which shows no roughness")
+    assert "rough_spectra.renew" in drawn()
+    OPS.renew()
+    assert not sentence_with("Matched for Eevee")
+    bpy.context.scene.render.engine = EEVEE  # where Light from the Scene is checked already
+    drawn()
+    icons._work()
+    assert "analyze the scene" in sentence_with("Material lambert: this engine leaves")
+    assert drawn().count("rough_spectra.analyze_scene") == 2
+
+
 def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
     light_and_camera()
     assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
@@ -338,7 +366,7 @@ def test_the_lights_limit_only_where_they_contradict_each_other(green, cold, ins
 
 def test_a_smooth_surface_is_the_same_in_every_engine(green):
     green.rough_spectra.sigma = 0.0
-    for engine in ("CYCLES", "BLENDER_WORKBENCH"):
+    for engine in ("CYCLES", EEVEE):
         bpy.context.scene.render.engine = engine
         drawn()
         icons._work()

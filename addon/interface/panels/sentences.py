@@ -36,6 +36,8 @@ _ANGLES = "Limited by the angles: one roughness for all of them"
 _LIMITS: dict[verdict.Limit, str] = {
     "nothing": "Limited by nothing",
     "engine": "Limited by the engine: only Cycles shows the roughness",
+    "solid": "Workbench shows no materials, only their viewport colors; the numbers are of Eevee",
+    "flat": "Matched for Eevee, which shows no roughness: renew it for Cycles",
     "lights": "Limited by the lights: no single color is right under all of them",
     "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
     "white": "Limited by white: the sample reads more there than a white material",
@@ -278,7 +280,7 @@ def _limit(last: derivation.Stamp, apart: verdict.Numbers | None, found: Snapsho
 def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     if last.roughness == 0.0 or not found.flat:
         return last.shader_reason
-    if found.analyzed:
+    if found.analyzed and not found.inputs.scene_view:
         return tip_(
             "lambert: this engine leaves the roughness out; check Light from the Scene for the "
             "closest color"
