@@ -71,8 +71,16 @@ _NEARLY: dict[Limit, str] = {
     "engine": "Eevee lacks roughness",
     "flat": "matched for Eevee, flat",
     "gloss": "slightly too glossy",
+    "white": "slightly beyond white",
+    "gamut": "slightly out of gamut",
+    "lights": "slightly off: several lights",
+    "scene": "slightly off: matched to scene",
+    "lambert": "slightly off: left smooth",
+    "angles": "slightly off at some angles",
 }
-"""What is said of these where the difference is small: what to do is plain then."""
+"""What is said of these where the difference is small: where it is, or what it comes from."""
+
+_SLIGHTLY = "slightly off"
 
 
 class Verdict(NamedTuple):
@@ -81,7 +89,7 @@ class Verdict(NamedTuple):
     Parameters
     ----------
     mark
-        "right", "near": visible side by side, "off", or "open" where nothing is predicted.
+        "right", "near": seen beside the sample only, "off", or "open" where nothing is predicted.
     words
         An English label, to be translated.
     remedy
@@ -198,7 +206,7 @@ def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
         remedy = ""
     near = seen < perceptibility.VISIBLE
     if near:
-        words = _NEARLY.get(why, perceptibility.words(seen))
+        words = _NEARLY.get(why, _SLIGHTLY)
     return Verdict("near" if near else "off", words, remedy)
 
 
@@ -226,7 +234,7 @@ def _measured(last: LastMeasurement | None) -> Verdict:
     if last.delta_e >= perceptibility.VISIBLE:
         return Verdict("off", "measured: differs", "measure")
     near = last.delta_e >= perceptibility.SIDE_BY_SIDE
-    words = perceptibility.words(last.delta_e) if near else "looks right"
+    words = _SLIGHTLY if near else "looks right"
     if last.unlike:
         return Verdict("open", f"measured flat: {words}")
     return Verdict("near" if near else "right", f"measured: {words}")

@@ -140,7 +140,7 @@ def test_a_fresh_material_shows_everything(green):
         assert wanted in page
     assert "rough_spectra.choose_sample: ColorChecker 14 Green" in page
     assert "45°/0°: ΔE00 0.00, not visible" in page
-    assert any(line.startswith("Limited by") for line in page)
+    assert any(line.startswith("What differs: slanting light, mostly") for line in page)
     assert not any("rough_spectra.renew" in line for line in page)
     assert any("BSD-3-Clause" in line for line in page)
 
@@ -299,7 +299,7 @@ def test_under_an_engine_without_roughness_the_sentences_are_of_what_it_shows(gr
     light_and_camera()
     assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
     assert "right for its scene" in sentence_with("Material lambert: the render engine ignores")
-    assert sentence_with("Limited by the engine")
+    assert sentence_with("What differs: only Cycles shows")
     green.rough_spectra.use_scene = False
     assert "Light from the Scene" in sentence_with("Material lambert: this engine leaves")
 
@@ -314,7 +314,7 @@ def test_what_the_match_to_the_scene_leaves_open_is_no_matter_of_the_gamut(green
     assert f"so 45°/0° differs by ΔE00 {missed:.2f}" in sentence_with("Matched to the light")
     assert "rough_spectra.use_wide_gamut" not in drawn()
     OPS.assign_preset("EXEC_DEFAULT", preset="colorchecker/18-cyan", sigma=0.0)
-    assert sentence_with("Limited by the gamut: Linear Rec.709")  # under the same light
+    assert sentence_with("What differs: Linear Rec.709")  # under the same light
     if hasattr(bpy.data, "colorspace"):
         assert "rough_spectra.use_wide_gamut" in drawn()
 
@@ -355,13 +355,13 @@ def test_the_scene_of_an_analysis_is_named_where_it_is_another(green):
 
 @pytest.mark.parametrize(
     ("cold", "instrument", "limit"),
-    [(2.9, 0.0, "lights"), (2.1, 1.8, "lights"), (2.1, 0.2, "angles")],
+    [(2.9, 0.0, "no one color"), (2.1, 1.8, "no one color"), (2.1, 0.2, "slanting light")],
 )
 def test_the_lights_limit_only_where_they_contradict_each_other(green, cold, instrument, limit):
     found = json.loads(green.rough_spectra.stamp)
     found |= {"delta_e_lights": [["Warm", 2.0], ["Cold", cold]], "delta_e_instrument": instrument}
     green.rough_spectra.stamp = json.dumps(found)
-    assert sentence_with(f"Limited by the {limit}")
+    assert sentence_with(f"What differs: {limit}")
 
 
 def test_a_smooth_surface_is_the_same_in_every_engine(green):
@@ -370,7 +370,7 @@ def test_a_smooth_surface_is_the_same_in_every_engine(green):
         bpy.context.scene.render.engine = engine
         drawn()
         icons._work()
-        assert sentence_with("Limited by nothing")
+        assert sentence_with("Nothing differs")
         assert sentence_with("Material lambert: within ΔE00 1 in all directions, at most 0.00")
 
 

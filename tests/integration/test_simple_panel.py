@@ -7,6 +7,7 @@ import re
 import types
 from dataclasses import replace
 from pathlib import Path
+from typing import get_args
 
 import bpy
 import pytest
@@ -17,6 +18,7 @@ from rough_spectra.addon.matching.request import Request
 from rough_spectra.addon.material import (
     derive,
     last_measurement,
+    settled,
     snapshot,
     state,
     storage,
@@ -240,7 +242,7 @@ def test_the_remedy_makes_it_look_right(name):
     ("delta_e", "words"),
     [
         (0.1, "right: measured: looks right"),
-        (1.5, "near: measured: visible side by side"),
+        (1.5, "near: measured: slightly off"),
         (4.0, "off: measured: differs"),
     ],
 )
@@ -326,6 +328,25 @@ def test_what_is_matched_for_eevee_says_so_under_every_engine():
     apply(remedy)
     assert judged()[0] == "right: looks right"
     assert shader(material).inputs["Roughness"].default_value > 0.1
+
+
+LIMITS = [limit for limit in get_args(verdict.Limit) if limit not in {"nothing", "solid"}]
+
+
+@pytest.mark.parametrize("limit", LIMITS)
+def test_a_small_difference_never_goes_without_what_it_comes_from(limit, monkeypatch):
+    """It said "visible side by side": nobody knew beside what."""
+    wall()
+    monkeypatch.setattr(verdict, "limit", lambda *_: limit)
+    monkeypatch.setattr(icons, "differences", lambda *_: (1.2, 1.2, 1.5))
+    monkeypatch.setattr(settled, "numbers", lambda *_: None)
+    told, _ = judged()
+    assert told.startswith("near: ")
+    assert not told.endswith("slightly off")
+    assert "side by side" not in told
+    assert counted(closed())[0] <= WORDS
+    said = next(line for line in drawn() if line.startswith(("What differs: ", "Matched ")))
+    assert "Limited" not in said
 
 
 def test_without_a_sample_there_is_one_thing_to_do():

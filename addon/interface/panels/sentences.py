@@ -32,18 +32,21 @@ SWATCHES = 98.0
 
 _EVERYWHERE = "All angles, mean"
 _BOX = 24.0
-_ANGLES = "Limited by the angles: one roughness for all of them"
+_ANGLES = (
+    "What differs: slanting light, mostly, for Cycles has one roughness for all angles; only a "
+    "smaller Roughness comes closer"
+)
 _LIMITS: dict[verdict.Limit, str] = {
-    "nothing": "Limited by nothing",
-    "engine": "Limited by the engine: only Cycles shows the roughness",
+    "nothing": "Nothing differs",
+    "engine": "What differs: only Cycles shows the roughness",
     "solid": "Workbench shows no materials, only their viewport colors; the numbers are of Eevee",
     "flat": "Matched for Eevee, which shows no roughness: renew it for Cycles",
-    "lights": "Limited by the lights: no single color is right under all of them",
-    "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
-    "white": "Limited by white: the sample reads more there than a white material",
-    "gamut": "Limited by the gamut: {space} cannot hold this color",
+    "lights": "What differs: no one color is right under lights of several colors",
+    "gloss": "What differs: gloss outshines the color below it, or lets too little of it pass",
+    "white": "What differs: the sample reads more there than a white material",
+    "gamut": "What differs: {space} cannot hold this color",
     "scene": "Matched to the light of the scene, so {place} differs by ΔE00 {apart}",
-    "lambert": "Limited by leaving the roughness out, which hardly shows",
+    "lambert": "What differs: the roughness was left out; a smaller Tolerance keeps it",
     "angles": _ANGLES,
 }
 _DAMAGED = (
