@@ -388,13 +388,25 @@ def test_what_another_node_sets_is_not_compared(green):
 
 
 def test_no_two_lines_sound_as_if_they_contradicted_each_other(green):
-    """What looks right may be off where it slants: in what share of directions is said first."""
+    """What looks right may be off where it slants: what is right is said first."""
     OPS.assign_preset("EXEC_DEFAULT", preset="everyday/brick", sigma=math.radians(20))
     page = " ".join(drawn())
     assert "All angles, mean: ΔE00 0.51, not visible" in page
-    [share] = re.findall(r"off by more than ΔE00 1 in (\d+) % of directions, all slanting", page)
+    [(most, share)] = re.findall(
+        r"Material rough: looks right from the front; at slanting angles up to ΔE00 (\S+) "
+        r"\((\d+) % of directions\); without roughness up to \d",
+        page,
+    )
     assert int(share) < 15
+    reason = json.loads(green.rough_spectra.stamp)["shader_reason"]
+    assert f"in {share} % of directions, all slanting, at most {most};" in reason
+    assert "off by more than" not in page
     assert "worst" not in page
+    stamp = green.rough_spectra.stamp
+    wider = reason.replace("more than ΔE00 1 in", "more than ΔE00 2.5 in")
+    green.rough_spectra.stamp = json.dumps(json.loads(stamp) | {"shader_reason": wider})
+    assert "rough: within ΔE00 2.5 from the front; at slanting" in " ".join(drawn())
+    green.rough_spectra.stamp = stamp
     green.rough_spectra.gloss = 0.5
     page = " ".join(drawn())
     assert len(re.findall("kept|stays as it is set", page)) == 1  # said once

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -49,6 +50,11 @@ _LIMITS: dict[verdict.Limit, str] = {
     "lambert": "What differs: the roughness was left out; a smaller Tolerance keeps it",
     "angles": _ANGLES,
 }
+_SLANTING = re.compile(
+    r"off by more than ΔE00 (?P<least>\S+) in (?P<share>\d+) % of directions, all slanting, "
+    r"at most (?P<most>[\d.]+)"
+)
+"""What `core.choice` says of a material that is off at slanting angles alone; so do stamps."""
 _DAMAGED = (
     *(ValueError, TypeError, AttributeError, KeyError, RecursionError, OverflowError),
     RoughSpectraError,
@@ -282,7 +288,7 @@ def _limit(last: derivation.Stamp, apart: verdict.Numbers | None, found: Snapsho
 
 def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     if last.roughness == 0.0 or not found.flat:
-        return last.shader_reason
+        return _SLANTING.sub(_from_the_front, last.shader_reason)
     if found.analyzed and not found.inputs.scene_view:
         return tip_(
             "lambert: this engine leaves the roughness out; check Light from the Scene for the "
@@ -291,6 +297,16 @@ def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     return tip_(
         "lambert: this engine leaves the roughness out; analyze the scene for the closest color"
     )
+
+
+def _from_the_front(told: re.Match[str]) -> str:
+    """Say first what is right: the few angles that are off are hardly seen."""
+    least = float(told["least"])
+    front = "looks right" if least < perceptibility.VISIBLE else f"within ΔE00 {least:g}"
+    text = tip_(
+        "{front} from the front; at slanting angles up to ΔE00 {most} ({share} % of directions)"
+    )
+    return text.format(front=tip_(front), most=told["most"], share=told["share"])
 
 
 def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:
