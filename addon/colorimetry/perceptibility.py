@@ -16,9 +16,9 @@ VISIBLE = 2.0
 
 
 def words(delta_e: float) -> str:
-    """Say whether people see a ΔE00: "not visible", "visible side by side" or "visible"."""
+    """Say whether people see a ΔE00: "not visible", "visible beside the sample" or "visible"."""
     if math.isnan(delta_e):
         return "unknown"
     if delta_e < SIDE_BY_SIDE:
         return "not visible"
-    return "visible side by side" if delta_e < VISIBLE else "visible"
+    return "visible beside the sample" if delta_e < VISIBLE else "visible"

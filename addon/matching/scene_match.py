@@ -30,6 +30,7 @@ from ...core.numerics.memoized import memoized
 from ..colorimetry.perceptibility import SIDE_BY_SIDE
 from ..colorimetry.rgb_space import WorkingSpace, matrix_of
 from . import glossy
+from . import outside as outside_words
 from .scene_view import SceneLight, SceneView
 
 _ELSEWHERE = 12
@@ -226,15 +227,9 @@ def gamut(name: str, target: Array, space: WorkingSpace, read: Array) -> str:
     channel = int(np.argmax(outside))
     if outside[channel] <= _ENOUGH:
         return ""
-    if target[channel] > 1 and read.max() > 1 + _ENOUGH:
-        return (
-            f"{name!r} reads up to {read.max():.4f}, more than a perfect diffuser: its reading "
-            f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."
-        )
-    return (
-        f"{name!r} lies outside the gamut of {space.name} under the scene's light: its reading "
-        f"needs {'RGB'[channel]} = {target[channel]:.4f}; the nearest color was taken."
-    )
+    value, peak = float(target[channel]), float(read.max())
+    beyond = value > 1 and peak > 1 + _ENOUGH
+    return outside_words.in_scene(name, space.name, "RGB"[channel], value, peak, beyond)
 
 
 def promised(

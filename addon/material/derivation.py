@@ -126,6 +126,23 @@ def inputs_digest(group: Any) -> str:
     return snapshot.digest(snapshot.inputs(group))
 
 
+def is_current(stamp: Stamp, found: Inputs) -> bool:
+    """Whether a stamp is of spectrum and settings as they are.
+
+    Which engine it was matched for is no setting: what is in the node is right or not as before,
+    whichever engine shows it.
+    """
+    either = (found, found._replace(flat=not found.flat)) if found.scene_view else (found,)
+    return stamp.inputs in map(snapshot.digest, either)
+
+
+def matched_flat(stamp: Stamp) -> bool | None:
+    """Whether it was matched for an engine without roughness; None where there was no scene."""
+    engine = dict(stamp.settings).get(_ENGINE)
+    return None if engine is None else engine == snapshot.engine_words(True)
+
+
+_ENGINE = "render engine"
 _NUMBERS = ("roughness", "delta_e_instrument", "delta_e_mean", "delta_e_95")
 
 
@@ -134,7 +151,7 @@ def _scene_settings(found: Inputs) -> dict[str, str]:
         return {"light": "the illuminant's"}
     analysis = hashlib.sha256(found.scene_view.encode()).hexdigest()[:6]
     engine = snapshot.engine_words(found.flat)
-    return {"light": f"the scene's (analysis {analysis})", "render engine": engine}
+    return {"light": f"the scene's (analysis {analysis})", _ENGINE: engine}
 
 
 _TEXTS = (

@@ -17,7 +17,15 @@ from ..matching import other_readings, shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import dragged_picture, read_gloss, snapshot, solid_color, storage, textures
+from . import (
+    derivation,
+    dragged_picture,
+    read_gloss,
+    snapshot,
+    solid_color,
+    storage,
+    textures,
+)
 from .changes import Derived, Solved
 from .snapshot import Snapshot
 
@@ -189,7 +197,7 @@ def follow(pairs: Sequence[tuple[Any, Any]]) -> None:
         as it was evaluated.
     """
     try:
-        _renew(pairs, look_again=False)
+        _renew(pairs, look_again=False, follows=True)
     except RoughSpectraError as error:
         if len(pairs) == 1:
             pairs[0][0].rough_spectra.error = str(error)
@@ -210,7 +218,7 @@ def follow_setting(material: Any, known: Snapshot) -> Derived:
         Its facts since the change.
     """
     try:
-        place, request = _stored(material, material)
+        place, request = _followed(_stored(material, material))
         work = [(place, request)]
         space, solutions = _solve(work)
         [solution] = _told_of_sets(work, solutions, space)
@@ -241,14 +249,16 @@ def follow_settings(pairs: Sequence[tuple[Any, Snapshot]]) -> list[Derived]:
     solved: dict[tuple[Any, ...], Solved | None] = {}
     for material, known in pairs:
         surface = known.surface
-        key = known.inputs, surface and (surface.gloss, surface.shader)
+        last = derivation.parse(known.stamp)
+        for_flat = last and derivation.matched_flat(last)
+        key = known.inputs, for_flat, surface and (surface.gloss, surface.shader)
         found = solved.get(key)
         if found is None or surface is None or surface.linked or surface.scaled:
             done.append(follow_setting(material, known))
             solved[key] = done[-1].solved
             continue
         try:
-            place, request = _stored(material, material)
+            place, request = _followed(_stored(material, material))
         except RoughSpectraError as error:
             material.rough_spectra.error = str(error)
             continue
@@ -267,7 +277,8 @@ def _follow(
     request, written = found
     material = place.material
     node = _write(place, written, palette)
-    text = storage.set_stamp(material, written, space.name, node, known.inputs, request.gloss)
+    inputs = known.inputs._replace(flat=request.flat)
+    text = storage.set_stamp(material, written, space.name, node, inputs, request.gloss)
     if place.make or known.surface is None:
         return snapshot.of(material)
     surface = shader_nodes.written(known.surface, written.color, written.roughness)
@@ -279,8 +290,11 @@ def _renew(
     keep_gloss: bool = True,
     look_again: bool = True,
     looked: textures.Looked | None = None,
+    follows: bool = False,
 ) -> list[Solution]:
     work = [_stored(material, source, keep_gloss=keep_gloss) for material, source in pairs]
+    if follows:
+        work = list(map(_followed, work))
     space, solutions = _solve(work)
     solutions = _told_of_sets(work, solutions, space)
     palettes, solutions, written = textures.scaled(work, solutions, space, look_again, looked)
@@ -288,7 +302,7 @@ def _renew(
     for (place, request), solution, palette, (_, source) in together:
         if not keep_gloss:
             shader_nodes.remove_gloss(place)
-        inputs = snapshot.inputs(source.rough_spectra)
+        inputs = snapshot.inputs(source.rough_spectra)._replace(flat=request.flat)
         node = _write(place, solution, palette)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)
     return solutions
@@ -300,6 +314,17 @@ def _stored(
     request = storage.load(source, view)  # first: it refuses a shader that is none
     place = shader_nodes.find(material, source.rough_spectra.shader, keep_gloss)
     return _under_gloss(place, request, keep_gloss)
+
+
+def _followed(
+    work: tuple[shader_nodes.SocketTarget, Request],
+) -> tuple[shader_nodes.SocketTarget, Request]:
+    """Leave what was matched to a scene for Cycles to Cycles, whichever engine is on meanwhile."""
+    place, request = work
+    last = derivation.get_stamp(place.material)
+    if not request.flat or last is None or derivation.matched_flat(last) is not False:
+        return work
+    return place, replace(request, flat=False)
 
 
 def _under_gloss(

@@ -86,7 +86,8 @@ def animated(depsgraph: Any) -> list[tuple[Any, Any]]:
             continue
         evaluated = material.evaluated_get(depsgraph)
         last = derivation.get_stamp(material)
-        if last is None or last.inputs == derivation.inputs_digest(evaluated.rough_spectra):
+        now = snapshot.inputs(evaluated.rough_spectra)
+        if last is None or derivation.is_current(last, now):
             continue
         if state.follows(snapshot.of(material)):
             found.append((material, evaluated))

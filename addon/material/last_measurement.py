@@ -66,7 +66,7 @@ def _fingerprint(found: Snapshot) -> str:
     surface = found.surface
     sockets = () if surface is None else (*surface.color, surface.roughness)
     told = (
-        snapshot.digest(found.inputs),
+        snapshot.digest(found.inputs._replace(flat=False)),  # it is Cycles that measures
         found.working_space,
         *(f"{value:.7f}" for value in sockets),
         *_besides(surface),

@@ -101,7 +101,7 @@ def derived(found: Snapshot) -> Stamp | None:
     last = derivation.parse(found.stamp)
     if last is None or last.kept or last.derivation != derivation.DERIVATION:
         return None
-    return last if last.inputs == snapshot.digest(found.inputs) else None
+    return last if derivation.is_current(last, found.inputs) else None
 
 
 def numbers(found: Snapshot, flat: bool) -> Differences | None:
@@ -113,7 +113,7 @@ def numbers(found: Snapshot, flat: bool) -> Differences | None:
     last = known.stamp
     if found.surface is not None and found.surface.scaled:
         return None  # of a texture there is no one color to compare
-    if last is None or known.kind != "fresh" or (flat and not found.inputs.scene_view):
+    if last is None or known.kind != "fresh" or (flat and last.roughness > 0.0):
         return None
     return last.delta_e_instrument, last.delta_e_mean, last.delta_e_95
 

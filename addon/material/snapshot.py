@@ -26,6 +26,9 @@ _FIRST_TOLERANCE = 1.0
 
 _FLAT_ENGINES = {"BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"}
 
+KNOWN_ENGINES = _FLAT_ENGINES | {"CYCLES", ""}
+"""Engines of which is known what they show of a material; the last is of no scene."""
+
 _KEPT = 1024
 """Materials whose answers are kept; with an analyzed scene one has about 7 kB of texts."""
 

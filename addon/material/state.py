@@ -22,6 +22,8 @@ from .derivation import (
     DERIVATION,
     WHAT_CHANGED,
     Stamp,
+    is_current,
+    matched_flat,
     parse,
     settings,
 )
@@ -176,9 +178,10 @@ def _stale_reasons(found: Snapshot) -> list[str]:
 
 
 def _changed_inputs(found: Inputs, stamp: Stamp) -> list[str]:
-    if stamp.inputs == snapshot.digest(found):
+    if is_current(stamp, found):
         return []
-    before, now = dict(stamp.settings), settings(found)
+    as_matched = found._replace(flat=bool(matched_flat(stamp)))
+    before, now = dict(stamp.settings), settings(as_matched)
     if before:
         # An older stamp knows no others.
         before.setdefault("white", _PERFECT)

@@ -16,14 +16,26 @@ from ...core.limits import MATCHED_SIGMA_DEGREES
 from ..colorimetry import perceptibility
 from ..matching import outside
 from . import settled, state
-from .derivation import DERIVATION, Stamp
+from .derivation import DERIVATION, Stamp, is_current, matched_flat
 from .last_measurement import LastMeasurement
 from .properties import SCHEMA
-from .snapshot import Snapshot, digest
+from .snapshot import KNOWN_ENGINES, Snapshot
 from .state import State
 
 Mark = Literal["right", "near", "off", "open"]
-Limit = Literal["nothing", "engine", "lights", "gloss", "white", "gamut", "lambert", "angles"]
+Limit = Literal[
+    "nothing",
+    "engine",
+    "lights",
+    "gloss",
+    "white",
+    "gamut",
+    "scene",
+    "lambert",
+    "angles",
+    "flat",
+    "solid",
+]
 Remedy = Literal[
     "", "cycles", "rendered", "local", "renew", "wide", "matte", "smoother", "measure", "unmute"
 ]
@@ -35,25 +47,40 @@ _WORKBENCH = "BLENDER_WORKBENCH"
 _WIDE = {WIDE_SPACE, "Linear Rec.2020"}
 _NOTHING = 0.005
 """ΔE00 that is written as 0.00."""
-_GAMUT = 0.05
-"""ΔE00 at the instrument from where on the gamut is what limits: below, it is rounding."""
+_MISSED = 0.05
+"""ΔE00 at the instrument from where on the reading is missed: below, it is rounding."""
 
 Numbers = tuple[float, float, float]
 """ΔE00 at the instrument, and mean and 95th percentile over all angles."""
 
 _DIFFERS: dict[Limit, tuple[str, Remedy]] = {
+    "solid": ("Workbench shows no materials", "cycles"),
     "engine": ("differs: Eevee lacks roughness", "cycles"),
+    "flat": ("matched for Eevee, flat", "renew"),
     "lights": ("differs: several lights", ""),
     "gloss": ("differs: too glossy", "matte"),
     "white": ("differs: beyond white", ""),
     "gamut": ("differs: out of gamut", "wide"),
+    "scene": ("differs: matched to scene", ""),
     "lambert": ("differs: left smooth", ""),
     "angles": ("differs: some angles", ""),
     "nothing": ("differs: unknown", ""),
 }
 
-_NEARLY: dict[Limit, str] = {"engine": "Eevee lacks roughness", "gloss": "slightly too glossy"}
-"""What is said of these where the difference is small: what to do is plain then."""
+_NEARLY: dict[Limit, str] = {
+    "engine": "Eevee lacks roughness",
+    "flat": "matched for Eevee, flat",
+    "gloss": "slightly too glossy",
+    "white": "slightly beyond white",
+    "gamut": "slightly out of gamut",
+    "lights": "slightly off: several lights",
+    "scene": "slightly off: matched to scene",
+    "lambert": "slightly off: left smooth",
+    "angles": "slightly off at some angles",
+}
+"""What is said of these where the difference is small: where it is, or what it comes from."""
+
+_SLIGHTLY = "slightly off"
 
 
 class Verdict(NamedTuple):
@@ -62,7 +89,7 @@ class Verdict(NamedTuple):
     Parameters
     ----------
     mark
-        "right", "near": visible side by side, "off", or "open" where nothing is predicted.
+        "right", "near": seen beside the sample only, "off", or "open" where nothing is predicted.
     words
         An English label, to be translated.
     remedy
@@ -130,9 +157,14 @@ def _scaled(found: Snapshot, last: Stamp | None) -> Verdict:
 
 def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
     """Say what keeps the match of a material that is up to date from being better."""
+    if found.engine == _WORKBENCH:
+        return "solid"
+    is_flat = bool(matched_flat(last)) and found.inputs.sigma_degrees > 0.0
+    if is_flat and not found.flat:
+        return "flat"
     if apart is not None and max(apart) < _NOTHING:
         return "nothing"
-    if found.flat and (last.roughness > 0.0 or found.inputs.scene_view):
+    if found.flat and (last.roughness > 0.0 or is_flat):
         return "engine"
     lights = [delta_e for _, delta_e in last.delta_e_lights]
     several = len(lights) > 1
@@ -142,11 +174,16 @@ def limit(found: Snapshot, last: Stamp, apart: Numbers | None) -> Limit:
         and max(max(lights) - min(lights), last.delta_e_instrument) >= perceptibility.SIDE_BY_SIDE
     ):
         return "lights"
-    if not several and last.delta_e_instrument > _GAMUT:
+    if last.delta_e_instrument > _MISSED:
         # It is the gloss where no color below it reads as the sample.
         if any(IMPOSSIBLE in each for each in last.warnings):
             return "gloss"
-        return "white" if any(map(outside.is_beyond_white, last.warnings)) else "gamut"
+        if any(map(outside.is_beyond_white, last.warnings)):
+            return "white"
+        if any(map(outside.is_of_gamut, last.warnings)):
+            return "gamut"
+        if lights and not several:
+            return "scene"  # the least mean over its directions is not at the instrument
     return "lambert" if last.roughness == 0.0 else "angles"
 
 
@@ -154,18 +191,22 @@ def _judged(found: Snapshot, last: Stamp, apart: Numbers) -> Verdict:
     if last.sigma_max is not None and last.sigma_max < found.inputs.sigma_degrees:
         # However well it is matched: no surface this rough reads so.
         return Verdict("off", "brighter than possible", "smoother")
-    seen = max(apart[:2])
-    if seen < perceptibility.SIDE_BY_SIDE:
-        return Verdict("right", "looks right")
-    why = limit(found, last, apart)
+    seen, why = max(apart[:2]), limit(found, last, apart)
     words, remedy = _DIFFERS[why]
+    if why == "solid":
+        return Verdict("open", words, remedy)
+    if found.engine not in KNOWN_ENGINES:
+        return Verdict("open", "engine not predicted", "cycles")
+    if seen < perceptibility.SIDE_BY_SIDE:
+        if matched_flat(last) and why in {"engine", "flat"}:
+            # Right for its scene, and yet not as rough as stands above.
+            return Verdict("near", _NEARLY["flat"], remedy)
+        return Verdict("right", "looks right")
     if remedy == "wide" and not has_wider_space(found.working_space):
         remedy = ""
     near = seen < perceptibility.VISIBLE
     if near:
-        words = _NEARLY.get(why, perceptibility.words(seen))
-    if found.engine == _WORKBENCH:  # by its name: the roughness is there, and the engine lacks it
-        words = words.replace("Eevee", "Workbench")
+        words = _NEARLY.get(why, _SLIGHTLY)
     return Verdict("near" if near else "off", words, remedy)
 
 
@@ -193,7 +234,7 @@ def _measured(last: LastMeasurement | None) -> Verdict:
     if last.delta_e >= perceptibility.VISIBLE:
         return Verdict("off", "measured: differs", "measure")
     near = last.delta_e >= perceptibility.SIDE_BY_SIDE
-    words = perceptibility.words(last.delta_e) if near else "looks right"
+    words = _SLIGHTLY if near else "looks right"
     if last.unlike:
         return Verdict("open", f"measured flat: {words}")
     return Verdict("near" if near else "right", f"measured: {words}")
@@ -221,7 +262,7 @@ def _stale(found: Snapshot, last: Stamp | None, measured: LastMeasurement | None
         return Verdict("off", "of another version", "renew")
     if state.edited(surface, last):
         return Verdict("off", "edited by hand", "renew")
-    if last.inputs != digest(found.inputs):
+    if not is_current(last, found.inputs):
         return Verdict("off", "settings changed", "renew")
     return Verdict("off", "gloss changed", "renew")
 

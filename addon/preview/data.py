@@ -55,7 +55,7 @@ def of_derived(done: Derived, solved: Solved) -> tuple[Data, Differences]:
     flat = done.known.flat
     shader = settled.shader(done.material, done.known)
     apart = solution.delta_e_instrument, solution.delta_e_mean, solution.delta_e_95
-    if flat and request.scene is None:  # what was matched is for an engine that knows roughness
+    if flat and solution.roughness > 0:  # what was matched is for an engine that knows roughness
         apart = settled.predicted(request, shader, space, flat)
     return _shown(request, shader, space, flat), apart
 

@@ -380,8 +380,8 @@ def test_words_follow_the_thresholds():
     assert [perceptibility.words(x) for x in (0, 0.79, 0.8, 1.9, 2.0, 30, float("nan"))] == [
         "not visible",
         "not visible",
-        "visible side by side",
-        "visible side by side",
+        "visible beside the sample",
+        "visible beside the sample",
         "visible",
         "visible",
         "unknown",

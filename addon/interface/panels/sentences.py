@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -32,17 +33,28 @@ SWATCHES = 98.0
 
 _EVERYWHERE = "All angles, mean"
 _BOX = 24.0
-_ANGLES = "Limited by the angles: one roughness for all of them"
+_ANGLES = (
+    "What differs: slanting light, mostly, for Cycles has one roughness for all angles; only a "
+    "smaller Roughness comes closer"
+)
 _LIMITS: dict[verdict.Limit, str] = {
-    "nothing": "Limited by nothing",
-    "engine": "Limited by the engine: only Cycles shows the roughness",
-    "lights": "Limited by the lights: no single color is right under all of them",
-    "gloss": "Limited by the gloss: it outshines the color below, or lets too little of it pass",
-    "white": "Limited by white: the sample reads more there than a white material",
-    "gamut": "Limited by the gamut: {space} cannot hold this color",
-    "lambert": "Limited by leaving the roughness out, which hardly shows",
+    "nothing": "Nothing differs",
+    "engine": "What differs: only Cycles shows the roughness",
+    "solid": "Workbench shows no materials, only their viewport colors; the numbers are of Eevee",
+    "flat": "Matched for Eevee, which shows no roughness: renew it for Cycles",
+    "lights": "What differs: no one color is right under lights of several colors",
+    "gloss": "What differs: gloss outshines the color below it, or lets too little of it pass",
+    "white": "What differs: the sample reads more there than a white material",
+    "gamut": "What differs: {space} cannot hold this color",
+    "scene": "Matched to the light of the scene, so {place} differs by ΔE00 {apart}",
+    "lambert": "What differs: the roughness was left out; a smaller Tolerance keeps it",
     "angles": _ANGLES,
 }
+_SLANTING = re.compile(
+    r"off by more than ΔE00 (?P<least>\S+) in (?P<share>\d+) % of directions, all slanting, "
+    r"at most (?P<most>[\d.]+)"
+)
+"""What `core.choice` says of a material that is off at slanting angles alone; so do stamps."""
 _DAMAGED = (
     *(ValueError, TypeError, AttributeError, KeyError, RecursionError, OverflowError),
     RoughSpectraError,
@@ -267,13 +279,17 @@ def _difference(where: str, delta_e: float) -> str:
 
 def _limit(last: derivation.Stamp, apart: verdict.Numbers | None, found: Snapshot) -> str:
     limit = verdict.limit(found, last, apart)
-    return tip_(_LIMITS[limit]).format(space=last.working_space)
+    return tip_(_LIMITS[limit]).format(
+        space=last.working_space,
+        place=_instrument(found.inputs.read_at),
+        apart=f"{last.delta_e_instrument:.2f}",
+    )
 
 
 def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     if last.roughness == 0.0 or not found.flat:
-        return last.shader_reason
-    if found.analyzed:
+        return _SLANTING.sub(_from_the_front, last.shader_reason)
+    if found.analyzed and not found.inputs.scene_view:
         return tip_(
             "lambert: this engine leaves the roughness out; check Light from the Scene for the "
             "closest color"
@@ -281,6 +297,16 @@ def _shader(last: derivation.Stamp, found: Snapshot) -> str:
     return tip_(
         "lambert: this engine leaves the roughness out; analyze the scene for the closest color"
     )
+
+
+def _from_the_front(told: re.Match[str]) -> str:
+    """Say first what is right: the few angles that are off are hardly seen."""
+    least = float(told["least"])
+    front = "looks right" if least < perceptibility.VISIBLE else f"within ΔE00 {least:g}"
+    text = tip_(
+        "{front} from the front; at slanting angles up to ΔE00 {most} ({share} % of directions)"
+    )
+    return text.format(front=tip_(front), most=told["most"], share=told["share"])
 
 
 def _details(text: str) -> tuple[list[tuple[str, str]], list[str]]:

@@ -69,10 +69,13 @@ def _draw_remedies(
     limit = "" if last is None else verdict.limit(shown.facts, last, apart)
     wide = here.format.width() >= _NARROWEST
     row = layout.row(align=True) if wide else layout.column(align=True)
-    if limit == "engine":
+    if limit in {"engine", "solid"}:
         row.operator("rough_spectra.switch_to_cycles")
-        if not shown.facts.analyzed:
+        # Where it follows the scene, it may have been matched to it for Cycles.
+        if not shown.facts.analyzed or (last is not None and last.roughness > 0.0):
             row.operator("rough_spectra.analyze_scene").scope = "VIEW"
+    elif limit == "flat":
+        row.operator("rough_spectra.renew").scope = "ACTIVE"
     elif limit == "gamut" and verdict.has_wider_space(shown.facts.working_space):
         row.operator("rough_spectra.use_wide_gamut")
 
