@@ -454,3 +454,50 @@ def test_the_dialog_for_a_file_to_read_does_not_begin_with_the_scenes_name(tmp_p
     operators = Path(common.__file__).parent.glob("*.py")
     own = {path.stem for path in operators if "fileselect_add" in path.read_text("utf-8")}
     assert own == {"common", "build_assets"}  # a folder
+
+
+class Recorder:
+    """A layout that keeps what is read in it, and whether that is red."""
+
+    def __init__(self, page):
+        vars(self).update(page=page, alert=False, alignment="")
+
+    def row(self, **_options):
+        return Recorder(self.page)
+
+    column = split = row
+
+    def label(self, *, text="", **_options):
+        self.page.append((text, self.alert))
+
+    def prop(self, *_words, **_options):
+        pass
+
+    template_list = template_icon = prop
+
+
+def drawn_search(**found):
+    """What the dialog of *Find Sample by Color* shows, as (text, whether red)."""
+    from rough_spectra.addon.interface.operators import find_nearest
+
+    page = []
+    told = {"fault": "", "picture": 0, "apart": "", "palette": "", "matches": [], "index": 0}
+    unset = SimpleNamespace(is_property_set=lambda _name: False)
+    operator = SimpleNamespace(layout=Recorder(page), properties=unset, by="COLOR", **told)
+    vars(operator).update(found)
+    find_nearest.ROUGHSPECTRA_OT_find_nearest.draw(operator, None)
+    return page
+
+
+def test_the_search_says_in_words_whether_one_sees_the_difference():
+    near, side, far = (SimpleNamespace(difference=delta) for delta in (0.3, 1.5, 2.4))
+    assert ("not visible", False) in drawn_search(matches=[near, far])
+    assert ("visible", False) in drawn_search(matches=[near, far], index=1)
+    assert ("visible side by side", False) in drawn_search(matches=[side])
+    assert ("visible, and no sample comes nearer", False) in drawn_search(matches=[far, far])
+
+
+def test_a_palette_that_is_yet_to_be_chosen_is_no_fault():
+    assert ("Give it.", False) in drawn_search(by="PALETTE", fault="Give it.")
+    assert ("Bad.", True) in drawn_search(by="PALETTE", palette="/a/b.csv", fault="Bad.")
+    assert ("Bad.", True) in drawn_search(by="LAB", fault="Bad.")
