@@ -9,8 +9,11 @@ one material. Cheap to ask while drawing.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from typing import Any, NamedTuple
+
+import bpy
 
 from ..blender import shader_nodes
 from ..blender.sockets import OF_NODE
@@ -31,11 +34,21 @@ class Together(NamedTuple):
         How many selected objects carry one of them; 0 where the one at hand is on none of them.
     is_exact
         Whether all selected objects were looked at.
+    others
+        How many objects of the scene carry one of them and are not selected: they change, too.
     """
 
     materials: list[Any]
     objects: int
     is_exact: bool = True
+    others: int = 0
+
+
+_counted: list[tuple[float, tuple[Any, ...], frozenset[int]]] = []
+"""When, for what, and which objects carry the materials that were asked for last: to find them
+takes milliseconds where a scene has thousands."""
+_LASTS = 0.5
+"""Seconds for which what was found counts, unless it is seen that something changed."""
 
 
 def of(material: Any, selected: Sequence[Any], most: int | None = None) -> Together:
@@ -73,9 +86,41 @@ def of(material: Any, selected: Sequence[Any], most: int | None = None) -> Toget
     return Together(materials, count if exact else len(selected), exact)
 
 
-def shown(material: Any, selected: Sequence[Any]) -> Together:
-    """Find the same while a panel draws, which may take no time."""
-    return of(material, selected, _LOOKED_AT)
+def shown(material: Any, selected: Sequence[Any], scene: Any) -> Together:
+    """Find the same while a panel draws, which may take no time, and who else has the materials."""
+    found = of(material, selected, _LOOKED_AT)
+    if found.objects < 2 or not found.is_exact:
+        return found
+    everyone = _carriers(found.materials, scene)
+    return found._replace(others=len(everyone - {thing.session_uid for thing in selected}))
+
+
+def _carriers(materials: Sequence[Any], scene: Any) -> frozenset[int]:
+    """Give the `session_uid` of a scene's objects that carry one of some materials."""
+    key = (
+        tuple((material.session_uid, material.users) for material in materials),
+        *(scene.session_uid, len(scene.objects), len(bpy.data.objects)),
+    )
+    now = time.monotonic()
+    if not _counted or _counted[0][1] != key or now - _counted[0][0] > _LASTS:
+        wanted = set(materials)
+        users = _users(wanted)
+        things = {user for user in users if isinstance(user, bpy.types.Object)}
+        things |= {user for user in _users(users - things) if isinstance(user, bpy.types.Object)}
+        here = frozenset(
+            thing.session_uid
+            for thing in things
+            if scene.objects.get(thing.name) == thing
+            and any(slot.material in wanted for slot in thing.material_slots)
+        )
+        _counted[:] = [(now, key, here)]
+    return _counted[0][2]
+
+
+def _users(data: set[Any]) -> set[Any]:
+    if not data:
+        return set()
+    return set().union(*bpy.data.user_map(subset=data).values())
 
 
 def set_sigma(material: Any, selected: Sequence[Any], sigma: float) -> None:

@@ -4,7 +4,10 @@
 
 import json
 import math
+import os
 import shutil
+from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
@@ -407,3 +410,94 @@ def test_library_of_an_installed_extension_is_outside_of_it(blender):
     clone, installed, extensions, user = found
     assert clone.startswith(user)
     assert installed.startswith(f"{extensions}/.user/user_default/rough_spectra")
+
+
+def test_the_list_of_a_files_samples_has_their_balls(folder, tmp_path, monkeypatch):
+    from rough_spectra.addon.interface.operators import assign_file
+    from rough_spectra.addon.preview import list_icons
+    from rough_spectra.addon.samples import readers, swatches
+
+    path = tmp_path / "chart.csv"
+    rows = [f"{nm},{0.1 + (nm > 580) / 2},0.3,0.3,0.05" for nm in range(400, 701, 20)]
+    path.write_text("nm,1,2,3,4\n" + "\n".join(rows), encoding="utf-8")
+    samples = readers.read(str(path))
+    list_icons.clear()
+    drawn, real = [], list_icons.icon_ids
+    monkeypatch.setattr(list_icons, "icon_ids", lambda found: drawn.extend(found) or real(found))
+    listed = assign_file._listed(samples)
+    assert [(name, label) for name, label, *_ in listed] == [(n, n) for n in "1234"]
+    rgb, _ = swatches.of_samples(samples)
+    assert [tuple(each.color) for each in drawn] == [tuple(color) for color in rgb.tolist()]
+    assert drawn[0].color[0] > drawn[0].color[2]
+    # Without a window no ball has a number, but each was made; what looks alike shares one.
+    assert len(list_icons._kept) == 3
+    wall = mesh_object("Wall", rgb_material("Wall"))
+    assign_file._items[:] = listed
+    OPS.assign_file_sample("EXEC_DEFAULT", filepath=str(path), sample="4")
+    assert wall.active_material.rough_spectra.sample_name == "4"
+    list_icons.clear()
+
+
+def test_the_dialog_for_a_file_to_read_does_not_begin_with_the_scenes_name(tmp_path):
+    from rough_spectra.addon.interface.operators import common
+
+    asked = []
+    manager = SimpleNamespace(fileselect_add=lambda operator: asked.append(operator.filepath))
+    context = SimpleNamespace(window_manager=manager)
+    common.open_file(SimpleNamespace(filepath=""), context)  # of a file that was never saved
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    common.open_file(SimpleNamespace(filepath=""), context)
+    common.open_file(SimpleNamespace(filepath="/as/last.csv"), context)
+    assert asked == ["", f"{tmp_path}{os.sep}", "/as/last.csv"]
+    mesh_object("Wall", rgb_material("Wall"))
+    assert "folder" in refusal(OPS.assign_file, filepath=f"{tmp_path}{os.sep}")
+    operators = Path(common.__file__).parent.glob("*.py")
+    own = {path.stem for path in operators if "fileselect_add" in path.read_text("utf-8")}
+    assert own == {"common", "build_assets"}  # a folder
+
+
+class Recorder:
+    """A layout that keeps what is read in it, and whether that is red."""
+
+    def __init__(self, page):
+        vars(self).update(page=page, alert=False, alignment="")
+
+    def row(self, **_options):
+        return Recorder(self.page)
+
+    column = split = row
+
+    def label(self, *, text="", **_options):
+        self.page.append((text, self.alert))
+
+    def prop(self, *_words, **_options):
+        pass
+
+    template_list = template_icon = prop
+
+
+def drawn_search(**found):
+    """What the dialog of *Find Sample by Color* shows, as (text, whether red)."""
+    from rough_spectra.addon.interface.operators import find_nearest
+
+    page = []
+    told = {"fault": "", "picture": 0, "apart": "", "palette": "", "matches": [], "index": 0}
+    unset = SimpleNamespace(is_property_set=lambda _name: False)
+    operator = SimpleNamespace(layout=Recorder(page), properties=unset, by="COLOR", **told)
+    vars(operator).update(found)
+    find_nearest.ROUGHSPECTRA_OT_find_nearest.draw(operator, None)
+    return page
+
+
+def test_the_search_says_in_words_whether_one_sees_the_difference():
+    near, side, far = (SimpleNamespace(difference=delta) for delta in (0.3, 1.5, 2.4))
+    assert ("not visible", False) in drawn_search(matches=[near, far])
+    assert ("visible", False) in drawn_search(matches=[near, far], index=1)
+    assert ("visible side by side", False) in drawn_search(matches=[side])
+    assert ("visible, and no sample comes nearer", False) in drawn_search(matches=[far, far])
+
+
+def test_a_palette_that_is_yet_to_be_chosen_is_no_fault():
+    assert ("Give it.", False) in drawn_search(by="PALETTE", fault="Give it.")
+    assert ("Bad.", True) in drawn_search(by="PALETTE", palette="/a/b.csv", fault="Bad.")
+    assert ("Bad.", True) in drawn_search(by="LAB", fault="Bad.")

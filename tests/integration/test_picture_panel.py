@@ -11,7 +11,7 @@ from rough_spectra.addon import api
 from rough_spectra.addon.interface.panels import cameras, lamps, pictures
 from rough_spectra.addon.picture import camera_images, images, last_verdict, verdict
 
-from tests.integration.support import rgb_material
+from tests.integration.support import ROOT, rgb_material
 from tests.integration.test_panels import Layout, context
 
 OPS = bpy.ops.rough_spectra
@@ -60,6 +60,17 @@ def judged(scene, *usual):
     found = verdict.Verdict(tuple(rungs), 1.0, next(sure, None), None, {}, 0.0, 1.0)
     last_verdict.put(scene, found)
     return found
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/spectral.md"])
+def test_pages_say_where_in_the_window_spectral_pictures_are(page, empty_file):
+    panel = bpy.types.ROUGHSPECTRA_PT_picture
+    assert panel.bl_context == "render"
+    way = f"{panel.bl_label} ▸ {OPS.render_spectral.get_rna_type().name}"
+    # Before anything else on the subject: within the first lines of it.
+    text = " ".join((ROOT / page).read_text("utf-8").split())
+    subject = text.partition("pectral pictures")[2][:700]
+    assert f"Render tab, under *{way}*" in subject
 
 
 def test_another_engine_has_one_sentence_and_the_remedy():

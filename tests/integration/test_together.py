@@ -129,6 +129,39 @@ def test_objects_that_share_a_material_are_counted_and_it_is_dragged_as_ever(wal
     assert sliders == ["sigma", "gloss"]
 
 
+def test_who_shares_the_material_unselected_is_counted_too(walls, monkeypatch):
+    away = bpy.data.objects["Away"]
+    assert "3 selected objects" in closed()
+    away.active_material = walls["C"]
+    page = closed()
+    assert "4 objects, not all selected" in page
+    words, numbers = counted(page)
+    assert words <= 20
+    assert numbers <= 3
+    twin = bpy.data.objects.new("Twin", away.data)  # of the same mesh
+    bpy.context.scene.collection.objects.link(twin)
+    assert "5 objects, not all selected" in closed()
+    monkeypatch.setattr(together, "_LASTS", math.inf)
+    monkeypatch.setattr(together, "_users", None)  # nothing changed: nobody is asked again
+    assert "5 objects, not all selected" in closed()
+    monkeypatch.undo()
+    away.select_set(True)
+    twin.select_set(True)
+    assert "5 selected objects" in closed()
+    away.select_set(False)
+    twin.select_set(False)
+    bpy.data.objects.remove(twin)
+    assert "4 objects, not all selected" in closed()
+    other = bpy.data.objects.new("Other", away.data)  # of the mesh, but with a slot of its own
+    other.material_slots[0].link = "OBJECT"
+    other.material_slots[0].material = walls["Green"]
+    bpy.context.scene.collection.objects.link(other)
+    assert "4 objects, not all selected" in closed()
+    bpy.data.objects.remove(away)  # its mesh stays, and is still a user
+    assert "3 selected objects" in closed()
+    assert closed(scene=bpy.data.scenes.new("Other"))
+
+
 def test_of_very_many_it_is_said_up_to_how_many(walls):
     for number in range(80):
         mesh_object(f"More {number}", walls["C"])

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import bpy
@@ -17,11 +18,11 @@ _KIND_ITEMS = (
     (giving.AS_FILE, "As in the File", "What the file says; a reading if it says nothing", 2),
     *KIND_ITEMS,
 )
-_items: list[tuple[str, str, str]] = []
+_items: list[tuple[str, str, str, int, int]] = []
 """Blender keeps no reference to dynamic enumeration texts; without this list they are freed."""
 
 
-def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str]]:
+def sample_items(_operator: Any, _context: Any) -> list[tuple[str, str, str, int, int]]:
     """List the samples of the file that was read last."""
     return _items
 
@@ -39,7 +40,11 @@ class ROUGHSPECTRA_OT_assign_file(
     filepath: StringProperty(
         name="File", description="Spectra that an instrument wrote", subtype="FILE_PATH"
     )
-    sample: StringProperty(name="Sample", description="Name of the sample, if the file has several")
+    sample: StringProperty(
+        name="Sample",
+        description="Name of the sample, if the file has several; empty shows them all with their "
+        "colors once the file is chosen",
+    )
     kind: EnumProperty(
         name="Kind",
         description="What the spectrum is",
@@ -55,8 +60,7 @@ class ROUGHSPECTRA_OT_assign_file(
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the file."""
         giving.begin(self, context)
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.open_file(self, context)
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files."""
@@ -92,7 +96,7 @@ class ROUGHSPECTRA_OT_assign_file(
         return looking.assignment(self, context, sample, tell)
 
     def _ask(self, samples: list[Any]) -> set[str]:
-        _items[:] = [(s.name, s.name, f"{s.position} of the file") for s in samples]
+        _items[:] = _listed(samples)
         bpy.ops.rough_spectra.assign_file_sample("INVOKE_DEFAULT", **_options(self))
         return {"CANCELLED"}
 
@@ -130,6 +134,29 @@ class ROUGHSPECTRA_OT_assign_file_sample(
         except RuntimeError as error:
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
+
+
+def _listed(samples: list[Any]) -> list[tuple[str, str, str, int, int]]:
+    """List samples with the balls that *Choose Sample* would show of them."""
+    from ...matching import own_gloss
+    from ...preview import list_icons
+    from ...samples import swatches
+
+    rgb, _ = swatches.of_samples(samples)
+    pictured = [
+        list_icons.Pictured(
+            None if math.isnan(color[0]) else (color[0], color[1], color[2]),
+            sample.sigma_degrees or 0.0,
+            own_gloss.of_sample(sample),
+        )
+        for sample, color in zip(samples, rgb.tolist(), strict=True)
+    ]
+    return [
+        (sample.name, sample.name, f"{sample.position} of the file", picture, number)
+        for number, (sample, picture) in enumerate(
+            zip(samples, list_icons.icon_ids(pictured), strict=True)
+        )
+    ]
 
 
 def _options(operator: Any) -> dict[str, Any]:

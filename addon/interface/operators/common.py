@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import textwrap
 from collections.abc import Iterable
 from pathlib import Path
@@ -23,6 +24,14 @@ def choose_files(operator: Any, context: Any, behind: str = "") -> set[str]:
     if not operator.filepath:
         blend = Path(bpy.data.filepath or "untitled.blend")
         operator.filepath = str(blend.with_name(blend.stem + behind))
+    context.window_manager.fileselect_add(operator)
+    return {"RUNNING_MODAL"}
+
+
+def open_file(operator: Any, context: Any) -> set[str]:
+    """Let the user choose a file to read, at first beside the .blend, whose name is no such."""
+    if not operator.filepath and bpy.data.filepath:
+        operator.filepath = str(Path(bpy.data.filepath).parent) + os.sep
     context.window_manager.fileselect_add(operator)
     return {"RUNNING_MODAL"}
 

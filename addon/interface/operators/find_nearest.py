@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import (
     CollectionProperty,
@@ -89,7 +90,7 @@ def _find(operator: Any, context: Any) -> None:
     from ...samples import library
 
     operator.matches.clear()
-    operator.fault = ""
+    operator.fault, operator.apart, operator.picture = "", "", 0
     try:
         row = _wanted(operator)
         light = row.illuminant, row.observer
@@ -200,6 +201,29 @@ def _lights(material: Any) -> list[Any]:
         if view is not None and len(view.lights) > 1:
             return list(view.lights)
     return ["D65", *metamerism.LIGHTS]
+
+
+def seen(operator: Any) -> str:
+    """Say in words whether the highlighted match looks different from the color."""
+    from ...colorimetry import perceptibility
+
+    if operator.index >= len(operator.matches):
+        return ""
+    difference = operator.matches[operator.index].difference
+    words = iface_(perceptibility.words(difference))
+    if operator.index == 0 and difference >= perceptibility.VISIBLE:
+        return rpt_("{words}, and no sample comes nearer").format(words=words)
+    return words
+
+
+def _draw_beside(layout: Any, label: str, words: str) -> None:
+    """Draw what there is to say of the highlighted match, as the names of properties stand."""
+    for number, line in enumerate(textwrap.wrap(words, _CHARACTERS_BESIDE)):
+        split = layout.split(factor=_LABELS)
+        name = split.row()
+        name.alignment = "RIGHT"
+        name.label(text="" if number else label)
+        split.label(text=line, translate=False)
 
 
 def color_of(material: Any) -> tuple[float, float, float] | None:
@@ -362,7 +386,8 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, giving.AssignOptions, bpy
             layout.prop(self, "row")
         if self.fault:
             column = layout.column(align=True)
-            column.alert = True
+            # That none was chosen yet is no fault: so the dialog begins.
+            column.alert = self.by != "PALETTE" or bool(self.palette)
             for line in textwrap.wrap(self.fault, _CHARACTERS):
                 column.label(text=line, translate=False)
         row = layout.row()
@@ -373,12 +398,8 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, giving.AssignOptions, bpy
         )
         if self.picture:
             row.template_icon(self.picture, scale=_PICTURE)
-        for number, line in enumerate(textwrap.wrap(self.apart, _CHARACTERS_BESIDE)):
-            split = layout.split(factor=_LABELS)
-            label = split.row()
-            label.alignment = "RIGHT"
-            label.label(text="" if number else "Metamerism Index (ΔE00)")
-            split.label(text=line, translate=False)
+        _draw_beside(layout, "Difference", seen(self))
+        _draw_beside(layout, "Metamerism Index (ΔE00)", self.apart)
         layout.prop(self, "sigma")
         if giving.told_sigma(self) is None:
             split = layout.split(factor=_LABELS)

@@ -65,8 +65,7 @@ class ROUGHSPECTRA_OT_import_samples(ImportOptions, bpy.types.Operator):
                 on_properties = context.area is not None and context.area.type == "PROPERTIES"
                 self.materials = "ASSIGN" if on_properties else "NONE"
             return self.execute(context)
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.open_file(self, context)
 
     def execute(self, context: Any) -> set[str]:
         """Read the files; let the user review them, or go on as the options say."""

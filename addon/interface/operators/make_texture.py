@@ -18,7 +18,7 @@ from bpy.props import EnumProperty, FloatProperty, StringProperty
 from ....core.errors import InputError
 from ...material.properties import ILLUMINANT_ITEMS, INSTRUMENT_ITEMS, SIGMA
 from ...support import events
-from . import targets
+from . import common, targets
 from .background import InBackground
 
 _SECONDS_AT_ONCE = 0.05
@@ -99,8 +99,7 @@ class ROUGHSPECTRA_OT_make_texture(InBackground, bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose the image."""
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.open_file(self, context)
 
     def draw(self, _context: Any) -> None:
         """Draw the options beside the files."""

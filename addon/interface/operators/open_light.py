@@ -50,8 +50,7 @@ class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
         """Let the user choose a file."""
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.open_file(self, context)
 
     def execute(self, context: Any) -> set[str]:
         """Read the file, and keep its spectrum with the light."""

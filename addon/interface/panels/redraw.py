@@ -50,7 +50,7 @@ class Redraw:
         found = None if material is None else snapshot.of(material)
         if found is not None and found.inputs.spectrum:
             unit = icons.unit(look.scale, preferences.system.pixel_size)
-            self.together = together.shown(material, context.selected_objects)
+            self.together = together.shown(material, context.selected_objects, context.scene)
             self.shown = PanelMaterial(material.session_uid, found, look, unit)
             if self.shown.obstacle is not None:
                 self.measured = last_measurement.get(material, found)

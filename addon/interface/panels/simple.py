@@ -164,9 +164,12 @@ def _draw_sliders(
     shine.prop(group, names[1], slider=True)
     if roughness_origin.is_guess(group.id_data):
         text.draw(layout, sentences.of(roughness_origin.GUESS, "QUESTION", here.style))
-    if here.together.objects > 1:
-        count, is_exact = here.together.objects, here.together.is_exact
-        text.draw(layout, sentences.together(count, is_exact, here.style))
+    count, others = here.together.objects, here.together.others
+    if count > 1 and others:
+        all_told = iface_("{count} objects, not all selected").format(count=count + others)
+        text.draw(layout, (here.format.sentence(all_told, "RESTRICT_SELECT_OFF"),))
+    elif count > 1:
+        text.draw(layout, sentences.together(count, here.together.is_exact, here.style))
 
 
 def _draw_verdict(layout: Any, here: redraw.Redraw, shown: redraw.PanelMaterial) -> None:
