@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon.blender import texture_colors
 from rough_spectra.addon.interface.panels import menus, panels, sentences, text
+from rough_spectra.addon.interface.panels.boxes import difference
 from rough_spectra.addon.material import derive, last_measurement, snapshot, storage
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
@@ -464,6 +465,22 @@ def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
     narrow = drawn(context(region=types.SimpleNamespace(width=230)))
     assert any("ΔE00" in line for line in wide)
     assert "45°/0°: ΔE00 0.00, not visible" in narrow
+
+
+def test_wrapped_numbers_begin_with_a_mark_each(green):
+    for beside in (False, True):
+        narrow = text.Format(200, False, 1.0, 11.0)
+        told = sentences.numbers((1.0, 1.0, 1.0), "45a:0", beside, sentences.style(narrow))
+        assert len(told) == 3
+        assert any(len(lines) > 1 for lines in told)
+        for (_, first), *others in told:
+            assert first == ICONS["DOT"]
+            assert {icon for _, icon in others} <= {ICONS["BLANK1"]}
+
+
+def test_the_corner_of_a_swatch_is_explained_where_it_is():
+    assert "corner marks a color that your screen cannot" in difference.TOOLTIP
+    assert bpy.types.ROUGHSPECTRA_PT_difference.__doc__ == difference.TOOLTIP
 
 
 def light_and_camera():

@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from .. import redraw
 
 LABEL = "Difference"
-TOOLTIP = "Target and Blender side by side, and what the difference means"
+TOOLTIP = (
+    "Target and Blender side by side, and what the difference means. A black or white corner marks "
+    "a color that your screen cannot show"
+)
 PLACE = 10
 IN_SIDEBAR = True
 IS_CLOSED = False
@@ -93,5 +96,5 @@ def _draw_swatches(
     apart = shown.apart()
     if apart is not None:
         told = sentences.numbers(apart, shown.facts.inputs.read_at, beside, here.style)
-        text.draw(row.column(align=True), told)
+        text.draw(row.column(), told)
     return apart
