@@ -410,7 +410,7 @@ def test_no_two_lines_sound_as_if_they_contradicted_each_other(green):
     green.rough_spectra.stamp = stamp
     green.rough_spectra.gloss = 0.5
     page = " ".join(drawn())
-    assert len(re.findall("kept|stays as it is set", page)) == 1  # said once
+    assert len(re.findall("kept|include the gloss", page)) == 1  # said once
 
 
 def test_gloss_is_counted_and_can_be_removed(green):
@@ -481,6 +481,32 @@ def test_wrapped_numbers_begin_with_a_mark_each(green):
 def test_the_corner_of_a_swatch_is_explained_where_it_is():
     assert "corner marks a color that your screen cannot" in difference.TOOLTIP
     assert bpy.types.ROUGHSPECTRA_PT_difference.__doc__ == difference.TOOLTIP
+
+
+def test_in_a_narrow_region_a_box_to_check_has_its_own_name(green, monkeypatch):
+    """It read Light from the Scene, and below it Yes."""
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    told, real = {}, Layout.prop
+
+    def prop(self, data, name, *, text=None, **options):
+        told[name] = data.bl_rna.properties[name].name if text is None else text
+        real(self, data, name, text=text, **options)
+
+    monkeypatch.setattr(Layout, "prop", prop)
+    page = drawn(context(region=types.SimpleNamespace(width=230)))
+    assert told["use_scene"] == "Light from the Scene"
+    assert "Light from the Scene" not in page  # no second time above it
+    assert "Tolerance" in page  # as names of numbers stand
+
+
+def test_what_the_scene_decided_is_said_without_names_of_shaders(green):
+    OPS.assign_preset("EXEC_DEFAULT", preset="everyday/brick", sigma=math.radians(30))
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    page = " ".join(drawn())
+    assert re.search(r"rough: ΔE00 \S+ off on average in its scene; without roughness it is", page)
+    assert "would be off" not in page
 
 
 def light_and_camera():

@@ -52,7 +52,7 @@ def draw(layout: Any, context: Any) -> None:
         text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
         _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:
-        told = "Gloss stays as it is set, and is counted"
+        told = "The numbers include the gloss; Remove Gloss makes it matte"
         text.draw(layout, sentences.of(told, "INFO", here.style))
         if shown.state.kind != "linked":
             layout.operator("rough_spectra.remove_gloss").scope = "ACTIVE"
