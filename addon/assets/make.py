@@ -92,9 +92,6 @@ def _mark(material: Any, entry: dict[str, Any], request: Request, solution: Solu
     asset.license = sample.license
     asset.copyright = _shortened(sample.source)
     asset.description = _description(request, solution)
-    # What the material viewport shows; a thumbnail shows it better.
-    color = tuple(float(c) for c in solution.color)
-    material.diffuse_color = (*color, 1.0)
     for tag in ("Rough Spectra", entry["catalog"], f"σ {sample.sigma_degrees:g}°", sample.kind):
         asset.tags.new(tag, skip_if_exists=True)
 

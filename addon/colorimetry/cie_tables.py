@@ -16,6 +16,8 @@ from ...core.limits import E308_NM
 from ...core.numerics.arrays import Array
 
 ILLUMINANTS = ("A", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11", "LED-B3")
+LAMPS = ("HP1",)
+"""Those that no material is matched under: HP1 is sodium at high pressure."""
 OBSERVERS = (2, 10)
 """CIE 1931 (2°) and CIE 1964 (10°)."""
 
@@ -31,8 +33,8 @@ def observer(degrees: int) -> Array:
 
 
 def illuminant(name: str) -> Array:
-    """Spectrum of one of `ILLUMINANTS` at `GRID`, shape (wavelengths,)."""
-    return np.asarray(_rows()[3 * len(OBSERVERS) + ILLUMINANTS.index(name)])
+    """Spectrum of one of `ILLUMINANTS` or `LAMPS` at `GRID`, shape (wavelengths,)."""
+    return np.asarray(_rows()[3 * len(OBSERVERS) + (*ILLUMINANTS, *LAMPS).index(name)])
 
 
 def daylight_parts() -> Array:

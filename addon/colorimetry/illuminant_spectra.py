@@ -53,7 +53,7 @@ def daylight(temperature: float) -> Array:
 
 
 def cie(name: str) -> Array:
-    """Spectrum of one of `cie_tables.ILLUMINANTS` at `GRID`, with a luminance Y of 1."""
+    """Spectrum of one of the CIE's lights in `cie_tables` at `GRID`, with a luminance Y of 1."""
     spd = np.interp(GRID, cie_tables.GRID, cie_tables.illuminant(name))
     return np.asarray(spd / to_xyz(spd)[1])
 

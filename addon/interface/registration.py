@@ -9,17 +9,17 @@ import bpy
 from ...core.numerics import memoized
 from ..commands import command_line
 from ..material import follow, preferences, properties
-from ..picture import settings
+from ..picture import lamp_sliders, settings
 from ..scene import chosen_light
 from ..support import events
 from . import gltf_export, operators, shelf
-from .panels import cameras, lights, menus, panels, pictures, shading
+from .panels import cameras, lamps, lights, menus, panels, pictures, shading
 
 _OPERATORS = operators.modules()
 _MODULES = (
-    *(properties, chosen_light, settings, preferences),
+    *(properties, chosen_light, settings, lamp_sliders, preferences),
     *_OPERATORS,
-    *(panels, lights, pictures, cameras, shelf),
+    *(panels, lights, pictures, lamps, cameras, shelf),
 )
 classes = tuple(cls for module in _MODULES for cls in module.classes)
 
@@ -31,6 +31,7 @@ def register() -> None:
     properties.register_pointer()
     chosen_light.register_pointers()
     settings.register_pointers()
+    lamp_sliders.register_pointers()
     for module in _OPERATORS:
         if hasattr(module, "register_menu"):
             module.register_menu()
@@ -53,6 +54,7 @@ def unregister() -> None:
     for module in reversed(_OPERATORS):
         if hasattr(module, "unregister_menu"):
             module.unregister_menu()
+    lamp_sliders.unregister_pointers()
     settings.unregister_pointers()
     chosen_light.unregister_pointers()
     properties.unregister_pointer()

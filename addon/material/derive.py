@@ -17,7 +17,15 @@ from ..matching import other_readings, shaders, solve
 from ..matching.scene_view import SceneView
 from ..matching.solution import Solution
 from ..matching.solve import Request
-from . import derivation, read_gloss, snapshot, solid_color, storage, textures
+from . import (
+    derivation,
+    dragged_picture,
+    read_gloss,
+    snapshot,
+    solid_color,
+    storage,
+    textures,
+)
 from .changes import Derived, Solved
 from .snapshot import Snapshot
 
@@ -99,7 +107,10 @@ def assign(
             shader_nodes.set_gloss(place.material, node, told_gloss)
         if gloss is not None:
             shader_nodes.put_gloss(place.material, gloss)
+        before = place.material.rough_spectra.spectrum
         storage.store(place.material, request, asked)
+        if place.material.rough_spectra.spectrum != before:
+            dragged_picture.drop(place.material)
         storage.note_own_sigma(place.material, request.sample)
         inputs = snapshot.inputs(place.material.rough_spectra)
         storage.set_stamp(place.material, solution, space.name, node, inputs, request.gloss)

@@ -105,9 +105,10 @@ OBSERVER_ITEMS = (
 
 SIGMA = {
     "name": "σ",
-    "description": "How rough it is: 0° is smooth as a painted wall, 15° as fine plaster, 30° as "
-    "brick, 45° as gravel. It is σ, the angle whose tangent is the rms slope of a profile across "
-    "the surface, a profilometer's Rdq; Sdq, of an area, is √2 larger",
+    "description": "How rough it is: 0° is smooth, 10° as office paper, 20° as brick, 30° as "
+    "concrete; more is coarser.\n"
+    "For color people: σ, the angle whose tangent is the rms slope of a profile across the "
+    "surface, a profilometer's Rdq; Sdq, of an area, is √2 larger",
     "subtype": "ANGLE",
     "precision": 1,
     "step": 100,

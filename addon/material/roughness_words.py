@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 _UP_TO = ((7.5, "smooth"), (22.5, "fine"), (37.5, "rough"))
-"""Degrees, halfway between a smooth wall, fine plaster at 15°, brick at 30° and gravel at 45°."""
+"""Degrees, halfway between what the balls are of; presets say 10° of paper and 30° of concrete."""
 
 STEPS = (0.0, 15.0, 30.0, 45.0)
 """Degrees of the surfaces that the words are of."""

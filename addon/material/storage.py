@@ -106,16 +106,6 @@ def note_own_sigma(material: Any, sample: Sample) -> None:
     material.rough_spectra.own_sigma = math.radians(sample.sigma_degrees or 0.0)
 
 
-def is_sigma_set(material: Any) -> bool:
-    """Whether a material's σ is the user's, and not the one that its sample came with.
-
-    So is that of a material of an earlier version, of which nobody knows.
-    """
-    group = material.rough_spectra
-    own = snapshot.entered_degrees(group.own_sigma)
-    return own < 0 or own != snapshot.sigma_degrees(group)
-
-
 def note_own_gloss(material: Any, gloss: Gloss | None) -> None:
     """Note the gloss that a sample came with, so that one set by the user is known."""
     material.rough_spectra.own_gloss = "" if gloss is None else json.dumps(gloss.numbers())

@@ -7,6 +7,7 @@ A file has one of each; the next takes its place.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ def put_infrared(picture: InfraredPicture, *, false_color: bool) -> Any:
     told += [f"{name} has no infrared data ({why})" for name, why in picture.assumed.items()]
     told += [f"{name} is dark: {why}" for name, why in picture.dark.items()]
     _near.put(tuple(told))
-    return images.replace(INFRARED, files.image_of(pixels, INFRARED))
+    return images.replace(INFRARED, partial(files.image_of, pixels, INFRARED))
 
 
 def put_thermal(picture: ThermalPicture) -> Any:
@@ -49,7 +50,7 @@ def put_thermal(picture: ThermalPicture) -> Any:
     told += [f"{name} has no infrared data" for name in picture.assumed]
     _heat.put(tuple(told))
     share = (kelvin - low) / max(high - low, _LEAST_RANGE)
-    return images.replace(THERMAL, images.on_screen(share, THERMAL))
+    return images.replace(THERMAL, partial(images.on_screen, share, THERMAL))
 
 
 def told(name: str) -> tuple[str, ...]:

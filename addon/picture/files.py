@@ -88,15 +88,18 @@ def image(picture: SpectralPicture, name: str) -> Any:
     return image_of(picture.rgb, name)
 
 
-def image_of(pixels: Array, name: str) -> Any:
-    """Put RGBA in the working space, shape (rows, columns, 4), from the bottom up, into one."""
+def image_of(pixels: Array, name: str, space: str = "") -> Any:
+    """Put RGBA, shape (rows, columns, 4), from the bottom up, into one.
+
+    They are in the working space, unless another `space` is named.
+    """
     rows, columns = pixels.shape[:2]
     found = bpy.data.images.new(name, columns, rows, alpha=True, float_buffer=True)
-    space = working_space.working_space_name()
+    space = space or working_space.working_space_name()
     known = found.colorspace_settings.bl_rna.properties["name"].enum_items
     if space in known:
         found.colorspace_settings.name = space
-    found.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    found.pixels.foreach_set(pixels.astype(np.float32, copy=False).ravel())
     found.update()
     found.pack()
     return found

@@ -10,14 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ...core.errors import MaterialError
+from ...core import bands
+from ...core.errors import DomainError, MaterialError
 from ...core.numerics.arrays import Array
 from ..blender.background_job import waited
 from ..colorimetry import illuminant_spectra, rgb_spectra
-from . import passes
-from .colors import Shining, key
+from . import passes, scene_copy
+from .colors import Shining
 from .direct_light import Choice
 from .passes import Lamps, Pass
+from .places import key
 from .relight import ILLUMINANTS, Lights
 from .render import Rendering, Wanted
 
@@ -53,18 +55,22 @@ class Gathering(Rendering):
         A `bpy.types.Scene`, as it is now.
     wanted
         As of `Rendering`; no ordinary picture and no direct light apart.
+    most_bytes
+        Memory that the lights may take, if that is limited.
 
     Raises
     ------
     RoughSpectraError
-        As `Rendering`, and a MaterialError where lamps cannot be told apart.
+        As `Rendering`, and a MaterialError where lamps cannot be told apart; a DomainError where
+        they would take more memory.
     """
 
     doing = "renders the light of each lamp"
     interrupted = "The lights were interrupted; nothing was written."
 
-    def __init__(self, scene: Any, wanted: Wanted) -> None:
+    def __init__(self, scene: Any, wanted: Wanted, most_bytes: int | None = None) -> None:
         self._together: list[_Group] = []
+        self._most_bytes = most_bytes
         super().__init__(scene, wanted)
 
     def lights(self) -> Lights:
@@ -76,21 +82,26 @@ class Gathering(Rendering):
             If the second Blender failed.
         """
         self.output("seconds.json")
-        pictures = [np.load(self.output(f"pass-{n}.npy")) for n in range(len(self._passes))]
-        # (passes, lamps, rows, columns, channels)
-        channels = np.stack(pictures)[..., :3].transpose(1, 0, 4, 2, 3)
-        lamps, _, _, rows, columns = channels.shape
+        parts = alpha = np.zeros(())
+        for number in range(len(self._passes)):  # one after the other: they are large
+            picture = np.load(self.output(f"pass-{number}.npy"))
+            if not number:
+                lamps, rows, columns, _ = picture.shape
+                parts = np.empty((lamps, self._chosen.wavelengths.size, rows, columns), np.float32)
+                alpha = picture[0, ..., 3].copy()
+            here = slice(bands.IN_A_PASS * number, bands.IN_A_PASS * (number + 1))
+            parts[:, here] = picture[..., :3].transpose(0, 3, 1, 2)
         return Lights(
             tuple(group.of[1] for group in self._together),
             np.stack([group.base for group in self._together]),
-            np.ascontiguousarray(channels.reshape(lamps, -1, rows, columns)),
-            pictures[0][0, ..., 3],
+            parts,
+            alpha,
             self._chosen.wavelengths,
             passes.surfaces_of(self._found, self._space),
             self._space.name,
         )
 
-    def _decide(self, _scene: Any) -> Choice:
+    def _decide(self, scene: Any) -> Choice:
         """Choose bands for the scene's lamps and for those that may come."""
         self._together = self._grouped()
         spectra = [group.base for group in self._together]
@@ -99,7 +110,21 @@ class Gathering(Rendering):
         most = self._wanted.bands or self._wanted.most
         tolerance = 0.0 if self._wanted.bands else self._wanted.tolerance
         chosen = passes.choose(self._found, lamps, self._space, tolerance, most=most)
+        self._check_memory(scene, chosen.wavelengths.size)
         return Choice(chosen, apart=False, is_all=False, words="")
+
+    def _check_memory(self, scene: Any, count: int) -> None:
+        percentage = self._wanted.percentage or scene.render.resolution_percentage
+        width, height = scene_copy.size(scene, percentage)
+        lamps = len(self._together)
+        needed = lamps * count * width * height * np.dtype(np.float32).itemsize
+        if self._most_bytes is not None and needed > self._most_bytes:
+            msg = (
+                f"The light of {lamps} lamps in {count} bands takes {needed / 1e9:.1f} GB of "
+                f"memory at {width} × {height}, and {self._most_bytes / 1e9:.0f} GB are the most; "
+                "choose a smaller size, or fewer renders."
+            )
+            raise DomainError(msg)
 
     def _of_bands(self) -> list[Pass]:
         """Let each lamp send its spectrum in parts of its group's."""

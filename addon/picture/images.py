@@ -9,21 +9,22 @@ with the file when it is saved. Spectra are on the disk only, as long as the fil
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 
 from ...core.numerics.arrays import Array
-from . import files
+from . import files, through_undo
 from .of_file import OfFile
 from .picture import SpectralPicture
 from .pixel import Pixel
+from .through_undo import MARK
 
 PICTURE, MAP = "Spectral", "Spectral ΔE00"
 """Names of the images, unless others are called so."""
-_MARK = "rough_spectra"
-"""Custom property by which our images are known, whatever they are called."""
 _RAMP = np.array(
     (
         (0.0, 0.0, 0.0, 0.0),
@@ -34,6 +35,10 @@ _RAMP = np.array(
     )
 )
 """Shares of the map's top, and their colors on screen: each is lighter than the one before."""
+
+
+find = through_undo.find
+"""Gives our image of a name, such as `MAP`, whatever it is called by now; None without one."""
 
 
 class Shown(NamedTuple):
@@ -70,12 +75,13 @@ def put(picture: SpectralPicture) -> list[Any]:
     top = None if picture.comparison is None else _top(picture.comparison.delta_e)
     _picked.forget()
     _held.put(Shown(picture, tuple(files.told(picture)), top))
-    shown = [replace(PICTURE, files.image(picture, PICTURE))]
+    shown = [replace(PICTURE, partial(files.image, picture, PICTURE))]
     if picture.comparison is not None and top is not None:
-        shown.append(replace(MAP, on_screen(picture.comparison.delta_e / top, MAP)))
+        share = picture.comparison.delta_e / top
+        shown.append(replace(MAP, partial(on_screen, share, MAP)))
     for image in bpy.data.images:
-        if image.get(_MARK) == MAP and image not in shown and image.is_editable:
-            del image[_MARK]  # of an earlier picture: it stays, as anybody's image
+        if image.get(MARK) == MAP and image not in shown and image.is_editable:
+            del image[MARK]  # of an earlier picture: it stays, as anybody's image
     return shown
 
 
@@ -94,15 +100,10 @@ def picked() -> Pixel | None:
     return _picked.get()
 
 
-def find(name: str) -> Any | None:
-    """Give our image of a name, such as `MAP`, whatever it is called by now; None without one."""
-    return next((image for image in bpy.data.images if image.get(_MARK) == name), None)
-
-
 def of(image: Any) -> SpectralPicture | None:
     """Give the picture that an image shows, or that its map is of; None of any other image."""
     shown = last()
-    if image is None or shown is None or not image.get(_MARK):
+    if image is None or shown is None or image.get(MARK) not in (PICTURE, MAP):
         return None
     picture = shown.picture
     rows, columns = picture.xyz.shape[:2]
@@ -128,14 +129,16 @@ def on_screen(share: Array, name: str) -> Any:
     return found
 
 
-def replace(name: str, new: Any) -> Any:
-    """Let an image be used wherever the one before was."""
+def replace(name: str, make: Callable[[], Any]) -> Any:
+    """Make an image, let it be used wherever the one before was, and make it again after undo."""
+    new = make()
     for old in list(bpy.data.images):
-        if old.get(_MARK) == name and old.is_editable and old != new:
+        if old.get(MARK) == name and old.is_editable and old != new:
             old.user_remap(new)
             bpy.data.images.remove(old)
-    new[_MARK] = name
+    new[MARK] = name
     new.name = name
     new.use_fake_user = True  # it stays with the file though nothing there uses it
     new.use_view_as_render = new.is_float  # the others have colors on screen
+    through_undo.keep(new, partial(replace, name, make))
     return new

@@ -20,7 +20,7 @@ import numpy as np
 from ...core.numerics.arrays import Array
 from ..blender import working_space
 from ..blender.background_job import Job, waited
-from . import colors, scene_copy
+from . import find_colors, scene_copy
 from .infrared_scene import InfraredScene
 from .infrared_wanted import IN_A_RENDER, Wanted
 
@@ -100,7 +100,7 @@ class Infrared(Job):
         scene_copy.check(scene, "an infrared picture", wanted.percentage)
         layer = scene_copy.layer_of(scene)
         space = working_space.current()
-        found = colors.find(scene_copy.evaluated(scene, layer), scene, space, is_visible=False)
+        found = find_colors.find(scene_copy.evaluated(scene, layer), scene, space, is_visible=False)
         self._wanted = wanted
         self._there = InfraredScene(found, space, wanted)
         renders = wanted.parts // IN_A_RENDER

@@ -21,10 +21,11 @@ from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import emission
 from ..samples.sample import Sample
 from ..scene import chosen_light
-from . import colors, infrared_light, passes
-from .colors import Colored, Colors, Measured, Place, Shining
+from . import color_spectra, infrared_light, passes, places
+from .colors import Colored, Colors, Measured, Shining
 from .infrared_light import Light
 from .infrared_wanted import IN_A_RENDER, LEAST, MOST, Wanted, covers
+from .places import Place
 
 _NODES = 2000
 """Wavelengths in a part of the band."""
@@ -36,7 +37,7 @@ class InfraredScene:
     Parameters
     ----------
     found
-        As `colors.find` gives it for what is not visible.
+        As `find_colors.find` gives it for what is not visible.
     space
         The working space.
     wanted
@@ -158,8 +159,8 @@ class InfraredScene:
         material = bpy.data.materials.get(name)
         if material is None:
             raise MaterialError(f"There is no material {name!r} in the file; check the name.")
-        title = colors.title("Material", material)
-        of = colors.key("materials", material)
+        title = places.title("Material", material)
+        of = places.key("materials", material)
         place, roughness = Place(of, attribute="diffuse_color"), 0.0
         if surface_of.uses_nodes(material):
             node = surface_of.shader_node(material)
@@ -209,7 +210,7 @@ class InfraredScene:
 def _own(each: Shining) -> Light | None:
     """Give what a lamp itself tells: a table kept with it, or the temperature that is set."""
     if each.place.of[0] in {"lights", "worlds"}:
-        data = colors.owner(each.place.of)
+        data = places.owner(each.place.of)
         if data.rough_spectra.spectrum != chosen_light.COLOR:
             kept = chosen_light.source(data)
             return None if kept is None else infrared_light.measured(kept)
@@ -220,7 +221,7 @@ def _own(each: Shining) -> Light | None:
 
 def _rules(found: Colors, name: str) -> list[str]:
     """Give what is told of a material beside what becomes of RGB where eyes see."""
-    return [rule for rule in found.told.get(name, ()) if rule != colors.LINEAR]
+    return [rule for rule in found.told.get(name, ()) if rule != color_spectra.LINEAR]
 
 
 def _even(value: float) -> Array:

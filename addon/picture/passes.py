@@ -23,7 +23,8 @@ from ...core.numerics.arrays import Array
 from ..colorimetry import illuminant_spectra, rgb_spectra
 from ..colorimetry.rgb_space import WorkingSpace
 from ..matching import glossy
-from .colors import Colors, Measured, Place, Shining
+from .colors import Colors, Measured, Shining
+from .places import Place
 
 _SEEN = 48
 """Surfaces that bands are chosen for, at most, spread over those there are."""

@@ -21,7 +21,7 @@ from ..blender import working_space
 from ..blender.background_job import Job, waited
 from ..colorimetry import cie_tables, illuminant_spectra
 from ..scene import light_spectra
-from . import colors, direct_light, passes, scene_copy, spectra
+from . import direct_light, find_colors, passes, places, scene_copy, spectra
 from .channels import Channels
 from .passes import Pass
 from .picture import SpectralPicture, compare
@@ -137,7 +137,7 @@ class Rendering(Job):
         self._wanted = wanted
         self._space = working_space.current()
         depsgraph = scene_copy.evaluated(scene, layer)
-        self._found = colors.find(depsgraph, scene, self._space, known)
+        self._found = find_colors.find(depsgraph, scene, self._space, known)
         self._lamps = passes.lamps_of(self._found, self._space)
         self._light = self._decide(scene)
         self._chosen = self._light.bands
@@ -193,7 +193,7 @@ class Rendering(Job):
         for instance in depsgraph.object_instances:
             thing = instance.object
             slots = [slot.material for slot in thing.material_slots]
-            of = {colors.key("materials", each.original) for each in slots if each is not None}
+            of = {places.key("materials", each.original) for each in slots if each is not None}
             count += thing.type == "LIGHT" or bool(of & shining)
         return count
 
@@ -208,9 +208,9 @@ class Rendering(Job):
         """Give the keys of materials of which something stays red, green and blue."""
         left = self._found.untranslated
         keys = [
-            colors.key("materials", material)
+            places.key("materials", material)
             for material in bpy.data.materials
-            if colors.title("Material", material) in left
+            if places.title("Material", material) in left
         ]
         return [list(each) for each in keys]
 

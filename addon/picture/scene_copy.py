@@ -93,12 +93,19 @@ def path_of(library: Any | None) -> str:
     return "" if library is None else os.path.normpath(bpy.path.abspath(library.filepath))
 
 
-def check_size(scene: Any, percentage: int) -> None:
-    """Refuse a picture without a pixel, as Blender counts them; raises a MaterialError."""
+def size(scene: Any, percentage: int) -> tuple[int, int]:
+    """Give columns and rows of a picture, as Blender counts them."""
     render = scene.render
     width, height = (
         side * percentage // 100 for side in (render.resolution_x, render.resolution_y)
     )
+    return width, height
+
+
+def check_size(scene: Any, percentage: int) -> None:
+    """Refuse a picture without a pixel, as Blender counts them; raises a MaterialError."""
+    render = scene.render
+    width, height = size(scene, percentage)
     if not (width and height):
         msg = (
             f"Scene {scene.name!r} has no pixels at {percentage} % of {render.resolution_x} × "

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bpy.props import (
@@ -169,6 +170,15 @@ def wanted(scene: Any, renders: int = 0) -> Wanted:
         plain=group.compare,
         percentage=percentage(scene),
     )
+
+
+def lamps(scene: Any) -> Wanted:
+    """Give what a scene's settings ask of the light of each lamp apart.
+
+    Half of the tolerance is for the lamps as they are; they are going to be changed.
+    """
+    asked = wanted(scene)
+    return replace(asked, tolerance=asked.tolerance / 2, direct=False, plain=False, steady=True)
 
 
 def percentage(scene: Any) -> int:

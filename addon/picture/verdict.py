@@ -27,7 +27,7 @@ from ..colorimetry import illuminant_spectra, rgb_spectra, standard_spaces
 from ..colorimetry.rgb_space import WorkingSpace
 from ..scene import analysis
 from ..support import durations
-from . import colors, passes
+from . import passes, places
 from .colors import Measured
 from .passes import Pass
 from .picture import SEEN, Comparison, compare
@@ -305,7 +305,7 @@ class Judging(Rendering):
     def _light_on(self, measured: Measured) -> Array:
         """Give the spectrum of the light that falls on a material, by its lights' shares."""
         assert self._report is not None
-        view = self._report.views.get(colors.owner(measured.place.of))
+        view = self._report.views.get(places.owner(measured.place.of))
         if view is None:
             return np.asarray(self._lamps.spectra.sum(axis=0))
         return np.sum([light.share * np.array(light.spd) for light in view.lights], axis=0)

@@ -28,6 +28,13 @@ which takes nodes beside a narrow line a little below 0.
 
 _FINE = 0.25
 """Nanometers at which a table is read: a line of a lamp is narrower than a step of `GRID`."""
+SODIUM = "sodium"
+"""Sodium at low pressure, which shines by its two D lines alone."""
+_D_LINES = ((588.9950, 2.0), (589.5924, 1.0))
+"""Nanometers and power of sodium's D lines (NIST Atomic Spectra Database). Pressure changes the
+ratio, which no eye sees."""
+NAMES = (*cie_tables.ILLUMINANTS, *cie_tables.LAMPS, SODIUM)
+"""Lights that are known by their name."""
 
 
 def find(name: str) -> KnownLight:
@@ -36,7 +43,7 @@ def find(name: str) -> KnownLight:
     Parameters
     ----------
     name
-        A CIE illuminant, or the path of a file that `light_source.read` reads; nothing shines
+        One of `NAMES`, or the path of a file that `light_source.read` reads; nothing shines
         outside of its wavelengths.
 
     Raises
@@ -46,11 +53,13 @@ def find(name: str) -> KnownLight:
     InputError
         If the file cannot be read.
     """
-    if name in cie_tables.ILLUMINANTS:
+    if name == SODIUM:
+        return measured(_sodium())[0], "sodium at low pressure"
+    if name in NAMES:
         return illuminant_spectra.cie(name), f"CIE {name}"
     path = Path(name)
     if not path.exists():
-        choices = ", ".join(cie_tables.ILLUMINANTS)
+        choices = ", ".join(NAMES)
         msg = f"{name!r} is neither a file nor an illuminant that is known: {choices}."
         raise DomainError(msg)
     return measured(light_source.read(path))
@@ -75,3 +84,12 @@ def measured(source: LightSource) -> KnownLight:
         msg = f"{source.name}: nothing of this light is seen; give wavelengths in nanometers."
         raise InputError(msg)
     return spectrum / luminance, f"measured: {source.name}"
+
+
+def _sodium() -> LightSource:
+    """Give the D lines, each as wide as a table is read."""
+    nm, power = [], []
+    for line, sent in _D_LINES:
+        nm += [line - _FINE, line, line + _FINE]
+        power += [0.0, sent, 0.0]
+    return LightSource("sodium", np.array(nm), np.array(power))

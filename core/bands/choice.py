@@ -40,6 +40,8 @@ _WEIGHT_ELSE = 1e-5
 _BESIDE_A_LINE = 0.15
 """Part of a lamp's largest value by which others may be below 0: a cubic through four nodes, which
 tells where between them a line is, has an eighth."""
+_UNSEEN = 1e-6
+"""Part of Y that a channel of XYZ counts as in which nothing is seen of the lamps."""
 _USUAL = 0.95
 """Part of the pixels that has to be within the tolerance."""
 
@@ -431,7 +433,13 @@ def _checked(
         raise DomainError(msg)
     to_observer = eye * np.gradient(nm)[:, np.newaxis]
     whites = lamps @ to_observer
-    if not (whites.sum(axis=0) > 0).all():
+    dark = ~(whites.sum(axis=0) > 0)
+    if metric == "delta-e" and dark.any() and not dark[1]:
+        # Of a sodium line Z is 0 to the 10° observer, and no color is defined against such a white.
+        to_observer[:, dark] = _UNSEEN * to_observer[:, 1:2]
+        whites = lamps @ to_observer
+        dark[:] = False
+    if dark.any():
         msg = "Nothing is seen of the lamps in a channel; choose a range in which they shine."
         raise DomainError(msg)
     given = np.ones(len(surfaces)) if shares is None else np.asarray(shares, np.float64)

@@ -74,7 +74,7 @@ def test_tables_are_those_of_colour_science():
         for observer, name in OBSERVERS.items():
             expected = science.MSDS_CMFS[name].copy().align(shape).values
             np.testing.assert_allclose(cie_tables.observer(observer), expected, atol=1e-14)
-        for illuminant in cie_tables.ILLUMINANTS:
+        for illuminant in (*cie_tables.ILLUMINANTS, *cie_tables.LAMPS):
             table = science.SDS_ILLUMINANTS[TABLES.get(illuminant, illuminant)]
             expected = table.copy().align(shape).values
             np.testing.assert_allclose(cie_tables.illuminant(illuminant), expected, rtol=1e-12)

@@ -16,10 +16,13 @@ from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra, rgb_spectra
 from rough_spectra.addon.matching import surface_spectra
 from rough_spectra.addon.picture import (
+    color_spectra,
     colors,
     direct_light,
     files,
+    find_colors,
     passes,
+    places,
     render,
 )
 from rough_spectra.addon.samples import light_source
@@ -247,7 +250,7 @@ def test_gloss_stays_over_a_color_of_any_band():
     """What the instrument reads of color and gloss in a band is what was measured there."""
     gloss = Gloss(level=0.6, roughness=0.4, tint=(1.0, 0.6, 0.3), coat=0.2)
     nm = illuminant_spectra.GRID
-    place = colors.Place(("materials", "Any", ""), "Node", 0)
+    place = places.Place(("materials", "Any", ""), "Node", 0)
     reading = 0.2 + 0.5 * (nm - 360) / 420
     measured = colors.Measured(place, reading, 0.3, "45a:0", gloss)
     taken = (nm[:, np.newaxis] == [450.0, 550.0, 650.0]).astype(float)
@@ -650,7 +653,7 @@ def tree_with(kind, **inputs):
 
 
 def find():
-    return colors.find(
+    return find_colors.find(
         bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
     )
 
@@ -667,7 +670,7 @@ def test_rules_are_told_and_what_has_none_is_named():
     for column, each in enumerate((glass, film, edited)):
         strip(column, each)
     found = find()
-    assert found.told[f"Material {glass.name!r}"] == [colors.LINEAR]
+    assert found.told[f"Material {glass.name!r}"] == [color_spectra.LINEAR]
     assert found.untranslated == {f"Material {film.name!r}": ["its thin film"]}
     assert found.told["Material 'Edited'"][0].startswith("its measured spectrum is not used: ")
     assert "by hand" in found.told["Material 'Edited'"][0]
@@ -772,7 +775,7 @@ def test_a_group_is_told_of_all_that_use_it_and_its_colors_count_once():
     assert colored.place.of == ("node_groups", "Film", "")
     left = ["its thin film"]
     assert found.untranslated == {"Material 'One'": left, "Material 'Other'": left}
-    assert found.told["Material 'One'"] == found.told["Material 'Other'"] == [colors.LINEAR]
+    assert found.told["Material 'One'"] == found.told["Material 'Other'"] == [color_spectra.LINEAR]
 
 
 def test_two_lamps_of_one_color_are_one_spectrum():
@@ -790,7 +793,7 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     light.use_temperature = False
     light.color = (1.0, 0.5, 0.2)
     args = bpy.context.evaluated_depsgraph_get(), scene, working_space.current()
-    found = colors.find(*args, {"Sun": light_spectra.find("F11")})
+    found = find_colors.find(*args, {"Sun": light_spectra.find("F11")})
     [shining] = found.shining
     sd = illuminant_spectra.cie("F11")
     assert shining.spectrum == pytest.approx(sd)
@@ -798,7 +801,7 @@ def test_a_lamp_may_have_the_spectrum_of_an_illuminant():
     assert shining.strength == pytest.approx([luminance] * 3)
     assert found.told["Light 'Sun'"] == ["CIE F11, though its RGB is another color"]
     with pytest.raises(api.MaterialError, match="called 'Moon' shines"):
-        colors.find(*args, {"Moon": light_spectra.find("F11")})
+        find_colors.find(*args, {"Moon": light_spectra.find("F11")})
 
 
 def test_lamps_and_worlds_keep_their_spectra_in_the_file(tmp_path):
@@ -829,11 +832,11 @@ def test_lamps_and_worlds_keep_their_spectra_in_the_file(tmp_path):
     assert of_world.spectrum == pytest.approx(illuminant_spectra.cie("F11"))
     # What is asked for by name comes first.
     args = bpy.context.evaluated_depsgraph_get(), bpy.context.scene, working_space.current()
-    named = colors.find(*args, {"Sun": light_spectra.find("D50")})
+    named = find_colors.find(*args, {"Sun": light_spectra.find("D50")})
     assert named.told["Light 'Sun'"] == [f"CIE D50{other}"]
     bpy.data.lights["Sun"].temperature = 4000
     bpy.context.view_layer.update()
-    named = colors.find(*args, {"Sun": light_spectra.find("F11")})
+    named = find_colors.find(*args, {"Sun": light_spectra.find("F11")})
     assert named.told["Light 'Sun'"] == ["CIE F11"]
 
 
@@ -847,7 +850,10 @@ def test_a_world_of_many_colors_says_that_it_has_no_one_spectrum():
     background = next(node for node in tree.nodes if node.type == "BACKGROUND")
     glowing(tree, background.inputs["Color"])
     rules = find().told["World 'World'"]
-    assert rules == [f"{colors.LINEAR}, times that of D65", "not CIE F11, as it has many colors"]
+    assert rules == [
+        f"{color_spectra.LINEAR}, times that of D65",
+        "not CIE F11, as it has many colors",
+    ]
 
 
 @pytest.mark.parametrize(

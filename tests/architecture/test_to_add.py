@@ -441,7 +441,7 @@ def test_a_box_of_one_file_is_found_everywhere(found):
         *("view_difference", "view_weather", "view_plots", "view_measurement"),
         *("nodes", "nodes_details"),
         *("nodes_difference", "nodes_weather", "nodes_plots", "nodes_measurement"),
-        *("light", "world", "picture", "picture_rules", "pixel", "infrared", "thermal"),
+        *("light", "world", "picture", "picture_rules", "pixel", "lamps", "infrared", "thermal"),
     ]
     about = ["Weather", "ROUGHSPECTRA_PT_details", "How it is outside"]
     assert found["boxes"][3] == ["ROUGHSPECTRA_PT_weather", *about]

@@ -299,3 +299,18 @@ def test_what_cannot_be_is_refused(change, words):
     } | change
     with pytest.raises(DomainError, match=words):
         bands.choose(**asked)
+
+
+def test_a_lamp_without_blue_has_bands():
+    """Of a sodium line Z is nothing to the 10° observer: a picture is still X and Y."""
+    eye, line = EYE.copy(), np.where(np.abs(NM - 590) < 4, 1.0, 0.0)
+    eye[NM > 560, 2] = 0
+    assert (line @ eye)[2] == 0
+    for found in (
+        bands.choose(NM, ALBEDOS, [line], eye, tolerance=1.0),
+        bands.at(NM, [450.0, 550.0, 590.0], ALBEDOS, [line], eye),
+    ):
+        seen = ALBEDOS[:, np.searchsorted(NM, found.wavelengths)] * found.lights[0] @ found.weights
+        assert np.abs(seen[:, 2]).max() < 1e-4 * seen[:, 1].max()
+    truth = ALBEDOS * line @ eye * 5
+    assert seen[:, :2] == pytest.approx(truth[:, :2], rel=0.02)

@@ -6,6 +6,7 @@ ROUGH_SPECTRA_BLENDER names the executable; there has to be a screen, which may 
 built extension is installed into a new, empty user folder: nothing of yours is touched.
 """
 
+import faulthandler
 import json
 import os
 import subprocess
@@ -16,7 +17,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("ROUGH_SPECTRA_BLENDER", "")
-SECONDS = 1200
+SECONDS = 1800
 
 
 def pytest_collection_modifyitems(items):
@@ -41,6 +42,8 @@ def session(tmp_path_factory):
         (folder / name).mkdir()
     build = [sys.executable, str(ROOT / "dev.py"), "build"]
     subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
+    # One test waits for all scenes: for longer than a test may take elsewhere.
+    faulthandler.cancel_dump_traceback_later()
     [package] = (ROOT / "build").glob("rough_spectra-*.zip")
     inside = Path(__file__).with_name("inside.py")
     with (folder / "console").open("wb") as console:

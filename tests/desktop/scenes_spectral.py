@@ -3,11 +3,13 @@
 """A spectral picture from the Render tab: rendered, stopped, and read where the mouse clicks."""
 
 import contextlib
+import dataclasses
 import os
 import subprocess
 from pathlib import Path
 
 import bpy
+import numpy as np
 from driver import area, click, find, middle, move, over, press, scene, window
 from scenes_background import children, jobs
 from stage import OPS, empty_file, ours, undo_step
@@ -75,7 +77,8 @@ def _room(beside="IMAGE_EDITOR"):
     panels = ours("addon.interface.panels.pictures")
     area("PROPERTIES").spaces.active.context = "RENDER"
     cameras = ours("addon.interface.panels.cameras")
-    _panels("render", *panels.classes[:2], *cameras.classes)
+    lamps = ours("addon.interface.panels.lamps")
+    _panels("render", *panels.classes[:2], *lamps.classes, *cameras.classes)
     yield 0.5
 
 
@@ -181,6 +184,7 @@ def asking_whether_rgb_is_enough(found):
     """Ask, do what is advised, and see the picture where F12 shows one: no editor is open."""
     yield from _room("TEXT_EDITOR")
     panel, scene = area("PROPERTIES"), bpy.context.scene
+    scene.rough_spectra.tolerance = 0.4  # a wider space, matched, comes to half a ΔE00
     before = _state()
     yield from click(*(yield from find(panel, "rough_spectra.judge_picture", 0.5)))
     yield lambda: bool(jobs())
@@ -269,3 +273,99 @@ def choosing_a_light_spectrum(found):
     yield from press("Z", ctrl=True)
     yield 0.5
     found["undone"] = bpy.data.lights["Tube"].rough_spectra.spectrum
+
+
+def _pixels(image):
+    held = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(held)
+    return held.reshape(image.size[1], image.size[0], 4)
+
+
+def _drag(panel, relit, row):
+    """Drag a lamp's slider; gives the intensity at each step, and its seconds."""
+    x, y = yield from find(panel, f"intensity_{row}", 0.4)
+    step, taken, seen = relit._step, [], []
+
+    def timed():
+        step()
+        taken.append(relit.last().step_seconds)
+        seen.append(relit.last().intensities[row])
+
+    relit._step = timed
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    yield 0.05
+    for _ in range(20):
+        x += 4
+        yield from move(x, y)
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+    yield 0.5
+    relit._step = step
+    return seen, taken
+
+
+def _of_1080_rows(lights):
+    """The same picture beside and above itself."""
+    rows, columns = 1080 // ROWS, 1920 // COLUMNS
+    parts = np.tile(lights.parts, (1, 1, rows, columns))
+    alpha = np.tile(lights.alpha, (rows, columns))
+    return dataclasses.replace(lights, parts=parts, alpha=alpha)
+
+
+@scene
+def dragging_a_lamp(found):
+    """Render lamps apart, drag the slider of one, give it another spectrum, and reset."""
+    yield from _room()
+    light = bpy.data.lights.new("Lamp", "POINT")
+    light.energy, light.use_temperature, light.temperature = 10, True, 2700
+    lamp = bpy.data.objects.new("Lamp", light)
+    lamp.location = (0.6, -0.6, 0.5)
+    bpy.context.scene.collection.objects.link(lamp)
+    undo_step("Lamp")
+    before, panel = _state(), area("PROPERTIES")
+    yield from click(*(yield from find(panel, "rough_spectra.render_lamps", 0.5)))
+    yield lambda: bool(jobs())
+    yield _ended
+    yield 0.5
+    relit = ours("addon.picture.relit")
+    editor = area("IMAGE_EDITOR")
+    found["shown"], found["names"] = editor.spaces.active.image.name, relit.last().lights.names
+    found["same"] = _state() == before
+    with over(editor):
+        bpy.ops.image.view_all(fit_view=True)
+    first = _pixels(editor.spaces.active.image)
+    _grab("lamps-rendered")
+    row = relit.last().lights.names.index("Lamp")
+    found["steps"], found["seconds"] = yield from _drag(panel, relit, row)
+    dragged = _pixels(editor.spaces.active.image)
+    found["intensity"] = relit.last().intensities[row]
+    api = ours("addon.api")
+    truth = api.relight(relit.last().lights, intensities={"Lamp": found["intensity"]}).rgb
+    found["off"] = float(abs(dragged - truth).max() / truth.max())
+    found["changed"] = float(abs(dragged - first).max() / first.max())
+    _grab("lamps-dragged")
+    _, y = yield from find(panel, f"intensity_{row}", 0.4)
+    yield from click(panel.x + int(0.85 * panel.width), y)
+    yield 0.5
+    _grab("lamps-menu")
+    yield from press("DOWN_ARROW")
+    yield from press("DOWN_ARROW")
+    yield from press("RET")
+    yield 0.5
+    _grab("lamps-chosen")
+    found["chosen"] = relit.last().chosen[row]
+    yield from click(*(yield from find(panel, "rough_spectra.reset_lamps", 0.8)))
+    yield 0.5
+    found["reset"] = bool((_pixels(editor.spaces.active.image) == first).all())
+    lights = relit.last().lights
+    relit.put(relit.Relit(_of_1080_rows(lights), relit.last()._from_xyz))
+    yield 1.0
+    found["large_steps"], found["large"] = yield from _drag(panel, relit, row)
+    with over(panel):
+        OPS.change_lamp(lamp=row, spectrum="F11")
+    yield 0.5
+    found["large_spectrum"] = relit.last().step_seconds
+    found["size"] = list(editor.spaces.active.image.size)
+    yield from move(*middle(editor))
+    yield from press("Z", ctrl=True)
+    yield 0.5
+    found["undone"] = _images()

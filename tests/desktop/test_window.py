@@ -370,6 +370,21 @@ def test_stopping_a_spectral_picture(scene):
     assert scene["modal"] == []
 
 
+def test_dragging_a_lamp(scene):
+    assert scene["shown"] == "Relit"
+    assert set(scene["names"]) == {"Tube", "Lamp"}
+    assert scene["same"]
+    assert scene["intensity"] == scene["steps"][-1] != 1.0
+    assert len(set(scene["steps"])) > 4  # while it was dragged
+    assert len(scene["large"]) > 2
+    assert min(scene["large"]) < 0.1  # whatever else the machine does
+    assert scene["off"] < 1e-5
+    assert scene["changed"] > 0.02
+    assert scene["chosen"] == "D65"
+    assert scene["reset"]
+    assert scene["undone"] == []
+
+
 def test_first_hour(scene):
     """What `docs/first-material.md` counts."""
     assert scene["first"] == [{"clicks": 4, "words": 1}, "Brick", 0.0, "looks right"]

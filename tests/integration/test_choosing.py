@@ -4,9 +4,13 @@
 
 import math
 from dataclasses import asdict
+from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
+from rough_spectra.addon.interface.operators import giving
+from rough_spectra.addon.material import roughness_origin
 from rough_spectra.addon.samples import library, preset_index
 
 from tests.integration.support import rgb_material
@@ -104,6 +108,52 @@ def test_a_sample_brings_its_own_roughness_until_the_user_sets_one():
         assert degrees(wall) == 12
     choose(BRICK, sigma=math.radians(5))
     assert degrees(wall) == 5
+
+
+def by_color(sample, **options):
+    entry = next(entry for entry in preset_index.entries() if entry.id == sample)
+    assert OPS.find_nearest("EXEC_DEFAULT", color=entry.swatch, **options) == {"FINISHED"}
+
+
+def from_file(_sample, **options):
+    path = Path(bpy.app.tempdir, "fresh.csv")
+    path.write_text("nm,Fresh\n" + "\n".join(f"{nm},0.4" for nm in range(400, 701, 20)))
+    assert OPS.assign_file("EXEC_DEFAULT", filepath=str(path), **options) == {"FINISHED"}
+
+
+@pytest.mark.parametrize(("way", "own"), [(choose, 10), (by_color, 10), (from_file, 0)])
+def test_all_ways_to_choose_mean_the_same_roughness(way, own):
+    """A dialog shows what the active material has; the others have their own all the same."""
+    other, wall = rgb_material("Other"), rgb_material("Wall")
+    for material in (other, wall):
+        mesh_object(material.name, material)
+        choose(BRICK, scope="ACTIVE")
+    coarse = wall.rough_spectra.sigma = math.radians(45)
+    began = {} if way is choose else {"sigma": coarse, "began_sigma": coarse}
+    way("everyday/nylon-green", scope="EACH", **began)
+    assert (degrees(wall), degrees(other)) == (45, own)
+    assert roughness_origin.told(wall).startswith("you; the sample")
+    assert roughness_origin.is_guess(other) == (way is from_file)
+    way("everyday/nylon-green", scope="EACH", sigma=math.radians(5))
+    assert (degrees(wall), degrees(other)) == (5, 5)
+
+
+def test_where_the_roughness_comes_from_is_told_at_once():
+    wall = rgb_material("Wall")
+    mesh_object("Wall", wall)
+    operator = SimpleNamespace(properties=SimpleNamespace(is_property_set=lambda _name: False))
+    from_file(None)
+    assert roughness_origin.told(wall) == "a guess, as the sample states none"
+    assert giving.told_roughness(operator, [(wall, None)]).endswith("smooth is a guess")
+    wall.rough_spectra.sigma = math.radians(45)
+    from_file(None)
+    assert roughness_origin.told(wall) == "you; the sample states none"
+    assert "45° stays" in giving.told_roughness(operator, [(wall, None)])
+    choose(BRICK)
+    assert roughness_origin.told(wall).startswith("you; the sample's own is 20° (")
+    wall.rough_spectra.sigma = wall.rough_spectra.own_sigma
+    assert roughness_origin.told(wall) == wall.rough_spectra.sigma_source
+    assert giving.told_roughness(operator, [(wall, None)]) == ""
 
 
 def test_a_material_of_which_nobody_knows_keeps_its_roughness():

@@ -65,6 +65,10 @@ class Layout:
         self.page.append(name if text is None else f"{name}: {text}")
         return types.SimpleNamespace(**dict.fromkeys(kind.properties.keys()))
 
+    def operator_menu_enum(self, name, property, *, text="", icon="NONE", translate=True):
+        assert text
+        return self.operator(name, text=text, icon=icon)
+
     def progress(self, *, text="", factor=0.0, type="RING"):
         assert 0 <= factor <= 1
         self.page.append(text)

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from rough_spectra.addon import api
-from rough_spectra.addon.interface.panels import cameras, pictures
+from rough_spectra.addon.interface.panels import cameras, lamps, pictures
 from rough_spectra.addon.picture import camera_images, images, last_verdict, verdict
 
 from tests.integration.support import rgb_material
@@ -39,7 +39,7 @@ def drawn():
     """What the panels of the tab draw, in order."""
     where = context(engine=bpy.context.scene.render.engine)
     page, shown = [], {""}
-    for cls in (*pictures.classes, *cameras.classes):
+    for cls in (*pictures.classes, *lamps.classes, *cameras.classes):
         around = getattr(cls, "bl_parent_id", "")
         if getattr(cls, "bl_context", "") == "render" and around in shown:
             poll = getattr(cls, "poll", None)

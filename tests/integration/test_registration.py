@@ -152,6 +152,7 @@ def test_operator_has_tooltips_and_undo_where_it_changes_data(cls):
     only_files = {"bake", "rename_sample", "remove_sample", "open_library", "build_assets"}
     only_files.add("show_presets")
     only_window = {"show_rendered", "judge_picture", "pick_pixel", "show_picture"}
+    only_window |= {"change_lamp", "reset_lamps"}
     only_files |= {"export_materials", "submit_to_flamenco"}
     name = cls.bl_idname.partition(".")[2]
     assert ("UNDO" in cls.bl_options) == (name not in only_files | only_window)

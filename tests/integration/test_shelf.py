@@ -11,11 +11,14 @@ from rough_spectra.addon.blender import shader_nodes
 from rough_spectra.addon.interface import shelf as shelf_in_view
 from rough_spectra.addon.matching import own_gloss
 from rough_spectra.addon.material import preferences, state, storage
+from rough_spectra.addon.material.derivation import get_stamp
 from rough_spectra.addon.samples import presets
 from rough_spectra.core.cycles import gloss_estimate
 
+from tests.integration.test_operators import mesh_object
 from tools.tables import make_shelf
 
+OPS = bpy.ops.rough_spectra
 BLEND = str(shelf.folder() / shelf.BLEND)
 
 
@@ -49,6 +52,7 @@ def test_every_preset_is_on_the_shelf_and_up_to_date(empty_file):
         assert state.state(material).kind == "fresh", name
         assert shader_nodes.shader_node(material).bl_idname == "ShaderNodeBsdfPrincipled"
         assert tuple(material.preview.image_size) == (128, 128)
+        assert material.diffuse_color[:3] == material.rough_spectra.solid_color[:], name
         assert material.asset_data.catalog_id == ids[groups[name]], name
 
 
@@ -61,6 +65,47 @@ def test_a_glossy_sample_comes_with_its_gloss_and_a_matte_one_without(empty_file
     read = gloss_estimate.readings(wanted, 0.6, (60,)).units[60]
     assert read == pytest.approx(dict(egg.gloss)[60], rel=0.05)
     assert shader_nodes.gloss_of(shader_nodes.shader_node(found["Brick"])) is None
+
+
+def dragged(name):
+    """Give a mesh what a drag from the shelf does: Blender takes the asset's mark off the copy."""
+    material = load(names=[name])[name]
+    material.asset_clear()
+    mesh_object("Wall", material)
+    return material
+
+
+@pytest.mark.parametrize("of_today", [True, False])
+def test_what_was_dragged_shows_the_sample_that_it_is_given_later(empty_file, of_today):
+    wall = dragged("Terracotta")
+    if of_today:
+        wall.diffuse_color = (*wall.rough_spectra.solid_color, 1.0)
+    else:  # as libraries that were built before have it
+        wall.diffuse_color = (*get_stamp(wall).color, 1.0)
+    assert (wall.preview.is_image_custom, wall.preview.is_icon_custom) == (True, True)
+    OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
+    red, green, blue, _ = wall.diffuse_color
+    assert green > max(red, blue)
+    assert wall.diffuse_color[:3] == wall.rough_spectra.solid_color[:]
+    # Blender draws the ball of the material again: nothing is left of the terracotta's.
+    assert (wall.preview.is_image_custom, wall.preview.is_icon_custom) == (False, False)
+    assert len(wall.preview.icon_pixels) == 0
+
+
+def test_a_color_that_the_user_gave_what_was_dragged_stays(empty_file):
+    wall = dragged("Terracotta")
+    wall.diffuse_color = (0.1, 0.2, 0.3, 0.5)
+    OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
+    assert tuple(wall.diffuse_color) == pytest.approx((0.1, 0.2, 0.3, 0.5))
+
+
+def test_the_same_sample_again_and_an_asset_keep_their_picture(empty_file):
+    wall = dragged("Terracotta")
+    OPS.choose_sample("EXEC_DEFAULT", sample="everyday/terracotta")
+    assert wall.preview.is_image_custom
+    wall.asset_mark()
+    OPS.choose_sample("EXEC_DEFAULT", sample="colorchecker/14-green")
+    assert wall.preview.is_image_custom
 
 
 @pytest.fixture

@@ -25,6 +25,7 @@ from rough_spectra.addon.material import (
     verdict,
 )
 from rough_spectra.addon.preview import balls, icons, theme
+from rough_spectra.addon.samples import presets
 
 from tests.integration.support import rgb_material
 from tests.integration.test_operators import mesh_object
@@ -215,6 +216,23 @@ STATES = {
     "steep": (steep, "off: brighter than possible", "set_roughness"),
     "another space": (other_space, "off: color space changed", "renew"),
 }
+
+
+def test_a_roughness_that_nobody_stated_is_called_a_guess():
+    material = rgb_material("Wall")
+    mesh_object("Wall", material)
+    path = Path(bpy.app.tempdir, "chalk.csv")
+    path.write_text("nm,Chalk\n" + "\n".join(f"{nm},0.5" for nm in range(400, 701, 20)))
+    OPS.assign_file("EXEC_DEFAULT", filepath=str(path))
+    page = closed()
+    assert "Roughness is a guess" in page
+    words, numbers = counted(page)
+    assert words <= WORDS
+    assert numbers <= NUMBERS
+    material.rough_spectra.sigma = math.radians(30)
+    assert "Roughness is a guess" not in closed()
+    OPS.choose_sample("EXEC_DEFAULT", sample=BRICK, sigma=math.radians(20))
+    assert "Roughness is a guess" not in closed()
 
 
 @pytest.mark.parametrize("name", STATES)
@@ -754,6 +772,15 @@ def test_tooltips_of_the_closed_panel_begin_with_a_plain_sentence(name, monkeypa
         first = re.split(r"[.:;] ", tooltip)[0]
         assert not [word for word in JARGON if word in first], (what, tooltip)
         assert len(first.split()) <= 18, (what, tooltip)
+
+
+def test_the_roughness_that_the_tooltip_names_is_that_of_the_presets():
+    tooltip = bpy.types.Material.bl_rna.properties["rough_spectra"].fixed_type.properties["sigma"]
+    named = dict(re.findall(r"(\d+)° as ([a-z ]+)", tooltip.description.partition("\n")[0]))
+    assert named == {"10": "office paper", "20": "brick", "30": "concrete"}
+    shipped = {"office paper": "paper", "brick": "brick", "concrete": "concrete"}
+    for degrees, what in named.items():
+        assert presets.load(f"everyday/{shipped[what]}").sigma_degrees == float(degrees)
 
 
 @pytest.mark.parametrize("width", range(200, 620, 20))

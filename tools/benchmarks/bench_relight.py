@@ -5,7 +5,8 @@
     .venv/bpy-5.2/bin/python -m tools.benchmarks.bench_relight [--lamps 3] [--bands 12]
 
 Milliseconds of the processor, on one thread, medians: an intensity, a spectrum that was there
-before, and one that is new, whose weights have to be fitted.
+before, and one that is new, whose weights have to be fitted. Then the same of the panel *Lamps*,
+with the pixels in the image of Blender.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ from tools.run.run_command_line import load_extension
 if "rough_spectra" not in sys.modules:
     load_extension()
 
+from rough_spectra.addon.blender import working_space
 from rough_spectra.addon.colorimetry import illuminant_spectra
-from rough_spectra.addon.picture import relight
+from rough_spectra.addon.picture import relight, relit
 
 ROWS, COLUMNS = 1080, 1920
 SURFACES = 24
@@ -49,13 +51,13 @@ def lights(lamps: int, bands: int) -> relight.Lights:
     )
 
 
-def milliseconds(step: Callable[[int], None], desk: relight.Desk) -> float:
+def milliseconds(step: Callable[[int], None], then: Callable[[], object]) -> float:
     """Give the median of a step and of the picture after it."""
     found = []
     for number in range(ROUNDS):
         start = time.process_time()
         step(number)
-        desk.xyz()
+        then()
         found.append(1e3 * (time.process_time() - start))
     return statistics.median(found)
 
@@ -72,13 +74,29 @@ def main() -> None:
     for name in known:
         desk.set_light("Lamp 0", name)
         desk.xyz()
-    intensity = milliseconds(lambda n: desk.set_intensity("Lamp 0", 1 + n / 10), desk)
-    before = milliseconds(lambda n: desk.set_light("Lamp 0", known[n % 2]), desk)
+    intensity = milliseconds(lambda n: desk.set_intensity("Lamp 0", 1 + n / 10), desk.xyz)
+    before = milliseconds(lambda n: desk.set_light("Lamp 0", known[n % 2]), desk.xyz)
     new = milliseconds(
-        lambda n: desk.set_light("Lamp 0", illuminant_spectra.planck(3000.0 + 100 * n)), desk
+        lambda n: desk.set_light("Lamp 0", illuminant_spectra.planck(3000.0 + 100 * n)), desk.xyz
     )
     print(f"{options.lamps} lamps, {options.bands} bands, {COLUMNS} × {ROWS}:")
     print(f"intensity {intensity:.0f} ms, spectrum {before:.0f} ms, new spectrum {new:.0f} ms")
+
+    in_image(options.lamps, options.bands)
+
+
+def in_image(lamps: int, bands: int) -> None:
+    """Print the same of the image that the panel changes."""
+    shown = relit.Relit(lights(lamps, bands), working_space.current().from_xyz)
+    relit.put(shown)
+    names = ("A", "F11", "D50", "LED-B3")
+    intensity = milliseconds(lambda n: shown.set_intensity(0, 1 + n / 10), relit.changed)
+    spectrum = milliseconds(lambda n: shown.set_light(0, names[n % 4]), relit.changed)
+    other = milliseconds(lambda n: shown.set_intensity(n % lamps, 1 + n / 10), relit.changed)
+    print("the image of the panel:")
+    print(
+        f"intensity {intensity:.0f} ms, of another lamp {other:.0f} ms, spectrum {spectrum:.0f} ms"
+    )
 
 
 if __name__ == "__main__":

@@ -66,11 +66,11 @@ def plain_xyz(picture: Any) -> Any:
 def white_of(scene: Any) -> Any:
     """XYZ of white under the scene's light."""
     from rough_spectra.addon.blender import working_space
-    from rough_spectra.addon.picture import colors, passes
+    from rough_spectra.addon.picture import find_colors, passes
 
     space = working_space.current()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    return passes.lamps_of(colors.find(depsgraph, scene, space), space).white
+    return passes.lamps_of(find_colors.find(depsgraph, scene, space), space).white
 
 
 def done(scene: Any, rung: Any, samples: int, percentage: int) -> Any:

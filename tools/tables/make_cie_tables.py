@@ -35,7 +35,7 @@ def main() -> None:
     rows = []
     for degrees in cie_tables.OBSERVERS:
         rows += list(science.MSDS_CMFS[OBSERVERS[degrees]].copy().align(shape).values.T)
-    for name in cie_tables.ILLUMINANTS:
+    for name in (*cie_tables.ILLUMINANTS, *cie_tables.LAMPS):
         table = science.SDS_ILLUMINANTS[LIGHTS.get(name, name)]
         rows.append(table.copy().align(shape).values)
     parts = science.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES

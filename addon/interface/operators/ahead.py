@@ -54,6 +54,7 @@ STEPS = (
     "addon.material.storage",
     "addon.blender.untouched",
     "addon.material.naming",
+    "addon.material.roughness_origin",
     "addon.material.selection",
     "addon.preview.figures.data",
     "core.surface",

@@ -134,7 +134,10 @@ class ROUGHSPECTRA_OT_assign_file_sample(
 
 def _options(operator: Any) -> dict[str, Any]:
     """Give what an operator was told, to tell it another: of the rest each material decides."""
-    names = ("kind", "sigma", "white", "plaque", "white_factor", "shader", "scope")
+    names = (
+        *("kind", "sigma", "began_sigma", "white", "plaque", "white_factor"),
+        *("shader", "scope"),
+    )
     told = operator.properties.is_property_set
     return {"filepath": operator.filepath} | {n: getattr(operator, n) for n in names if told(n)}
 

@@ -380,10 +380,14 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, giving.AssignOptions, bpy
             label.label(text="" if number else "Metamerism Index (ΔE00)")
             split.label(text=line, translate=False)
         layout.prop(self, "sigma")
-        if not self.properties.is_property_set("sigma"):
+        if giving.told_sigma(self) is None:
             split = layout.split(factor=_LABELS)
             split.label(text="")
-            split.label(text="The sample's own, unless you set it", icon="INFO")
+            if self.properties.is_property_set("sigma"):
+                words = "As you set it for the material before"
+            else:
+                words = "The sample's own, unless you set it"
+            split.label(text=words, icon="INFO")
         layout.prop(self, "shader")
         layout.prop(self, "scope")
 
@@ -403,7 +407,8 @@ class ROUGHSPECTRA_OT_find_nearest(looking.LooksFirst, giving.AssignOptions, bpy
             common.report_warnings(self, assigned)
             sentence = rpt_("{materials}: {sample} assigned, ΔE00 {difference:.2f} from the color")
             names = ", ".join(material.name for material, _ in assigned[:3])
-            return sentence.format(materials=names, sample=sample.name, difference=difference)
+            told = sentence.format(materials=names, sample=sample.name, difference=difference)
+            return told + giving.told_roughness(self, assigned)
 
         return looking.assignment(self, context, sample, tell)
 

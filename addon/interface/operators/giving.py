@@ -33,6 +33,12 @@ class AssignOptions:
     """
 
     sigma: FloatProperty(**SIGMA, options={"SKIP_SAVE"})
+    began_sigma: FloatProperty(
+        name="First σ",
+        description="The roughness with which the dialog began, as the user had set it before",
+        default=-1.0,
+        options={"SKIP_SAVE", "HIDDEN"},
+    )
     shader: EnumProperty(
         name="Shader", description="Node that is set", items=SHADER_ITEMS, options={"SKIP_SAVE"}
     )
@@ -140,13 +146,13 @@ def replacing_request(
     MaterialError
         If the material keeps a σ of an earlier version, which is the user's to change.
     """
-    from ...material import snapshot, state, storage
+    from ...material import roughness_origin, snapshot, state, storage
 
     own = radians(sample.sigma_degrees or 0.0) if sigma is None else sigma
     if material is None or not snapshot.has_spectrum(material):
         return new_request(sample, own), "AUTO"
     group = material.rough_spectra
-    shader, kept = group.shader, sigma is None and storage.is_sigma_set(material)
+    shader, kept = group.shader, sigma is None and roughness_origin.is_sigma_set(material)
     beyond = state.beyond(snapshot.sigma_degrees(group))
     if kept and beyond:
         msg = f"Material {material.name!r}: {beyond}."
@@ -161,12 +167,27 @@ def replacing_request(
 
 def begin(operator: Any, context: Any) -> None:
     """Let a dialog begin with the roughness that the user gave the material, and the selection."""
-    from ...material import snapshot, storage
+    from ...material import roughness_origin, snapshot
 
     material = targets.active_material(context)
-    if material is not None and snapshot.has_spectrum(material) and storage.is_sigma_set(material):
-        operator.sigma = snapshot.sigma(material.rough_spectra)
+    if (
+        material is not None
+        and snapshot.has_spectrum(material)
+        and roughness_origin.is_sigma_set(material)
+    ):
+        operator.sigma = operator.began_sigma = snapshot.sigma(material.rough_spectra)
     begin_scope(operator, context)
+
+
+def told_sigma(operator: Any) -> float | None:
+    """Give the σ that an operator was told, in radians; None where it is each material's own.
+
+    What a dialog merely began with is of the material that it began with: others in its scope keep
+    what they have, or take the sample's, as they do where no dialog asks.
+    """
+    if not operator.properties.is_property_set("sigma") or operator.sigma == operator.began_sigma:
+        return None
+    return float(operator.sigma)
 
 
 def begin_scope(operator: Any, context: Any) -> None:
@@ -206,8 +227,8 @@ def assign_sample(
         If it cannot be done; nothing was changed then.
     """
     told = operator.properties.is_property_set
-    if sigma is None and told("sigma"):
-        sigma = operator.sigma
+    if sigma is None:
+        sigma = told_sigma(operator)
 
     def wanted(material: Any | None) -> tuple[Request, str]:
         request, shader = replacing_request(material, sample, sigma)
@@ -217,6 +238,7 @@ def assign_sample(
     given = {material.rough_spectra.sigma for material, _ in assigned}
     if sigma is None and len(given) == 1:
         [operator.sigma] = given  # to be seen, and changed, afterwards
+        operator.began_sigma = operator.sigma
     return assigned
 
 
@@ -301,4 +323,29 @@ def told_of(operator: Any, assigned: Sequence[tuple[Any, Any]], sample: Sample) 
     if remark := stated_white.remark(sample):
         operator.report({"INFO"}, remark)
     names = ", ".join(material.name for material, _ in assigned[:3])
-    return rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
+    sentence = rpt_("{materials}: {sample} assigned").format(materials=names, sample=sample.name)
+    return sentence + told_roughness(operator, assigned)
+
+
+def told_roughness(operator: Any, assigned: Sequence[tuple[Any, Any]]) -> str:
+    """Say, for the end of a sentence, where the roughness is not the sample's, unless it was told.
+
+    Else nobody would know that the one before stayed, or that a file says nothing of it.
+    """
+    from ...material import roughness_origin, snapshot
+
+    if told_sigma(operator) is not None:
+        return ""
+    materials = [material for material, _ in assigned]
+    kept = {
+        f"{snapshot.sigma_degrees(material.rough_spectra):g}°"
+        for material in materials
+        if roughness_origin.is_sigma_set(material)
+    }
+    if kept:
+        return rpt_("; roughness {degrees} stays, as you set it").format(
+            degrees=", ".join(sorted(kept))
+        )
+    if any(map(roughness_origin.is_guess, materials)):
+        return rpt_("; it says nothing of roughness: smooth is a guess")
+    return ""

@@ -13,6 +13,8 @@ from bpy.props import StringProperty
 from ....core.errors import RoughSpectraError
 from . import common, targets
 
+LIGHT_FILES = "*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr"
+
 
 class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
     """Let the light have a measured spectrum in spectral pictures, from a file"""
@@ -30,7 +32,7 @@ class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
     filter_glob: StringProperty(
         name="Filter",
         description="Files that the browser shows",
-        default="*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr",
+        default=LIGHT_FILES,
         options={"HIDDEN"},
     )
 

@@ -14,7 +14,7 @@ from typing import Any
 from bpy.app.translations import pgettext_iface as iface_
 
 from ....core.limits import MATCHED_SIGMA_DEGREES
-from ...material import roughness_words, verdict
+from ...material import roughness_origin, roughness_words, verdict
 from ...preview import balls
 from ..operators import targets
 from . import obstacle, redraw, renewal, sentences, text
@@ -162,6 +162,8 @@ def _draw_sliders(
     surface = shown.facts.surface
     shine.enabled = surface is not None and not surface.muted and not surface.gloss_linked
     shine.prop(group, names[1], slider=True)
+    if roughness_origin.is_guess(group.id_data):
+        text.draw(layout, sentences.of(roughness_origin.GUESS, "QUESTION", here.style))
     if here.together.objects > 1:
         count, is_exact = here.together.objects, here.together.is_exact
         text.draw(layout, sentences.together(count, is_exact, here.style))

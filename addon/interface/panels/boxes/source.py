@@ -22,7 +22,7 @@ def poll(context: Any) -> bool:
 
 def draw(layout: Any, context: Any) -> None:
     """Draw source, what the file says of the measurement, and every note."""
-    from ....material import snapshot
+    from ....material import roughness_origin, snapshot
     from ...operators import targets
     from .. import redraw, sentences, text
 
@@ -32,7 +32,7 @@ def draw(layout: Any, context: Any) -> None:
     cited, about, notes = sentences.source(
         group.source,
         group.details,
-        (snapshot.sigma_degrees(group), group.sigma_source),
+        (snapshot.sigma_degrees(group), roughness_origin.told(material)),
         (*white, group.instrument),
         here.style,
         group.spectrum,
