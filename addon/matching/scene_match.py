@@ -174,9 +174,9 @@ def choose_shader(
     weights = view.place_weights / view.place_weights.sum()
     flat, bent = (float(each.over_scene @ weights) for each in (lambert, rough))
     if bent <= flat:
-        words = "rough{}: ΔE00 {:.2f} off on average in its scene; lambert would be off by {:.2f}."
+        words = "rough{}: ΔE00 {:.2f} off on average in its scene; without roughness it is {:.2f}."
         return rough, words.format(kept, bent, flat)
-    words = "lambert{}: ΔE00 {:.2f} off on average in its scene; rough would be off by {:.2f}."
+    words = "lambert{}: ΔE00 {:.2f} off on average in its scene; with roughness it is {:.2f}."
     return lambert, words.format(kept, flat, bent)
 
 

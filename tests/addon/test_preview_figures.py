@@ -19,6 +19,7 @@ from rough_spectra.addon.preview.drawing import (
     text,
 )
 from rough_spectra.addon.preview.figures import compose, data, plot
+from rough_spectra.addon.preview.figures.sigma_range import MOST, _limit_said
 from rough_spectra.core import feasible, reading
 from rough_spectra.core.color import color_difference
 from rough_spectra.core.gloss import Gloss
@@ -374,6 +375,13 @@ def test_every_figure_is_drawn_at_every_size(look, side, green):
         # Premultiplied: no color is brighter than its alpha.
         assert (canvas[..., :3] <= canvas[..., 3:]).all()
         assert canvas[..., 3].max() > 0.9 * 255
+
+
+def test_the_range_of_sigma_is_told_without_a_letter():
+    assert [_limit_said(most) for most in (21.04, MOST)] == [
+        "fits up to 21.0°",
+        "any roughness fits",
+    ]
 
 
 def test_words_follow_the_thresholds():

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from rough_spectra.addon.blender import texture_colors
 from rough_spectra.addon.interface.panels import menus, panels, sentences, text
+from rough_spectra.addon.interface.panels.boxes import difference
 from rough_spectra.addon.material import derive, last_measurement, snapshot, storage
 from rough_spectra.addon.preview import icons, theme
 from rough_spectra.core import reading
@@ -413,7 +414,7 @@ def test_no_two_lines_sound_as_if_they_contradicted_each_other(green):
     green.rough_spectra.stamp = stamp
     green.rough_spectra.gloss = 0.5
     page = " ".join(drawn())
-    assert len(re.findall("kept|stays as it is set", page)) == 1  # said once
+    assert len(re.findall("kept|include the gloss", page)) == 1  # said once
 
 
 def test_gloss_is_counted_and_can_be_removed(green):
@@ -468,6 +469,48 @@ def test_in_a_narrow_region_the_numbers_stand_below_the_swatches(green):
     narrow = drawn(context(region=types.SimpleNamespace(width=230)))
     assert any("ΔE00" in line for line in wide)
     assert "45°/0°: ΔE00 0.00, not visible" in narrow
+
+
+def test_wrapped_numbers_begin_with_a_mark_each(green):
+    for beside in (False, True):
+        narrow = text.Format(200, False, 1.0, 11.0)
+        told = sentences.numbers((1.0, 1.0, 1.0), "45a:0", beside, sentences.style(narrow))
+        assert len(told) == 3
+        assert any(len(lines) > 1 for lines in told)
+        for (_, first), *others in told:
+            assert first == ICONS["DOT"]
+            assert {icon for _, icon in others} <= {ICONS["BLANK1"]}
+
+
+def test_the_corner_of_a_swatch_is_explained_where_it_is():
+    assert "corner marks a color that your screen cannot" in difference.TOOLTIP
+    assert bpy.types.ROUGHSPECTRA_PT_difference.__doc__ == difference.TOOLTIP
+
+
+def test_in_a_narrow_region_a_box_to_check_has_its_own_name(green, monkeypatch):
+    """It read Light from the Scene, and below it Yes."""
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    told, real = {}, Layout.prop
+
+    def prop(self, data, name, *, text=None, **options):
+        told[name] = data.bl_rna.properties[name].name if text is None else text
+        real(self, data, name, text=text, **options)
+
+    monkeypatch.setattr(Layout, "prop", prop)
+    page = drawn(context(region=types.SimpleNamespace(width=230)))
+    assert told["use_scene"] == "Light from the Scene"
+    assert "Light from the Scene" not in page  # no second time above it
+    assert "Tolerance" in page  # as names of numbers stand
+
+
+def test_what_the_scene_decided_is_said_without_names_of_shaders(green):
+    OPS.assign_preset("EXEC_DEFAULT", preset="everyday/brick", sigma=math.radians(30))
+    light_and_camera()
+    assert OPS.analyze_scene("EXEC_DEFAULT") == {"FINISHED"}
+    page = " ".join(drawn())
+    assert re.search(r"rough: ΔE00 \S+ off on average in its scene; without roughness it is", page)
+    assert "would be off" not in page
 
 
 def light_and_camera():

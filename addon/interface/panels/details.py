@@ -64,8 +64,12 @@ def _draw_named(
             continue
         part = column.column(align=True)
         known = group.bl_rna.properties[name]
+        label = iface_(known.name)
+        if known.type == "BOOLEAN" and here.format.fits(label):
+            part.prop(group, name)  # its name stands beside the box
+            continue
         text.draw(part, sentences.of(known.name, "NONE", here.style))
-        told = iface_("Yes") if known.type == "BOOLEAN" else ""
+        told = iface_("On") if known.type == "BOOLEAN" else ""
         part.prop(group, name, text=told, slider=name == "sigma")
 
 

@@ -146,7 +146,8 @@ def numbers(apart: verdict.Numbers, read_at: str, beside: bool, how: Style) -> t
     ]
     # The few angles that are further off are told without a word: what is visible is of the mean.
     told.append(iface_("95 % of them: below ΔE00 {}").format(f"{apart[2]:.2f}"))
-    return tuple(how.format.sentence(text, "NONE", inset) for text in told)
+    # Wrapped, they would run into each other without a mark where each begins.
+    return tuple(how.format.sentence(text, "DOT", inset) for text in told)
 
 
 @memoized(maxsize=_KEPT)

@@ -38,7 +38,7 @@ def sigma_range(canvas: Array, sigma: float, sigma_max: float | None, look: Look
 
 
 def _limit_said(limit: float) -> str:
-    return f"fits up to {limit:.1f}°" if limit < MOST else "every σ fits"
+    return f"fits up to {limit:.1f}°" if limit < MOST else "any roughness fits"
 
 
 def _range_box(said: str, size: Size, look: Look) -> tuple[int, int, int, int]:

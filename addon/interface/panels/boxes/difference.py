@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from .. import redraw
 
 LABEL = "Difference"
-TOOLTIP = "Target and Blender side by side, and what the difference means"
+TOOLTIP = (
+    "Target and Blender side by side, and what the difference means. A black or white corner marks "
+    "a color that your screen cannot show"
+)
 PLACE = 10
 IN_SIDEBAR = True
 IS_CLOSED = False
@@ -49,7 +52,7 @@ def draw(layout: Any, context: Any) -> None:
         text.draw(layout, sentences.difference(shown.facts, apart, here.style, details))
         _draw_remedies(layout, here, shown, apart)
     if shown.is_glossy:
-        told = "Gloss stays as it is set, and is counted"
+        told = "The numbers include the gloss; Remove Gloss makes it matte"
         text.draw(layout, sentences.of(told, "INFO", here.style))
         if shown.state.kind != "linked":
             layout.operator("rough_spectra.remove_gloss").scope = "ACTIVE"
@@ -93,5 +96,5 @@ def _draw_swatches(
     apart = shown.apart()
     if apart is not None:
         told = sentences.numbers(apart, shown.facts.inputs.read_at, beside, here.style)
-        text.draw(row.column(align=True), told)
+        text.draw(row.column(), told)
     return apart
