@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...core.numerics import memoized
 from ..blender import shader_nodes
 from ..blender.sockets import OF_NODE
 from . import changes, snapshot
@@ -47,6 +48,7 @@ class Together(NamedTuple):
 _counted: list[tuple[float, tuple[Any, ...], frozenset[int]]] = []
 """When, for what, and which objects carry the materials that were asked for last: to find them
 takes milliseconds where a scene has thousands."""
+memoized.enlist(__name__, "_counted", _counted.__len__, _counted.clear)
 _LASTS = 0.5
 """Seconds for which what was found counts, unless it is seen that something changed."""
 
