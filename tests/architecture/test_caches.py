@@ -36,6 +36,7 @@ NO_CACHES = {
     ("addon/interface/shelf.py", "_asked"),
     # On the list, in the order of use.
     ("addon/material/derivation.py", "_known"),
+    ("addon/material/together.py", "_counted"),
     # On the list as one, because Blender holds the pictures.
     ("addon/preview/icons.py", "_pictures"),
     ("addon/preview/list_icons.py", "_balls"),
