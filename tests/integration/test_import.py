@@ -493,7 +493,7 @@ def test_the_search_says_in_words_whether_one_sees_the_difference():
     near, side, far = (SimpleNamespace(difference=delta) for delta in (0.3, 1.5, 2.4))
     assert ("not visible", False) in drawn_search(matches=[near, far])
     assert ("visible", False) in drawn_search(matches=[near, far], index=1)
-    assert ("visible side by side", False) in drawn_search(matches=[side])
+    assert ("visible beside the sample", False) in drawn_search(matches=[side])
     assert ("visible, and no sample comes nearer", False) in drawn_search(matches=[far, far])
 
 

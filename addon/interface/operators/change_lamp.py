@@ -67,8 +67,7 @@ class ROUGHSPECTRA_OT_change_lamp(bpy.types.Operator):
         """Let the user choose a file where one is meant."""
         if self.spectrum != _FILE:
             return self.execute(context)
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return common.open_file(self, context)
 
     def execute(self, _context: Any) -> set[str]:
         """Set it; the picture follows."""
