@@ -92,7 +92,7 @@ def _choose(preset: str = "everyday/terracotta") -> None:
 
 
 def _is_looking() -> bool:
-    [window] = bpy.context.window_manager.windows
+    window = bpy.context.window_manager.windows[0]
     return any("assign_sample" in operator.bl_idname for operator in window.modal_operators)
 
 

@@ -462,7 +462,7 @@ def measured_here() -> None:
 
 
 def _is_choosing() -> bool:
-    [window] = bpy.context.window_manager.windows
+    window = bpy.context.window_manager.windows[0]
     return any("measure_here" in operator.bl_idname for operator in window.modal_operators)
 
 
