@@ -8,12 +8,12 @@ from typing import Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, IntProperty
 
 from ....core.errors import RoughSpectraError
 from ...material.properties import ILLUMINANT_ITEMS
 from . import common
-from .open_light import LIGHT_FILES
+from .open_light import LightFile
 
 _RENDERED, _FILE = "RENDERED", "FILE"
 SPECTRUM_ITEMS = (
@@ -25,7 +25,7 @@ SPECTRUM_ITEMS = (
 )
 
 
-class ROUGHSPECTRA_OT_change_lamp(bpy.types.Operator):
+class ROUGHSPECTRA_OT_change_lamp(LightFile, bpy.types.Operator):
     """Spectrum of the lamp in this picture, as bright as before; the lamp itself stays as it is"""
 
     bl_idname = "rough_spectra.change_lamp"
@@ -44,18 +44,6 @@ class ROUGHSPECTRA_OT_change_lamp(bpy.types.Operator):
         items=SPECTRUM_ITEMS,
         default=_RENDERED,
         options={"SKIP_SAVE"},
-    )
-    filepath: StringProperty(
-        name="File",
-        description="TM-27 (.spdx), ArgyllCMS (.sp), or a table of wavelengths and power",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
-    )
-    filter_glob: StringProperty(
-        name="Filter",
-        description="Files that the browser shows",
-        default=LIGHT_FILES,
-        options={"HIDDEN"},
     )
 
     @classmethod

@@ -13,15 +13,11 @@ from bpy.props import StringProperty
 from ....core.errors import RoughSpectraError
 from . import common, targets
 
-LIGHT_FILES = "*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr"
+_FILES = "*.spdx;*.sp;*.csv;*.txt;*.tsv;*.xml;*.exr"
 
 
-class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
-    """Let the light have a measured spectrum in spectral pictures, from a file"""
-
-    bl_idname = "rough_spectra.open_light"
-    bl_label = "Open Light Spectrum"
-    bl_options = {"REGISTER", "UNDO"}
+class LightFile:
+    """Properties of every operator that reads what a lamp sends."""
 
     filepath: StringProperty(
         name="File",
@@ -32,9 +28,17 @@ class ROUGHSPECTRA_OT_open_light(bpy.types.Operator):
     filter_glob: StringProperty(
         name="Filter",
         description="Files that the browser shows",
-        default=LIGHT_FILES,
+        default=_FILES,
         options={"HIDDEN"},
     )
+
+
+class ROUGHSPECTRA_OT_open_light(LightFile, bpy.types.Operator):
+    """Let the light have a measured spectrum in spectral pictures, from a file"""
+
+    bl_idname = "rough_spectra.open_light"
+    bl_label = "Open Light Spectrum"
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Any) -> bool:
